@@ -226,10 +226,10 @@ def growth(
     """
     from benchmarks.growth import measure
     from benchmarks.growth_page import page
-    from handeye.al.macros import LONGEST
+    from handeye.al.macros import MAX_STATEMENTS
 
-    if not 1 <= most <= LONGEST:
-        raise InvalidInput(f"a program has 1 to {LONGEST} statements, not {most}")
+    if not 1 <= most <= MAX_STATEMENTS:
+        raise InvalidInput(f"a program has 1 to {MAX_STATEMENTS} statements, not {most}")
     with notes.status("measuring") as status:
         found = list(measure(most, lambda what: status.update(f"measuring {what}")))
     if json:

@@ -1,4 +1,4 @@
-"""Text in, checked program out."""
+"""Compiles a text to a checked program."""
 
 from pathlib import PurePath
 from typing import Final
@@ -11,11 +11,10 @@ from handeye.al.lower import Lowered, lower
 from handeye.al.lower_statement import position
 from handeye.al.macros import as_called, expand
 from handeye.al.parser import parse_whole
-from handeye.al.statements import by_word, used_names
+from handeye.al.statements import by_word, named_vectors, used_names, with_vectors
 from handeye.al.syntax import Name, Script
 from handeye.al.syntax_check import MISSING
-from handeye.al.vectors import named_vectors, with_vectors
-from handeye.core.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
+from handeye.core.diagnostics import LIMIT, Diagnostic, arranged, has_errors, problem
 from handeye.core.source import Source, Span
 from handeye.program.program import Position, Program
 from handeye.program.taught import Taught
@@ -25,11 +24,9 @@ LANGUAGE: Final = "wave"
 
 
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
-    """The program of a text in the arm language, and what there is to say about it; spans are of the whole.
-
-    What the text requires is in `source.required`, where `includes.sewn` puts it. The program has the taught positions
-    and parts in it, and those the text adds. There is none if any diagnostic is an error. Diagnostics are sorted by
-    position, at most `diagnostics.LIMIT`.
+    """The program of a text, or None if any diagnostic is an error, and its diagnostics.\n\nRequired texts are in
+    `source.required` (see `includes.sewn`); spans are offsets of the whole. The program contains\nthe taught
+    positions and parts and those the text adds. Diagnostics are sorted by position, at most `LIMIT`.
     """
     script, found = parse_whole(source)
     if any(d.code in MISSING for d in found):
@@ -81,19 +78,18 @@ def _inner_labels(script: Script) -> dict[str, Name]:
 
 
 def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagnostic]:
-    """A label without its colon is one mistake, and not another one at every jump to it; nor is one that stands
-    where another name should."""
+    """Drop unknown labels that follow from another mistake: a label without colon, or a wrong operand."""
     lost = [d for d in found if d.code == "unknown-label"]
     if not lost:
         return found
     unknown = {_word(source, d) for d in found if d.code == "unknown-instruction"}
     wrong = [d.primary.span for d in found if d.code == "wrong-operand"]
-    said = [
+    dropped = [
         d
         for d in lost
         if _word(source, d) in unknown or any(s.start <= d.primary.span.start < s.end for s in wrong)
     ]
-    return [d for d in found if d not in said]
+    return [d for d in found if d not in dropped]
 
 
 def _word(source: Source, diagnostic: Diagnostic) -> str:
@@ -105,4 +101,4 @@ def _word(source: Source, diagnostic: Diagnostic) -> str:
 
 def _empty() -> Diagnostic:
     message = "the program has no instruction to carry out"
-    return Diagnostic(code="empty-program", message=message, primary=Label(span=Span(start=0, end=0)))
+    return problem("empty-program", message, Span(start=0, end=0))

@@ -1,4 +1,4 @@
-"""Definition of an instruction: its operands, their units, and its part in the flow."""
+"""Definitions of instructions: operands, their units, and their role in the flow."""
 
 from dataclasses import dataclass
 from enum import Enum, StrEnum
@@ -7,16 +7,12 @@ from typing import Final
 from handeye.al.syntax import Value
 from handeye.core import units
 
-BIGGEST: Final = 1e6
-"""No number of a program is larger; keeps squares of numbers finite."""
+MAX_NUMBER: Final = 1e6  # keeps squares of numbers finite
 ANY: Final = "numbers in a program go up to a million"
-SMALLEST: Final = 0.001
-"""Least size of what has to be larger than nothing, in its unit."""
+MIN_POSITIVE: Final = 0.001
 
-AXES: Final = ("X", "Y", "Z")
-"""Letters of the table's axes: unit vectors where a vector stands, and what `FREE` and `SPIN` count."""
-NIL: Final = "NIL"
-"""Stands in the dialect of 1977 for a force or moment there is none of."""
+AXES: Final = ("X", "Y", "Z")  # unit vectors where a vector stands; counted by `FREE` and `SPIN`
+NIL: Final = "NIL"  # dialect of 1977: no force or moment
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,7 +34,7 @@ REV_PER_MIN = OperandUnit(name="rpm", si=units.RPM)
 
 
 class Refers(StrEnum):
-    """Kinds of things that a name must be the name of."""
+    """What kind of name an operand is."""
 
     POSITION = "position"
     PART = "part"
@@ -53,45 +49,38 @@ class Refers(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Operand:
-    """One place of an instruction, and what may stand there."""
+    """One operand of an instruction, and what it accepts."""
 
-    name: str
-    """As the manual calls it."""
+    name: str  # in the manual
     takes: tuple[type[Value], ...]
-    units: tuple[OperandUnit, ...] = ()
-    """Of a number: one; of a vector: one for each component."""
-    low: float = -BIGGEST
-    high: float = BIGGEST
+    units: tuple[OperandUnit, ...] = ()  # one for a number; one per component of a vector
+    low: float = -MAX_NUMBER
+    high: float = MAX_NUMBER
     why: str = ANY
     whole: bool = False
-    nonzero: bool = False
-    """Not too near to nothing, on either side of it."""
+    nonzero: bool = False  # at least MIN_POSITIVE in size
     choices: tuple[float, ...] = ()
-    free: bool = False
-    """Words up to the end of the line, with or without quotes."""
-    components: tuple[str, ...] = ()
-    """The letters of a vector, which its name has in brackets."""
+    free: bool = False  # the rest of the line, with or without quotes
+    components: tuple[str, ...] = ()  # letters of a vector, in brackets in its name
     optional: bool = False
-    nil: bool = False
-    """`NIL` may stand here, for nothing."""
+    nil: bool = False  # accepts `NIL`
     refers: Refers = Refers.NEW
-    word: str = ""
-    """A word of the language that stands here, alone or (`OF part`) before the operand."""
+    word: str = ""  # keyword, alone or before the operand (`OF part`)
     ours: bool = False
 
     @property
     def is_vector(self) -> bool:
-        """True if nothing but a vector, or the name of one, may stand here."""
+        """True if only a vector, or the name of one, is accepted."""
         return bool(self.components)
 
     @property
     def plain(self) -> str:
-        """As a sentence calls it."""
+        """The operand in a sentence."""
         return f"vector {self.name}" if self.is_vector else self.name or f"word `{self.word}`"
 
     @property
     def shown(self) -> str:
-        """As it stands in the manual; what is optional in parentheses."""
+        """The operand in the manual; optional ones in parentheses."""
         text = f"{self.word} {self.name}".strip()
         return f"({text})" if self.optional else text
 
@@ -108,8 +97,9 @@ class Role(Enum):
     STEP = "step"
 
 
-MOTION, MODIFIER, SHIFT, SKIP, JUMP, DECLARATION, STEP = Role
-"""The members by themselves, for code that asks often: looking one up in its enumeration takes time."""
+MOTION, MODIFIER, SHIFT, SKIP, JUMP, DECLARATION, STEP = (
+    Role  # members by name: looking one up in an Enum is slow
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -121,10 +111,8 @@ class Instruction:
     help: str
     operands: tuple[Operand, ...] = ()
     role: Role = Role.STEP
-    axes: bool = False
-    """Its vector may be written as a number of axes and their letters."""
-    fits: tuple[str, ...] = ()
-    """Motions a modifier can modify."""
+    axes: bool = False  # accepts a number of axes and their letters
+    fits: tuple[str, ...] = ()  # motions that a modifier applies to
     ours: bool = False
 
     @property

@@ -1,20 +1,22 @@
-"""Words and operands of a program that are ours: nobody could have written them in the seventies."""
+"""Words and operands that are ours, not of the language of the seventies."""
 
 from collections.abc import Iterator
+from functools import partial
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.macros import as_called, expand
 from handeye.al.parser import parse_whole
 from handeye.al.statements import pairs
 from handeye.al.syntax import Number
-from handeye.core.diagnostics import Diagnostic, Label, arranged, quoted
+from handeye.core.diagnostics import Diagnostic, arranged, problem, quoted
 from handeye.core.source import Source, Span
 
+_ours = partial(problem, "extension-used")
 _AGAINST = "the period stops on a vector: `STOP [0 0 -50]`"
 
 
 def extensions(source: Source) -> list[Diagnostic]:
-    """An error for each word and operand of a text that is ours, required texts included; of what can be read."""
+    """An error for each word and operand that is ours, required texts included."""
     return arranged(_found(source))
 
 
@@ -23,13 +25,13 @@ def _found(source: Source) -> Iterator[Diagnostic]:
     for macro in script.macros.values():
         if macro.parameters:
             span = Span(start=macro.parameters[0].start, end=macro.parameters[-1].end)
-            yield _extension("parameters of a macro are ours", span, "write a macro for each use of it")
+            yield _ours("parameters of a macro are ours", span, help="write a macro for each use of it")
     for statement in as_called(script, expand(script, lambda _: None)):
         definition = INSTRUCTIONS.get(statement.word.text) if statement.word is not None else None
         if statement.word is None or definition is None:
             continue
         if definition.ours:
-            yield _extension(f"`{definition.op}` is not documented before 1978", statement.word.span)
+            yield _ours(f"`{definition.op}` is not documented before 1978", statement.word.span)
             continue
         for operand, value in pairs(statement):
             if value is None:
@@ -38,10 +40,6 @@ def _found(source: Source) -> Iterator[Diagnostic]:
                 continue  # the 0 of the dialect of 1977
             if operand.ours:
                 message = f"{quoted(operand.shown.strip('()'))} of `{definition.op}` is ours"
-                yield _extension(message, value.span)
+                yield _ours(message, value.span)
             elif definition.op == "STOP" and isinstance(value, Number):
-                yield _extension("`STOP` with a number is ours", value.span, _AGAINST)
-
-
-def _extension(message: str, span: Span, help: str | None = None) -> Diagnostic:
-    return Diagnostic(code="extension-used", message=message, primary=Label(span=span), help=help)
+                yield _ours("`STOP` with a number is ours", value.span, help=_AGAINST)

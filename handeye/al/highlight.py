@@ -1,4 +1,4 @@
-"""Colours for arm programs, wherever Pygments is used: rich, notebooks, documentation."""
+"""Pygments lexer for arm programs, for rich, notebooks and documentation."""
 
 from typing import ClassVar
 
@@ -14,7 +14,7 @@ from pygments.token import (
     Whitespace,
 )
 
-from handeye.al.word_groups import FREE_TEXT, JUMPS, MODIFIERS, OPERAND_WORDS, OTHERS
+from handeye.al.instructions import FREE_TEXT, JUMPS, MODIFIERS, OPERAND_WORDS, OTHERS
 
 _NAME = r"[A-Za-z_]\w*"
 _PARAMETER = rf"\{{{_NAME}\}}"
@@ -25,7 +25,7 @@ def _ops(ops: list[str]) -> words:
 
 
 class ArmLexer(RegexLexer):
-    """The arm language of 1973; words and operands are those of the table of instructions."""
+    """The arm language of 1973; words come from the instruction table."""
 
     name = "Arm language (WAVE)"
     aliases: ClassVar = ["armal", "wave"]

@@ -1,9 +1,8 @@
-"""Words that people write by a slip, or because another language has them, and the word that helps them on."""
+"""Help for slips, and for words of other languages."""
 
 import re
 from typing import Final
 
-from handeye.al.unitwords import no_units
 from handeye.core.diagnostics import LOOKALIKES
 
 _COMMENT: Final = "a comment begins with `;`"
@@ -43,16 +42,15 @@ _ELSEWHERE: Final[dict[str, str]] = {
     **dict.fromkeys(("LET", "SET", "VAR", "INT"), "`ASSIGN` sets a counter"),
     **dict.fromkeys(("POINT", "FRAME", "POSE"), "`TRANS` defines a position"),
 }
-"""Words of other languages, and how it is said in this one."""
 
 
 def elsewhere(word: str) -> str | None:
-    """How that is said here which another language says with this word; None if no such word is known."""
+    """The way to say here what another language says with this word; None if it is not known."""
     return _ELSEWHERE.get(word.upper())
 
 
 def alone(word: str) -> str | None:
-    """Help for an instruction that stands there without an operand, as another language has it."""
+    """Help for an instruction without its operand, as other languages have it."""
     return (
         f"it ends the motion after it when the hand presses with so many ounces; {_ENDS}"
         if word == "STOP"
@@ -61,26 +59,26 @@ def alone(word: str) -> str | None:
 
 
 def with_digits(text: str) -> str | None:
-    """The number that is meant by a text in which letters stand for digits they look like; None: there is none."""
+    """The number meant by a text with letters that look like digits; None if there is none."""
     right = text.translate(LOOKALIKES)
     return right if right != text and _PLAIN.fullmatch(right) else None
 
 
 def letters_for_digits(text: str) -> str | None:
-    """Help for a text in which letters stand for digits; None if they do not."""
+    """Help for a text with letters in the place of digits; None if it has none."""
     right = with_digits(text)
     return None if right is None else f"write a digit, not a letter that looks like it: `{right}`"
 
 
 def with_unit(text: str) -> tuple[str, str] | None:
-    """A unit written against its number, and what to say of it; None if that is not what the text is."""
+    """A unit glued to its number, and the help for it; None if the text is not of that form."""
     found = _WITH_UNIT.fullmatch(text)
     said = None if found is None else no_units(found[2])
     return None if found is None or said is None else (found[2], said)
 
 
 def strange(text: str) -> str | None:
-    """Help for characters that are no part of the language; None if nothing helps."""
+    """Help for characters outside the language; None if nothing helps."""
     first = text[0]
     if first == ":":
         return "a colon belongs after a label, at the beginning of a line"
@@ -102,3 +100,26 @@ def strange(text: str) -> str | None:
     if first.isalpha():
         return "names consist of letters from A to Z, digits and `_`"
     return None
+
+
+_LENGTH, _FORCE = (
+    "distances are in inches",
+    "forces and weights are in ounces, moments and torques in ounce-inches",
+)
+_ANGLE, _SPEED = (
+    "angles are in degrees",
+    "speeds are in inches a second, the screwdriver's in revolutions a minute",
+)
+
+UNIT_WORDS: Final = {
+    **dict.fromkeys(("in", "inch", "inches", "ft", "mm", "cm", "m"), _LENGTH),
+    **dict.fromkeys(("oz", "ounce", "ounces", "lb", "lbs", "g", "kg", "n", "nm", "ozin"), _FORCE),
+    **dict.fromkeys(("deg", "degree", "degrees", "rad"), _ANGLE),
+    **dict.fromkeys(("ips", "rpm"), _SPEED),
+}  # in small letters
+
+
+def no_units(word: str) -> str | None:
+    """Help for a word that may be a unit; None otherwise."""
+    said = UNIT_WORDS.get(word.lower())
+    return None if said is None else f"numbers are written without a unit: {said}"

@@ -1,9 +1,9 @@
-"""A script sewn of several files: the texts that it requires, and those that they require."""
+"""Scripts made of several files: the texts a script requires, and those they require."""
 
 import posixpath
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePath
 from typing import Final
 
@@ -11,34 +11,27 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operands import Mistake, read_operands
 from handeye.al.scanner import scan
 from handeye.al.syntax import Text
+from handeye.core.diagnostics import Diagnostic, Label, problem, quoted
 from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.source import LARGEST, Source, Span, read_source
 
 REQUIRE: Final = "REQUIRE"
-MOST: Final = 100
-"""Files that one text can require, and `LARGEST` characters in all."""
+MAX_FILES: Final = 100
+"""Limit on required files; their total size is limited to `LARGEST` characters."""
 _LINE: Final = re.compile(rf"^.*\b{REQUIRE}\b.*$", re.ASCII | re.IGNORECASE | re.MULTILINE)
 
 Read = Callable[[str], str]
-"""The text of a file by its key: its path from the folder of the text that all are required by.
-
-Raises:
-    InvalidInput: it cannot be read.
-"""
+"""Returns the text of a file by its key, a path from the main text's folder; raises InvalidInput if unreadable."""
 
 
 def read_script(path: str | Path) -> Source:
-    """The text in a file, with everything it requires.
-
-    Raises:
-        InvalidInput: the file cannot be read; a required one that cannot is told of when the text is compiled.
-    """
+    """The text in a file with everything it requires; unreadable requirements are reported on compiling."""
     folder = Path(path).parent
     return sewn(read_source(path), lambda key: read_source(folder / key).text)
 
 
 def sewn(source: Source, read: Read) -> Source:
-    """A text with everything it requires, as far as that can be read; it ends soon after the bounds are passed."""
+    """A text with everything it requires that can be read, up to the limits."""
     folder, own = PurePath(source.name).parent, own_key(source)
     required: dict[str, Source] = {}
     waiting = [(own, source.text)]
@@ -49,7 +42,7 @@ def sewn(source: Source, read: Read) -> Source:
             key = key_of(file.text, by)
             if key == own or key in required:
                 continue
-            if len(required) == MOST or size > LARGEST:
+            if len(required) == MAX_FILES or size > LARGEST:
                 return replace(source, required=tuple(required.values()))
             required[key] = piece = _piece(str(folder / key), key, read)
             size += len(piece.text)
@@ -58,7 +51,7 @@ def sewn(source: Source, read: Read) -> Source:
 
 
 def sewn_of(source: Source, files: Mapping[str, str]) -> Source:
-    """A text with what it requires of some files, by their keys; no other can be read."""
+    """A text with what it requires, taken from `files` by key alone."""
 
     def read(key: str) -> str:
         if key not in files:
@@ -69,12 +62,12 @@ def sewn_of(source: Source, files: Mapping[str, str]) -> Source:
 
 
 def own_key(source: Source) -> str:
-    """Name of the text itself from its own folder."""
+    """Key of the main text."""
     return PurePath(source.name).name
 
 
 def key_of(file: str, by: str) -> str:
-    """Name of a file from the folder of the whole, when it is required by the text `by`."""
+    """Key of a file that the text `by` requires: its path from the main text's folder."""
     return posixpath.normpath(posixpath.join(posixpath.dirname(by), file))
 
 
@@ -86,7 +79,7 @@ def _piece(name: str, key: str, read: Read) -> Source:
 
 
 def required_by(text: str) -> Iterator[Text]:
-    """Files that a text itself requires, in its order."""
+    """Files that a text itself requires, in order."""
     for found in _LINE.finditer(text):
         for line in scan(found[0], found.start()):
             tokens = line.split()[1]
@@ -100,7 +93,7 @@ def required_by(text: str) -> Iterator[Text]:
 
 
 def led_by(source: Source, key: str) -> Span | None:
-    """Where the text itself requires a file that is read, or leads to it."""
+    """The REQUIRE in the main text that leads to a file, directly or not."""
     texts = {text.key: text.text for text in source.required}
     for file in required_by(source.text):
         waiting, seen = [key_of(file.text, own_key(source))], set[str]()
@@ -112,3 +105,59 @@ def led_by(source: Source, key: str) -> Span | None:
                 seen.add(by)
                 waiting += [key_of(further.text, by) for further in required_by(texts[by])]
     return None
+
+
+_MAX_SHOWN = 6
+
+
+@dataclass(slots=True)
+class Requirements:
+    """Resolves the REQUIREs of a text one after the other."""
+
+    source: Source
+    texts: dict[str, Source] = field(init=False)  # readable texts by key
+    reading: list[str] = field(init=False)  # keys of the texts being read, outermost first
+    first: dict[str, Span] = field(default_factory=dict)  # first REQUIRE of each text
+    missing: bool = False  # a missing text has been reported
+
+    def __post_init__(self) -> None:
+        self.texts = {text.key: text for text in self.source.required}
+        self.reading = [own_key(self.source)]
+
+    def find(self, file: Text) -> Source | Diagnostic | None:
+        """The text to read now, a diagnostic, or None if the limit has been reported."""
+        key = key_of(file.text, self.reading[-1])
+        found = self.texts.get(key)
+        if key.lower().endswith(".toml"):
+            help = "handeye reads the taught file with the script's name by itself; remove this line"
+            message = f"{quoted(file.text)} is a taught file, not a file of instructions"
+            return problem("unreadable-file", message, file.span, help=help)
+        if key in self.reading:
+            return self._circle(key, file)
+        if key in self.first:
+            message = f"{quoted(file.text)} is already included: this line does nothing"
+            first = Label(span=self.first[key], text="it is read here")
+            return problem("required-twice", message, file.span, first)
+        deep = len(self.reading) > MAX_FILES  # a text that was not sewn here
+        if found is not None and not found.problem and not deep:
+            self.first[key] = file.span
+            return found
+        told, self.missing = self.missing, True
+        if deep or (found is None and self.texts):
+            message = f"more than {MAX_FILES} files, or {LARGEST} characters in all, are required"
+            return None if told else problem("too-much-required", message, file.span)
+        message = f"{quoted(file.text)} cannot be read"
+        if found is not None:
+            return problem("unreadable-file", message, file.span, notes=(found.problem,))
+        help = "paths are relative to the file that requires them: save this text as a file"
+        return problem(
+            "unreadable-file", message, file.span, notes=("this text is not in a file",), help=help
+        )
+
+    def _circle(self, key: str, file: Text) -> Diagnostic:
+        around = [*self.reading[self.reading.index(key) :], key]
+        if len(around) > _MAX_SHOWN:
+            around[_MAX_SHOWN // 2 : -_MAX_SHOWN // 2] = ["…"]
+        first, *others = (name if name == "…" else quoted(name) for name in around)
+        notes = (f"{first} requires {', which requires '.join(others)}",) if len(others) > 1 else ()
+        return problem("require-circle", f"{quoted(key)} requires itself", file.span, notes=notes)

@@ -1,7 +1,6 @@
-"""The instructions of the language as a table, from which parser, checker, formatter and manual derive.
-
-Words and meanings of the period: Bolles and Paul, AIM-220 (1973), and what is left of the arm program's
-manual. What the period does not document and we added in its spirit has `ours` set.
+"""The table of instructions, from which parser, checker, formatter and manual derive.\n\nWords and meanings of the
+period: Bolles and Paul, AIM-220 (1973), and what is left of the arm program's\nmanual. What the period does not
+document and we added in its spirit has `ours` set.
 """
 
 from typing import Final
@@ -10,12 +9,12 @@ from handeye.al.definition import (
     DEG,
     IN,
     IN_PER_S,
+    MIN_POSITIVE,
     NIL,
     ONE,
     OZ,
     OZ_IN,
     REV_PER_MIN,
-    SMALLEST,
     Instruction,
     Operand,
     Refers,
@@ -40,8 +39,7 @@ from handeye.al.operand_kinds import (
 from handeye.al.syntax import Name, Number, Text, Vector
 from handeye.program.motion_operations import VIAS
 
-MOST: Final = 1000
-"""The most that a counter can be set to."""
+MAX_COUNT: Final = 1000
 
 
 _NIL = word(NIL, ours=False)
@@ -52,7 +50,7 @@ _PART = name_of("part", Refers.PART)
 _COMPARED = (_PART, name_of("before", Refers.PICTURE), name_of("after", Refers.PICTURE))
 _ALL = ("MOVE", "CHANGE", "TURN", "PARK")
 
-MOTIONS, MODIFIERS, HAND_WORDS, FLOW = "Motions", "Modifiers", "Hand", "Flow"
+MOTIONS, MODIFIER_GROUP, HAND_WORDS, FLOW = "Motions", "Modifiers", "Hand", "Flow"
 PLACES, TOOL, VISION, RUN = "Positions", "Tool and load", "Vision", "Order of the work"
 
 _TABLE = (
@@ -102,7 +100,7 @@ _TABLE = (
     ),
     Instruction(
         op="STOP",
-        group=MODIFIERS,
+        group=MODIFIER_GROUP,
         help="end the next motion when the hand presses along the vector with more than its length (oz), "
         "or, for one number (ours), when anything opposes the motion with more; or when it exerts "
         "more than the moment (oz-in); else error 23",
@@ -111,8 +109,8 @@ _TABLE = (
                 name="force",
                 takes=(Vector, Number, Name),
                 units=(OZ, OZ, OZ),
-                low=SMALLEST,
-                why=f"it must be at least {SMALLEST:g} oz",
+                low=MIN_POSITIVE,
+                why=f"it must be at least {MIN_POSITIVE:g} oz",
                 nil=True,
                 refers=Refers.VECTOR,
             ),
@@ -123,7 +121,7 @@ _TABLE = (
     ),
     Instruction(
         op="FORCE",
-        group=MODIFIERS,
+        group=MODIFIER_GROUP,
         help="press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
         operands=(
             Operand(name="force", takes=(Vector, Name), units=(OZ,) * 3, nil=True, refers=Refers.VECTOR),
@@ -134,7 +132,7 @@ _TABLE = (
     ),
     Instruction(
         op="FREE",
-        group=MODIFIERS,
+        group=MODIFIER_GROUP,
         help="give way to force along these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
         operands=(vector(x=ONE, y=ONE, z=ONE),),
         axes=True,
@@ -143,7 +141,7 @@ _TABLE = (
     ),
     Instruction(
         op="SPIN",
-        group=MODIFIERS,
+        group=MODIFIER_GROUP,
         help="give way to a moment about these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
         operands=(vector(x=ONE, y=ONE, z=ONE),),
         axes=True,
@@ -152,7 +150,7 @@ _TABLE = (
     ),
     Instruction(
         op="VIA",
-        group=MODIFIERS,
+        group=MODIFIER_GROUP,
         help="on the way to the goal of the next MOVE, pass these positions, in this order, without stopping",
         operands=(name_of("position", Refers.POSITION), *[also("position", Refers.POSITION)] * (VIAS - 1)),
         role=Role.MODIFIER,
@@ -161,7 +159,7 @@ _TABLE = (
     ),
     Instruction(
         op="TOUCH",
-        group=MODIFIERS,
+        group=MODIFIER_GROUP,
         help="end the next motion when a finger touches something: 1 is the finger on the side that angle O "
         "points to, 2 the other, 3 either; else error 25",
         operands=(
@@ -180,9 +178,9 @@ _TABLE = (
     ),
     Instruction(
         op="TORQUE",
-        group=MODIFIERS,
+        group=MODIFIER_GROUP,
         help="end the next motion when the screwdriver turns with this torque (oz-in); else error 24",
-        operands=(number("torque", OZ_IN, SMALLEST),),
+        operands=(number("torque", OZ_IN, MIN_POSITIVE),),
         role=Role.MODIFIER,
         fits=_ALL,
         ours=True,
@@ -248,8 +246,8 @@ _TABLE = (
                 takes=(Number,),
                 units=(ONE,),
                 low=0,
-                high=MOST,
-                why=f"a counter is set to 0 to {MOST}",
+                high=MAX_COUNT,
+                why=f"a counter is set to 0 to {MAX_COUNT}",
                 whole=True,
             ),
         ),
@@ -406,7 +404,6 @@ _TABLE = (
 )
 
 INSTRUCTIONS: Final[dict[str, Instruction]] = {instruction.op: instruction for instruction in _TABLE}
-"""Every instruction, by its word."""
 DEFINE: Final = Instruction(
     op="DEFINE",
     group=RUN,
@@ -417,6 +414,12 @@ DEFINE: Final = Instruction(
     ),
     role=Role.DECLARATION,
 )
-"""Makes macros: the parser's own."""
 EXPLAINED: Final = INSTRUCTIONS | {DEFINE.op: DEFINE}
-"""All that there is a page of the manual for."""
+
+
+FREE_TEXT: Final = [i.op for i in INSTRUCTIONS.values() if any(o.free for o in i.operands)]
+SKIPS: Final = [i.op for i in INSTRUCTIONS.values() if i.role is Role.SKIP]
+JUMPS: Final = [i.op for i in INSTRUCTIONS.values() if any(o.refers is Refers.LABEL for o in i.operands)]
+MODIFIERS: Final = [i.op for i in INSTRUCTIONS.values() if i.role in (Role.MODIFIER, Role.SHIFT)]
+OTHERS: Final = [op for op in INSTRUCTIONS if op not in (*FREE_TEXT, *JUMPS, *MODIFIERS)]
+OPERAND_WORDS: Final = sorted({o.word for i in INSTRUCTIONS.values() for o in i.operands if o.word})

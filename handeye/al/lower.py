@@ -1,4 +1,4 @@
-"""Statements to steps: modifiers join motions, RESTOREs their MOVE, jumps and skips find their targets."""
+"""Lowers statements to steps: attaches modifiers and RESTOREs, and resolves jumps and skips."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,7 +13,16 @@ from handeye.al.lower_statement import operation, restore
 from handeye.al.macros import Placed
 from handeye.al.parameters import Call, FilledLine, uses
 from handeye.al.syntax import Name, Statement, Text
-from handeye.core.diagnostics import LIMIT, Diagnostic, Label, Meant, alternatives, quoted, told_names
+from handeye.core.diagnostics import (
+    LIMIT,
+    Diagnostic,
+    Label,
+    Meant,
+    alternatives,
+    problem,
+    quoted,
+    told_names,
+)
 from handeye.core.source import Source, Span
 from handeye.program.motion_operations import Move
 from handeye.program.operations import AnyOperation
@@ -21,30 +30,24 @@ from handeye.program.program import SourcePlace, Step
 
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
-_WAY = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned", "VIA": "pass"}
-"""Verbs for what a modifier is about, if not about how a motion ends; a motion has one modifier of each kind."""
+_MODIFIER_KINDS = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned", "VIA": "pass"}
+"""Kinds of modifiers, of which a motion has one each; the others set how a motion ends."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lowered:
-    """Stages and steps of an expanded program."""
+    """Stages and steps of an expanded program, with the statement of each step and the RESTOREs of some."""
 
     stages: tuple[str, ...]
     steps: tuple[Step, ...]
     origins: Sequence[Statement]
-    """The statement each step comes from."""
     shifts: Mapping[int, tuple[Statement, ...]]
-    """The RESTOREs of each step that has any."""
 
 
 def lower(
     placed: Sequence[Placed], source: Source, report: Report, *, inner: Mapping[str, Name] | None = None
 ) -> Lowered:
-    """Stages and steps of an expanded program; worth something only if no error was reported.
-
-    Args:
-        inner: the labels of macros, of which nothing outside can know.
-    """
+    """Stages and steps of an expanded program, valid if no error was reported; `inner` are the labels inside macros."""
     lowering = _Lowering(report=report, inner=inner or {})
     for item in placed:
         lowering.place(item)
@@ -80,23 +83,18 @@ def _place(source: Source, statement: Statement) -> SourcePlace:
 
 
 class _Draft(msgspec.Struct, gc=False):
-    """A step in the making."""
+    """A step before its targets are known; `operation` is None for a broken statement."""
 
     statement: Statement
     call: Call
     stage: int
     operation: AnyOperation | None
-    """None if the statement is broken."""
-    modifier: Placed | None
-    """The first of its modifiers."""
-    next: int | None
-    """The draft that follows."""
+    modifier: Placed | None  # the first one
+    next: int | None  # the following draft
     macro: str
-    reach: Call
-    """The call whose labels a jump knows."""
+    reach: Call  # the call whose labels a jump sees
     line: FilledLine | None
-    modifiers: Sequence[Statement] = ()
-    """Those that fit it, and the calls that give it operands."""
+    modifiers: Sequence[Statement] = ()  # modifiers that apply, and calls that give them operands
     labels: tuple[str, ...] = ()
     shifts: tuple[Statement, ...] = ()
 
@@ -110,20 +108,14 @@ class _Lowering:
     report: Report
     inner: Mapping[str, Name]
     drafts: list[_Draft] = field(default_factory=list)
-    branches: list[int] = field(default_factory=list)
-    """Drafts that jump or skip."""
-    stages: dict[str, Span] = field(default_factory=dict)
-    """Their names, and where they stand."""
+    branches: list[int] = field(default_factory=list)  # drafts that jump or skip
+    stages: dict[str, Span] = field(default_factory=dict)  # by name
     stage: int = 0
     labels: dict[tuple[Call, str], tuple[int, Name]] = field(default_factory=dict)
-    pending: list[Placed] = field(default_factory=list)
-    """Modifiers that wait for their motion."""
-    shiftable: bool = False
-    """The statement before is a MOVE, or one of its RESTOREs."""
-    loops: list[tuple[int, int]] = field(default_factory=list)
-    """Of searches: first step, and the AOJ that goes back to it."""
-    lost: int = 0
-    """Jumps to nowhere so far."""
+    pending: list[Placed] = field(default_factory=list)  # modifiers of the next motion
+    shiftable: bool = False  # after a MOVE, or one of its RESTOREs
+    searches: list[tuple[int, int]] = field(default_factory=list)  # of searches: first step, AOJ
+    unresolved: int = 0  # unresolved jumps
 
     def place(self, item: Placed) -> None:
         statement = item.statement
@@ -197,14 +189,14 @@ class _Lowering:
         self.shiftable = statement.word is not None and statement.word.text == "MOVE"
 
     def modifiers(self, motion: Statement) -> list[Statement]:
-        """Those that wait and fit a motion."""
+        """Pending modifiers that apply to a motion."""
         firsts: dict[str, Placed] = {}
-        found = []
+        fitting = []
         for modifier in self.pending:
-            first = firsts.setdefault(_WAY.get(_word(modifier).text, ""), modifier)
+            first = firsts.setdefault(_MODIFIER_KINDS.get(_word(modifier).text, ""), modifier)
             if self.fits(modifier, first, motion):
-                found.append(modifier.statement)
-        return found
+                fitting.append(modifier.statement)
+        return fitting
 
     def draft(self, item: Placed, made: AnyOperation | None, modifiers: Sequence[Statement] = ()) -> None:
         if not self.stages:
@@ -222,7 +214,7 @@ class _Lowering:
         )  # fmt: skip
 
     def fits(self, modifier: Placed, first: Placed, motion: Statement) -> bool:
-        """True if it modifies such a motion, and is the first of its kind."""
+        """True if it applies to this motion and is the first of its kind."""
         word = _word(modifier)
         assert motion.word is not None
         fits = INSTRUCTIONS[word.text].fits
@@ -259,11 +251,11 @@ class _Lowering:
                 self.drafts[index].labels += (name,)
         for index in self.branches:
             self.link(index)
-        if self.loops:
+        if self.searches:
             self.mark_searching()
 
     def link(self, index: int) -> None:
-        """Set what follows a step that jumps or skips."""
+        """Set the targets of a step that jumps or skips."""
         draft = self.drafts[index]
         operation = draft.operation
         assert operation is not None
@@ -288,14 +280,13 @@ class _Lowering:
             if (scope, label.text) in self.labels:
                 target = self.labels[scope, label.text][0]
                 if draft.word == "AOJ":
-                    self.loops.append((target, index))
+                    self.searches.append((target, index))
                 return self.at(target)
-        self.lost_label(label, scopes)
+        self.unknown_label(label, scopes)
         return None
 
-    def lost_label(self, label: Name, scopes: Sequence[Call]) -> None:
-        """Tell of a jump to nowhere."""
-        self.lost += 1
+    def unknown_label(self, label: Name, scopes: Sequence[Call]) -> None:
+        self.unresolved += 1
         inner = self.inner.get(label.text)
         if inner is not None:
             there = Label(span=inner.span, text="this is inside a macro")
@@ -305,14 +296,14 @@ class _Lowering:
             return
         message = f"no statement has the label {quoted(label.text)}"
         # Looking for what was meant takes time: only for those that will be shown.
-        known = [name for scope, name in self.labels if scope in scopes] if self.lost <= LIMIT else []
+        known = [name for scope, name in self.labels if scope in scopes] if self.unresolved <= LIMIT else []
         meant = alternatives(label.text, known)
         self.problem("unknown-label", message, label, *uses(label), help=told_names(meant), meant=meant)
 
     def mark_searching(self) -> None:
-        """Every MOVE between a label and an AOJ that goes back to it belongs to a search."""
+        """Mark every MOVE between a label and an AOJ back to it as part of a search."""
         change = [0] * (len(self.drafts) + 1)
-        for first, last in self.loops:
+        for first, last in self.searches:
             if first < last:
                 change[first] += 1
                 change[last] -= 1
@@ -321,7 +312,7 @@ class _Lowering:
                 draft.operation = replace(draft.operation, searching=True)
 
     def skip(self, index: int) -> int | None:
-        """The step after the instruction after a skip; a call of a macro is one instruction."""
+        """The step after the skipped instruction; a macro call is one instruction."""
         draft = self.drafts[index]
         assert draft.statement.word is not None
         if index + 1 == len(self.drafts):
@@ -355,16 +346,11 @@ class _Lowering:
         self, code: str, message: str, at: Name | Text, *secondary: Label,
         help: str | None = None, meant: Meant | None = None,
     ) -> None:  # fmt: skip
-        primary = Label(span=at.span)
-        self.report(
-            Diagnostic(
-                code=code, message=message, primary=primary, secondary=secondary, help=help, meant=meant
-            )
-        )
+        self.report(problem(code, message, at.span, *secondary, help=help, meant=meant))
 
 
 def _shared(one: Call, other: Call) -> int:
-    """Count of calls, from the outermost on, that are the same."""
+    """Number of outermost calls in common."""
     for depth, (a, b) in enumerate(zip(one, other, strict=False)):
         if a != b:
             return depth

@@ -1,4 +1,4 @@
-"""Statements to operations: the place where inches, degrees and ounces become SI."""
+"""Lowers statements to operations; inches, degrees and ounces become SI here."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -32,32 +32,27 @@ from handeye.program.operations import AnyOperation
 from handeye.program.program import Position
 from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Match, Specific
 
-PLACE_DEPTH: Final = 3.0 * INCH
-"""Greatest distance that PLACE lowers the hand: the height of an approach."""
+PLACE_DEPTH: Final = 3.0 * INCH  # m; the height of an approach
 PLACE_FORCE: Final = 50.0 * OUNCE_FORCE
-"""Force that PLACE stops on, N. The first stop of the pin insertion of 1973, over three times what joint friction can
-be felt as upright."""
-STEPS: Final = 3
-"""Of a search to each side."""
-LINE_STEPS: Final = 4
-"""Of a search along a line to each side."""
-_PLACES: Final = {
+"""The first stop of the pin insertion of 1973, N; over three times what joint friction can be felt as upright."""
+SEARCH_STEPS: Final = 3  # to each side
+LINE_STEPS: Final = 4  # to each side, along a line
+_OPERANDS: Final = {
     i.op: {
         o.name or o.word: (place, tuple(unit.si for unit in o.units)) for place, o in enumerate(i.operands)
     }
     for i in INSTRUCTIONS.values()
-}
-"""Of each operand of each instruction: its place, and its units in SI."""
+}  # index and SI units of each operand, by instruction
 
 
 class Operands(msgspec.Struct, frozen=True, gc=False):
-    """The operands of a checked statement by name, in SI units."""
+    """Operands of a checked statement by name, in SI units."""
 
     values: tuple[Value | None, ...]
     places: dict[str, tuple[int, tuple[float, ...]]]
 
     def has(self, key: str) -> bool:
-        """True if an optional operand or word is there."""
+        """True if an optional operand or word is present."""
         return self.values[self.places[key][0]] is not None
 
     def number(self, key: str) -> float:
@@ -83,7 +78,7 @@ class Operands(msgspec.Struct, frozen=True, gc=False):
         return self.number(key) if isinstance(self.values[self.places[key][0]], Number) else None
 
     def names(self) -> tuple[str, ...]:
-        """All that are names, in their order."""
+        """Operands that are names, in order."""
         return tuple([value.text for value in self.values if isinstance(value, Name)])
 
     def name(self, key: str) -> str:
@@ -94,11 +89,11 @@ class Operands(msgspec.Struct, frozen=True, gc=False):
 
 def _operands(statement: Statement) -> Operands:
     assert statement.word is not None
-    return Operands(statement.operands, _PLACES[statement.word.text])
+    return Operands(statement.operands, _OPERANDS[statement.word.text])
 
 
-class _How(msgspec.Struct, frozen=True, kw_only=True):
-    """All that the modifiers say of a motion."""
+class _Modifiers(msgspec.Struct, frozen=True, kw_only=True):
+    """What the modifiers set on a motion."""
 
     guards: g.Guards = ()
     press: Vector3 | None = None
@@ -108,13 +103,13 @@ class _How(msgspec.Struct, frozen=True, kw_only=True):
     via: tuple[str, ...] = ()
 
 
-_FREELY: Final = _How()
+_UNMODIFIED: Final = _Modifiers()
 
 
 def operation(statement: Statement, modifiers: Sequence[Statement]) -> AnyOperation:
-    """The operation of a statement whose modifiers fit it, jumps and skips still without their targets."""
+    """The operation of a statement with its modifiers; jumps and skips have no targets yet."""
     assert statement.word is not None
-    how = _FREELY
+    how = _UNMODIFIED
     for modifier in modifiers:
         assert modifier.word is not None
         word, operands = modifier.word.text, _operands(modifier)
@@ -126,7 +121,7 @@ def operation(statement: Statement, modifiers: Sequence[Statement]) -> AnyOperat
 
 
 def position(statement: Statement) -> tuple[str, Position]:
-    """Name and value of a `TRANS`."""
+    """Name and position of a `TRANS`."""
     operands = _operands(statement)
     x, y, z, o, a, t = operands.vector("[x y z o a t]")
     of = operands.name("part") if operands.has("part") else None
@@ -149,7 +144,7 @@ def _stop(operands: Operands) -> g.Guards:
     )
 
 
-def _change(operands: Operands, how: _How) -> Change:
+def _change(operands: Operands, how: _Modifiers) -> Change:
     x, y, z = operands.vector3("[x y z]")
     scale = operands.number("distance") / math.hypot(x, y, z)
     displacement = (x * scale, y * scale, z * scale)
@@ -167,16 +162,16 @@ def _change(operands: Operands, how: _How) -> Change:
 
 def _search(operands: Operands) -> Search:
     along = operands.number_or("direction")
-    steps = round(operands.number_or("number") or (STEPS if along is None else LINE_STEPS))
+    steps = round(operands.number_or("number") or (SEARCH_STEPS if along is None else LINE_STEPS))
     width = 2 * steps + 1
     return Search(step=operands.number("step"), limit=width**2 if along is None else width, along=along)
 
 
-def _place(_: Operands, how: _How) -> Change:
+def _place(_: Operands, how: _Modifiers) -> Change:
     return Change(displacement=(0.0, 0.0, -PLACE_DEPTH), guards=(g.Force(force=(0.0, 0.0, -PLACE_FORCE)),))
 
 
-_MODIFIERS: Final[dict[str, Callable[[_How, Operands], _How]]] = {
+_MODIFIERS: Final[dict[str, Callable[[_Modifiers, Operands], _Modifiers]]] = {
     "FORCE": lambda how, o: replace(how, press=o.vector3_or("force"), moment=o.vector3_or("moment")),
     "FREE": lambda how, o: replace(how, free=o.vector3("[x y z]")),
     "SPIN": lambda how, o: replace(how, spin=o.vector3("[x y z]")),
@@ -185,7 +180,7 @@ _MODIFIERS: Final[dict[str, Callable[[_How, Operands], _How]]] = {
     "TORQUE": lambda how, o: replace(how, guards=(g.Torque(torque=o.number("torque")),)),
     "TOUCH": lambda how, o: replace(how, guards=(g.Touch(fingers=int(o.number("mask"))),)),
 }
-_MOTIONS: Final[dict[str, Callable[[Operands, _How], AnyOperation]]] = {
+_MOTIONS: Final[dict[str, Callable[[Operands, _Modifiers], AnyOperation]]] = {
     "MOVE": lambda o, how: Move(
         goal=o.name("position"), direct=o.has("DIRECT"), guards=how.guards, via=how.via
     ),

@@ -1,4 +1,4 @@
-"""Macros: each call is replaced by the statements of the macro."""
+"""Expands macros: replaces each call by the statements of the macro."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -11,29 +11,25 @@ from handeye.al.definition import Instruction
 from handeye.al.heads import as_instruction
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operands import Mistake, read_operands
-from handeye.al.parameters import Call, FilledLine, Given, filled
+from handeye.al.parameters import Argument, Call, FilledLine, filled
 from handeye.al.syntax import LONGEST_LINE, Macro, Name, Script, Statement, Value
-from handeye.core.diagnostics import Diagnostic, Label, quoted
+from handeye.core.diagnostics import Diagnostic, problem, quoted
 
-LONGEST: Final = 10_000
-"""Statements of the longest program, macros expanded."""
-DEEPEST: Final = 20
-"""Calls within calls."""
+MAX_STATEMENTS: Final = 10_000
+MAX_DEPTH: Final = 20
 
 
 class Placed(msgspec.Struct, frozen=True, gc=False):
-    """A statement at its place in the expanded program; no call of a macro."""
+    """A statement in the expanded program, never a macro call; `macro` is the one it stands in, or ""."""
 
     statement: Statement
     call: Call
     macro: str
-    """The macro it stands in; empty: none."""
-    line: FilledLine | None = None
-    """What calls have put into it; None: nothing."""
+    line: FilledLine | None = None  # with a call's operands filled in
 
     @property
     def jumps_from(self) -> Call:
-        """The call whose labels its jump knows: a label that is given to a macro is one where it is given."""
+        """The call whose labels its jump sees; a label given as an operand belongs to the caller."""
         label = self.statement.operands[-1:]
         given = () if self.line is None else self.line.given.values()
         return next(
@@ -42,14 +38,14 @@ class Placed(msgspec.Struct, frozen=True, gc=False):
 
 
 def expand(script: Script, report: Callable[[Diagnostic], None]) -> list[Placed]:
-    """The statements of the program in order; as far as macros can be expanded."""
+    """Statements of the program in order, as far as macros can be expanded."""
     expansion = _Expansion(script=script, report=report)
     expansion.place(script.statements, _Frame())
     return expansion.placed
 
 
 def as_called(script: Script, placed: list[Placed]) -> Iterator[Statement]:
-    """The statements of a script and of its macros; of those with parameters, the lines of each call."""
+    """Statements of a script and its macros; macros with parameters as each call fills them."""
     yield from script.statements
     for macro in script.macros.values():
         if not macro.parameters:
@@ -60,13 +56,11 @@ def as_called(script: Script, placed: list[Placed]) -> Iterator[Statement]:
 
 
 class _Frame(msgspec.Struct, frozen=True):
-    """A call that is being expanded; at first the text itself."""
+    """A call being expanded, or the main text."""
 
     call: Call = ()
-    inside: tuple[str, ...] = ()
-    """Macros, each called by the one before."""
-    given: Mapping[str, Given] = {}
-    """By parameter."""
+    inside: tuple[str, ...] = ()  # names of the enclosing macros
+    given: Mapping[str, Argument] = {}  # by parameter
     by: Statement | None = None
 
     def placed(self, statement: Statement, line: FilledLine | None = None) -> Placed:
@@ -86,8 +80,8 @@ class _Expansion:
             if self.too_long:
                 return
             self.visited += 1
-            if self.visited > LONGEST:
-                self.stop(statement, f"the program has more than {LONGEST} statements")
+            if self.visited > MAX_STATEMENTS:
+                self.stop(statement, f"the program has more than {MAX_STATEMENTS} statements")
             elif statement.word is None or statement.broken:
                 self.placed.append(frame.placed(statement))
             elif statement.word.text in self.script.macros:
@@ -96,20 +90,20 @@ class _Expansion:
                 self.placed.append(self.read(statement, frame) if statement.open else frame.placed(statement))
 
     def read(self, statement: Statement, frame: _Frame) -> Placed:
-        """An open line, closed by what the call gives."""
+        """A line with parameters, filled in from the call."""
         assert statement.word is not None
         line = filled(statement, frame.given)
         operands = self.operands(line, INSTRUCTIONS[statement.word.text], frame)
         if operands is None:
             return frame.placed(replace(statement, broken=True, open=False))
-        return frame.placed(replace(statement, operands=line.landed(operands), open=False), line)
+        return frame.placed(replace(statement, operands=line.at_source(operands), open=False), line)
 
     def call(self, statement: Statement, word: Name, frame: _Frame) -> None:
         if word.text in frame.inside:
             self.problem("recursive-macro", statement, f"macro {quoted(word.text)} uses itself")
             return
-        if len(frame.inside) >= DEEPEST:
-            self.stop(statement, f"macros are nested more than {DEEPEST} deep")
+        if len(frame.inside) >= MAX_DEPTH:
+            self.stop(statement, f"macros are nested more than {MAX_DEPTH} deep")
             return
         if statement.labels:
             self.placed.append(frame.placed(replace(statement, word=None)))
@@ -121,8 +115,8 @@ class _Expansion:
         call, inside = (*frame.call, self.visited), (*frame.inside, word.text)
         self.place(macro.body, _Frame(call, inside, given, statement))
 
-    def given(self, statement: Statement, macro: Macro, frame: _Frame) -> dict[str, Given] | None:
-        """What a call gives for each parameter; None if it does not."""
+    def given(self, statement: Statement, macro: Macro, frame: _Frame) -> dict[str, Argument] | None:
+        """Operands of a call by parameter; None if they are wrong."""
         if not macro.parameters and not statement.open:
             return {}
         names = [parameter.text for parameter in macro.parameters]
@@ -137,7 +131,7 @@ class _Expansion:
     def operands(
         self, line: FilledLine, definition: Instruction, frame: _Frame
     ) -> tuple[Value | None, ...] | None:
-        """The operands of a line, as they are read at their places; None: there is a mistake, which is told."""
+        """Operands of a line; None after reporting a mistake."""
         try:
             if len(line.text) > LONGEST_LINE:
                 message = f"with its operands the line has {len(line.text)} characters"
@@ -146,7 +140,7 @@ class _Expansion:
                 )
             return read_operands(definition, line.head, line.tokens)
         except Mistake as mistake:
-            self.report(line.told(mistake.diagnostic, frame.by or line.statement))
+            self.report(line.located(mistake.diagnostic, frame.by or line.statement))
             return None
 
     def stop(self, statement: Statement, message: str) -> None:
@@ -154,4 +148,4 @@ class _Expansion:
         self.problem("program-too-long", statement, message)
 
     def problem(self, code: str, statement: Statement, message: str) -> None:
-        self.report(Diagnostic(code=code, message=message, primary=Label(span=statement.span)))
+        self.report(problem(code, message, statement.span))

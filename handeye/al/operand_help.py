@@ -1,8 +1,8 @@
-"""Say what may stand at an operand: for the manual, and for those who ask."""
+"""Describes operands for the manual and for hover texts."""
 
 from typing import Final
 
-from handeye.al.definition import BIGGEST, Instruction, Operand, Refers
+from handeye.al.definition import MAX_NUMBER, Instruction, Operand, Refers
 from handeye.al.syntax import Name, Number, Text, Vector
 
 _CALLED: Final = {
@@ -14,7 +14,7 @@ _CALLED: Final = {
 
 
 def takes(definition: Instruction, operand: Operand) -> str:
-    """Say what may stand at an operand of an instruction."""
+    """What an operand of an instruction accepts."""
     kinds = {
         Vector: f"{len(operand.units)} numbers in brackets{_units(operand)}",
         Number: f"{'a whole number' if operand.whole else 'a number'}{_units(operand)}",
@@ -28,12 +28,12 @@ def takes(definition: Instruction, operand: Operand) -> str:
 
 
 def origin(definition: Instruction, operand: Operand) -> str:
-    """Origin of an operand: `ours` or `period`."""
+    """`ours` or `period`."""
     return "ours" if operand.ours or definition.ours else "period"
 
 
 def part(definition: Instruction) -> str:
-    """Say what an instruction is, and who made it."""
+    """The role of an instruction, and its origin."""
     said = f"A {definition.role.value}, {'ours' if definition.ours else 'of the period'}."
     return (
         f"{said} Modifies {', '.join(f'`{word}`' for word in definition.fits)}." if definition.fits else said
@@ -50,8 +50,8 @@ def _limits(operand: Operand) -> list[str]:
         return [" or ".join(f"{choice:g}" for choice in operand.choices)]
     if operand.low == operand.high:
         return [f"only {operand.low:g}"]
-    if operand.high < BIGGEST:
+    if operand.high < MAX_NUMBER:
         return [f"{operand.low:g} to {operand.high:g}"]
-    if operand.low > -BIGGEST:
+    if operand.low > -MAX_NUMBER:
         return [f"at least {operand.low:g}"]
     return ["not 0"] if operand.nonzero else []

@@ -1,17 +1,17 @@
-"""The kinds of places for operands that instructions have."""
+"""Kinds of operands that instructions share."""
 
 from dataclasses import replace
 from typing import Final
 
 from handeye.al.definition import (
     ANY,
-    BIGGEST,
     DEG,
     IN,
+    MAX_NUMBER,
+    MIN_POSITIVE,
     MM,
     ONE,
     OZ_IN,
-    SMALLEST,
     Operand,
     OperandUnit,
     Refers,
@@ -20,27 +20,31 @@ from handeye.al.syntax import Name, Number, Vector
 from handeye.core import units
 from handeye.ports import camera
 
-HAND: Final = round(units.GAP / units.INCH, 2)
-"""Widest opening of the hand, in."""
-LENSES: Final = tuple(lens / units.MILLIMETRE for lens in camera.LENSES)
-"""Focal lengths of the lenses on the turret, mm."""
-LARGEST_STEP: Final = 1.0
-"""in, of a search."""
+MAX_GAP_IN: Final = round(units.GAP / units.INCH, 2)
+LENSES_MM: Final = tuple(lens / units.MILLIMETRE for lens in camera.LENSES)
+MAX_STEP_IN: Final = 1.0
 
 
 def number(
-    name: str, unit: OperandUnit, low: float = -BIGGEST, *, optional: bool = False, ours: bool = False
+    name: str, unit: OperandUnit, low: float = -MAX_NUMBER, *, optional: bool = False, ours: bool = False
 ) -> Operand:
-    """A number in a unit, perhaps with a least one."""
-    why = f"it must be at least {low:g} {unit.name}" if low > -BIGGEST else ANY
+    """A number in a unit, perhaps with a minimum."""
+    why = f"it must be at least {low:g} {unit.name}" if low > -MAX_NUMBER else ANY
     return Operand(name=name, takes=(Number,), units=(unit,), low=low, why=why, optional=optional, ours=ours)
 
 
 def gap(name: str, *, optional: bool = False, ours: bool = False) -> Operand:
     """An opening of the hand."""
-    why = f"the hand opens from 0 to {HAND:g} in"
+    why = f"the hand opens from 0 to {MAX_GAP_IN:g} in"
     return Operand(
-        name=name, takes=(Number,), units=(IN,), low=0.0, high=HAND, why=why, optional=optional, ours=ours
+        name=name,
+        takes=(Number,),
+        units=(IN,),
+        low=0.0,
+        high=MAX_GAP_IN,
+        why=why,
+        optional=optional,
+        ours=ours,
     )
 
 
@@ -56,17 +60,17 @@ def named_vector(unit: OperandUnit) -> Operand:
 
 
 def name_of(name: str, refers: Refers) -> Operand:
-    """A name, and what it has to be the name of."""
+    """The name of something of a kind."""
     return Operand(name=name, takes=(Name,), refers=refers)
 
 
 def also(name: str, refers: Refers) -> Operand:
-    """One more such name, which may be left out."""
+    """An optional further name of that kind."""
     return Operand(name=name, takes=(Name,), refers=refers, optional=True)
 
 
 def word(word: str, *, optional: bool = True, ours: bool = True) -> Operand:
-    """A word of the language, which may be left out or not."""
+    """A keyword, optional or not."""
     return Operand(name="", takes=(), word=word, optional=optional, ours=ours)
 
 
@@ -82,14 +86,14 @@ ERROR: Final = Operand(
     why="errors have numbers from 1 to 63",
     whole=True,
 )
-LENS: Final = Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES)
+LENS: Final = Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES_MM)
 STEP: Final = Operand(
     name="step",
     takes=(Number,),
     units=(IN,),
-    low=SMALLEST,
-    high=LARGEST_STEP,
-    why=f"a step is {SMALLEST:g} to {LARGEST_STEP:g} in: a search extends several to each side",
+    low=MIN_POSITIVE,
+    high=MAX_STEP_IN,
+    why=f"a step is {MIN_POSITIVE:g} to {MAX_STEP_IN:g} in: a search extends several to each side",
 )
 STEPS: Final = Operand(
     name="number",

@@ -1,4 +1,4 @@
-"""Tokens to operands, by the definition of the instruction."""
+"""Reads operands from tokens, by the definition of the instruction."""
 
 import math
 import re
@@ -7,14 +7,12 @@ from itertools import pairwise
 
 import msgspec
 
-from handeye.al.definition import AXES, BIGGEST, NIL, SMALLEST, Instruction, Operand
-from handeye.al.hints import alone, letters_for_digits, strange, with_unit
-from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.definition import AXES, MAX_NUMBER, MIN_POSITIVE, NIL, Instruction, Operand
+from handeye.al.hints import alone, letters_for_digits, no_units, strange, with_unit
+from handeye.al.instructions import FREE_TEXT, INSTRUCTIONS
 from handeye.al.scanner import JUNK, MARK, NAME, NUMBER, STRING, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
-from handeye.al.unitwords import no_units
-from handeye.al.word_groups import FREE_TEXT
-from handeye.core.diagnostics import Diagnostic, Label, quoted
+from handeye.core.diagnostics import problem, quoted
 from handeye.core.source import Span
 
 _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.ASCII | re.IGNORECASE)
@@ -22,20 +20,15 @@ _NO_LENGTH = 1e-6
 
 
 class Mistake(Exception):
-    """The first mistake of a line."""
+    """The first mistake of a line, as a diagnostic."""
 
     def __init__(self, code: str, message: str, span: Span, text: str = "", help: str | None = None) -> None:
         super().__init__(message)
-        primary = Label(span=span, text=text)
-        self.diagnostic = Diagnostic(code=code, message=message, primary=primary, help=help)
+        self.diagnostic = problem(code, message, span, text=text, help=help)
 
 
 def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token]) -> tuple[Value | None, ...]:
-    """A value for each operand of the definition, None for those left out.
-
-    Raises:
-        Mistake: the operands do not fit the definition.
-    """
+    """A value for each operand, None for those left out; raises Mistake."""
     if definition.op in FREE_TEXT:
         return _Reader(definition, head, tokens).read()
     try:
@@ -45,7 +38,7 @@ def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token])
 
 
 def free_text(tokens: Sequence[Token]) -> str:
-    """Words as they stand on the line; blanks of any kind become spaces."""
+    """Text of tokens as on the line, each blank a space."""
     text, end = "", tokens[0].start
     for token in tokens:
         text += " " * (token.start - end) + token.text
@@ -54,11 +47,7 @@ def free_text(tokens: Sequence[Token]) -> str:
 
 
 def separated(tokens: Sequence[Token]) -> Sequence[Token]:
-    """Tokens without the commas of the dialect of 1977, each of which stands between two values.
-
-    Raises:
-        Mistake: one does not.
-    """
+    """Tokens without the commas between operands (dialect of 1977); raises Mistake at any other comma."""
     for token in tokens:
         if token.text == ",":
             return _without_commas(tokens)
@@ -77,12 +66,12 @@ def _without_commas(tokens: Sequence[Token]) -> list[Token]:
 
 
 def _meant(tokens: Sequence[Token]) -> Mistake | None:
-    """Find what is at the bottom of a mistake in these operands, where their marks tell it."""
+    """The cause of a mistake in these operands, if brackets, units or commas show it."""
     opened = False
     for token in tokens:
         if token.text == "]" and not opened:
-            said = "write a vector in brackets, as `[0 0 -1]`"
-            return Mistake("unopened-vector", "a vector has no opening bracket", token.span, help=said)
+            help = "write a vector in brackets, as `[0 0 -1]`"
+            return Mistake("unopened-vector", "a vector has no opening bracket", token.span, help=help)
         if token.text in ("[", "]"):
             opened = token.text == "["
     for before, token in pairwise(tokens):
@@ -95,14 +84,14 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
     commas = [at for at, token in enumerate(tokens) if token.text == ","]
     if len(commas) == 1 and _is_decimal(tokens[commas[0] - 1 : commas[0] + 2]):
         whole, _, part = tokens[commas[0] - 1 : commas[0] + 2]
-        said = f"write a number with a point: `{whole.text}.{part.text}`"
+        help = f"write a number with a point: `{whole.text}.{part.text}`"
         span = Span(start=whole.start, end=part.end)
-        return Mistake("malformed-number", "a comma separates two operands", span, help=said)
+        return Mistake("malformed-number", "a comma separates two operands", span, help=help)
     return None
 
 
 def _is_decimal(tokens: Sequence[Token]) -> bool:
-    """Two numbers with nothing but a comma between them, both of digits."""
+    """True for two runs of digits with only a comma between them."""
     if len(tokens) < 3:
         return False
     whole, comma, part = tokens
@@ -111,7 +100,7 @@ def _is_decimal(tokens: Sequence[Token]) -> bool:
 
 
 def is_unterminated(token: Token) -> bool:
-    """True if it is a string without its closing quote."""
+    """True for a string without its closing quote."""
     return token.kind is STRING and (len(token.text) == 1 or token.text[-1] != '"')
 
 
@@ -155,7 +144,7 @@ class _Reader(msgspec.Struct, gc=False):
         return value
 
     def takes(self, word: str) -> bool:
-        """Read a word of the language, if one stands here."""
+        """Consume a keyword if it is next."""
         if self.at == len(self.tokens):
             return False
         token = self.tokens[self.at]
@@ -192,7 +181,7 @@ class _Reader(msgspec.Struct, gc=False):
         raise _unexpected(token)
 
     def axes(self) -> Vector:
-        """A number of axes and their letters, as `2 X Y`: 1 along each of them."""
+        """Axes as `2 X Y`: a vector with 1 along each."""
         count, *letters = self.tokens
         for letter in letters:
             if letter.text not in AXES:
@@ -237,7 +226,7 @@ class _Reader(msgspec.Struct, gc=False):
         return Mistake("wrong-operand", message, value.span, help=self.cure(value, operand) or self.usage())
 
     def cure(self, value: Value, operand: Operand) -> str | None:
-        """Help where a value of a wrong kind stands."""
+        """Help for a value of the wrong kind."""
         if isinstance(value, Name) and value.text.upper() in INSTRUCTIONS:
             return _begins_a_line(value.text)
         if isinstance(value, Name) and Number in operand.takes:
@@ -258,7 +247,7 @@ class _Reader(msgspec.Struct, gc=False):
         if len(value.values) != len(operand.units):
             message = f"`{self.definition.op}` takes a vector of {len(operand.units)} numbers, not {len(value.values)}"
             raise Mistake("vector-size", message, value.span, help=self.usage())
-        if max(map(abs, value.values)) > BIGGEST:
+        if max(map(abs, value.values)) > MAX_NUMBER:
             message = "a number in the vector is too large"
             raise Mistake("number-out-of-range", message, value.span, operand.why)
         if len(value.values) == 3 and math.hypot(*value.values) < _NO_LENGTH:
@@ -273,9 +262,9 @@ class _Reader(msgspec.Struct, gc=False):
             size = "small" if value.value < operand.low else "large"
             message = f"{quoted(token.text)} is too {size} for the {operand.plain} of `{self.definition.op}`"
             raise Mistake("number-out-of-range", message, value.span, operand.why)
-        if operand.nonzero and abs(value.value) < SMALLEST:
+        if operand.nonzero and abs(value.value) < MIN_POSITIVE:
             message = f"{quoted(token.text)} is too small for the {operand.plain} of `{self.definition.op}`"
-            why = f"it must be at least {SMALLEST:g} {operand.units[0].name}, positive or negative"
+            why = f"it must be at least {MIN_POSITIVE:g} {operand.units[0].name}, positive or negative"
             raise Mistake("number-out-of-range", message, value.span, why)
         if operand.whole and value.value != int(value.value):
             message = f"`{self.definition.op}` takes a whole number as {operand.plain}"
@@ -286,7 +275,7 @@ class _Reader(msgspec.Struct, gc=False):
             raise Mistake("number-out-of-range", message, value.span)
 
     def check_nils(self) -> None:
-        """Refuse operands that can all be left out, one by one, and not together."""
+        """Refuse a statement whose operands are all `NIL`."""
         nils = [o.plain for o in self.definition.operands if o.nil]
         if nils and not any(v for o, v in zip(self.definition.operands, self.values, strict=True) if o.nil):
             message = f"`{self.definition.op}` has no {' and no '.join(nils)}"
@@ -317,7 +306,7 @@ class _Reader(msgspec.Struct, gc=False):
         raise Mistake("too-many-operands", message, span, help=help)
 
     def is_too_early(self, token: Token) -> bool:
-        """True if a word of the language was read as a name, in the place before its own."""
+        """True if a keyword was read as a name one operand too early."""
         words = {
             o.word for o, v in zip(self.definition.operands, self.values, strict=True) if o.word and v is None
         }

@@ -1,4 +1,4 @@
-"""Text to syntax tree: one diagnostic for a mistake, then on to the next line."""
+"""Parses text to a syntax tree, with one diagnostic a line."""
 
 from dataclasses import dataclass, field
 from typing import Final
@@ -8,11 +8,10 @@ from msgspec.structs import replace
 from handeye.al.definition import Instruction
 from handeye.al.heads import heads, taken
 from handeye.al.hints import elsewhere, strange
-from handeye.al.includes import REQUIRE
+from handeye.al.includes import REQUIRE, Requirements
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operands import Mistake, free_text, read_operands, separated
 from handeye.al.parameters import braced_in, parameters_in
-from handeye.al.requirements import Requirements
 from handeye.al.scanner import JUNK, MARK, NAME, Line, Token, scan
 from handeye.al.syntax import LONGEST_LINE, Macro, Name, Script, Statement, Text, Value
 from handeye.core.diagnostics import (
@@ -22,23 +21,23 @@ from handeye.core.diagnostics import (
     Meant,
     MissingMark,
     alternatives,
+    problem,
     quoted,
     told_names,
 )
 from handeye.core.source import Source, Span
 
 _DEFINE: Final = "DEFINE"
-_TYPED: Final = ("DO", "GO")
-"""Words of the console: they have an instruction, or the program, carried out."""
+_CONSOLE_WORDS: Final = ("DO", "GO")  # console commands that carry out an instruction or the program
 
 
 def parse(text: str) -> tuple[Script, list[Diagnostic]]:
-    """The tree of a text alone and what is wrong with its form; reading ends after `LIMIT` mistakes."""
+    """The tree of a text alone and its syntax errors; stops after `LIMIT`."""
     return _parsed(Source(name="", text=text), None)
 
 
 def parse_whole(source: Source) -> tuple[Script, list[Diagnostic]]:
-    """The tree of a text, that of a required one where it is required, and what is wrong with their form."""
+    """The tree of a text with its required texts in place, and their syntax errors."""
     return _parsed(source, Requirements(source))
 
 
@@ -57,22 +56,18 @@ def _parsed(source: Source, requirements: Requirements | None) -> tuple[Script, 
 @dataclass(slots=True)
 class _Parser:
     texts: dict[str, list[Line]]
-    known: dict[str, Instruction | None]
-    """Macros by name; None: it cannot be told what the macro takes."""
-    requirements: Requirements | None
-    """None: what is required is not read."""
+    known: dict[str, Instruction | None]  # macros; None: with a wrong head
+    requirements: Requirements | None  # None: requirements are not read
     errors: int = 0
     statements: list[Statement] = field(default_factory=list)
     macros: dict[str, Macro] = field(default_factory=dict)
     diagnostics: list[Diagnostic] = field(default_factory=list)
-    opened: Name | None = None
-    """The macro whose body is being read."""
-    parameters: dict[str, Name] = field(default_factory=dict)
-    """Those of that macro."""
+    opened: Name | None = None  # the macro being read
+    parameters: dict[str, Name] = field(default_factory=dict)  # its parameters
     body: list[Statement] = field(default_factory=list)
 
     def read(self, source: Source) -> None:
-        """A text from its beginning to its end."""
+        """Read a text."""
         for line in self.texts[source.key]:
             self.line(line)
             if self.errors >= LIMIT:
@@ -165,11 +160,7 @@ class _Parser:
             self.tell(mistake.diagnostic)
 
     def parameter(self, token: Token) -> None:
-        """One more of the macro that is opened.
-
-        Raises:
-            Mistake: it is not a name, or one that stands for something else.
-        """
+        """Add a parameter to the open macro; raises Mistake if it cannot be one."""
         if token.kind is not NAME:
             said = "a call gives the numbers and vectors; the macro names them"
             message = f"a parameter is a name, not {quoted(token.text)}"
@@ -198,7 +189,7 @@ class _Parser:
         )
 
     def statement(
-        self, line: Line, labels: tuple[Name, ...], said: str, tokens: tuple[Token, ...]
+        self, line: Line, labels: tuple[Name, ...], op: str, tokens: tuple[Token, ...]
     ) -> Statement:
         for label in labels:
             self.check_label(label)
@@ -206,13 +197,13 @@ class _Parser:
             return Statement(line.tokens[0].start, line.end, labels, None, line.number)
         head, rest = tokens[0], tokens[1:]
         start, end = head.start, tokens[-1].end
-        word = Name(start, head.end, said)
+        word = Name(start, head.end, op)
         if head.kind is not NAME:
             self.unreadable(head)
             return Statement(start, end, labels, None, line.number, broken=True)
-        is_call = said not in INSTRUCTIONS
+        is_call = op not in INSTRUCTIONS
         kept = rest if self.parameters or is_call else ()
-        definition = INSTRUCTIONS.get(said) or self.known.get(said)
+        definition = INSTRUCTIONS.get(op) or self.known.get(op)
         if definition is None:
             self.unknown(word, line, rest)
             return Statement(start, end, labels, word, line.number, broken=True)
@@ -229,7 +220,7 @@ class _Parser:
         return statement if is_call else replace(statement, operands=operands)
 
     def is_open(self, statement: Statement) -> bool:
-        """True if a parameter of the macro stands in a line of it."""
+        """True if a line contains a parameter of its macro."""
         if not self.parameters:
             return False
         names = [
@@ -246,10 +237,10 @@ class _Parser:
             self.report("parameter-name-taken", message, label.span, secondary=secondary)
 
     def unknown(self, word: Name, line: Line, rest: tuple[Token, ...]) -> None:
-        """Tell of a word that is neither an instruction nor a macro, unless it is a macro with a wrong head."""
+        """Report an unknown word, unless it is a macro with a wrong head."""
         if word.text in self.known:
             return
-        if word.text in _TYPED:
+        if word.text in _CONSOLE_WORDS:
             self.report(
                 "typed-word",
                 f"`{word.text}` is a console command, not an instruction of a script",
@@ -263,7 +254,7 @@ class _Parser:
         self.report("unknown-instruction", message, word.span, help=help, meant=meant)
 
     def meant(self, written: str, line: Line, rest: tuple[Token, ...]) -> tuple[str | None, Meant | None]:
-        """Help where a line begins with a word that is neither an instruction nor a macro, and what may be meant."""
+        """Help for an unknown first word, and what it may mean."""
         label = f"a label ends with a colon: `{written}:`"
         behind = rest[0].text.upper() if rest else ""
         if not rest and line.comment is not None and line.tokens[-1].end == line.end - len(line.comment):
@@ -297,12 +288,7 @@ class _Parser:
         secondary: tuple[Label, ...] = (),
         meant: Meant | None = None,
     ) -> None:
-        primary = Label(span=span, text=text)
-        self.tell(
-            Diagnostic(
-                code=code, message=message, primary=primary, help=help, secondary=secondary, meant=meant
-            )
-        )
+        self.tell(problem(code, message, span, *secondary, text=text, help=help, meant=meant))
 
     def tell(self, diagnostic: Diagnostic) -> None:
         self.errors += diagnostic.severity == "error"
@@ -314,7 +300,7 @@ def _name(token: Token) -> Name:
 
 
 def _alone(rest: tuple[Token, ...]) -> str:
-    """Help to write something instead of having these words done."""
+    """Help to write an instruction instead of a console command."""
     help = "a script is carried out as a whole"
     if not rest or rest[0].text.upper() not in INSTRUCTIONS:
         return help

@@ -1,6 +1,4 @@
-"""Findings of the planner in the words of the language: inches, degrees, ounces, joints by name, at the place in the
-script that each is about.
-"""
+"""Words the planner's findings in the language's units, at the place in the script that each is about."""
 
 import math
 from collections.abc import Callable, Iterable
@@ -8,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from handeye.al.scanner import scan
-from handeye.core.diagnostics import Diagnostic, Label, arranged, quoted
+from handeye.core.diagnostics import Diagnostic, Label, arranged, problem, quoted
 from handeye.core.source import Source, Span
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.findings import (
@@ -35,18 +33,15 @@ from handeye.program.reasons import (
 RIDDLE: Final = (
     "in the print of 1973 the second stop of the pin insertion can be read as 60 or as 600 oz; "
     "it must have been 60, for at 600 the search would never end"
-)
-"""Reference D1."""
-_ROUNDED: Final = 0.004
-"""Of 45 degrees: how far from a multiple of them an angle is that people write in radians, as 3.14."""
-_CIRCLE: Final = 8
-"""Times 45 degrees."""
+)  # reference D1
+_TOLERANCE: Final = 0.004
+_EIGHTHS: Final = 8
 
 
 def planning_diagnostics(
     program: Program, arm: NamedArm, findings: Iterable[PlanningFinding]
 ) -> list[Diagnostic]:
-    """Diagnostics for the findings against a program on an arm, by position; spans are of the whole."""
+    """Diagnostics for planning findings, by position; spans are offsets of the whole."""
     phrases = _Phrases(program, arm)
     return arranged(_PHRASES[type(finding)](phrases, finding) for finding in findings)
 
@@ -112,18 +107,18 @@ class _Phrases:
         return self.at_position(found, message, help=help, notes=(f"it reaches its limit {place}",))
 
     def radians(self, name: str | None) -> str | None:
-        """Help for the angles of a position, if they are written in radians."""
+        """Help for a position whose angles look like radians."""
         position = None if name is None else self.program.positions.get(name)
         for angle in () if position is None else position.at[3:]:
             parts = angle / DEGREE / (math.pi / 4)
-            if 1 <= abs(round(parts)) <= _CIRCLE and abs(parts - round(parts)) < _ROUNDED:
+            if 1 <= abs(round(parts)) <= _EIGHTHS and abs(parts - round(parts)) < _TOLERANCE:
                 return (
                     f"O, A and T are in degrees; {angle / DEGREE:g} is {round(parts) * 45} degrees in radians"
                 )
         return None
 
     def counted(self, name: str) -> str:
-        """The part that a position is counted from, if not from the table, as the rest of a sentence."""
+        """`; it is relative to ...` for a position relative to a part, else ""."""
         position = self.program.positions.get(name)
         of = None if position is None else position.of
         return "" if of is None else f"; it is relative to {quoted(of)}"
@@ -162,11 +157,13 @@ class _Phrases:
         message += ", so the stop would never fire" if found.guard else ""
         modifier = "STOP" if found.guard else "FORCE"
         is_riddle = found.guard and not turning and round(wanted) == 600
-        return Diagnostic(
-            code=found.code, message=message, notes=(RIDDLE,) if is_riddle else (),
-            primary=Label(span=self.modifier_span(found.step, modifier)),
+        return problem(
+            found.code,
+            message,
+            self.modifier_span(found.step, modifier),
+            notes=(RIDDLE,) if is_riddle else (),
             help=f"{named(self.arm, found.joint)} reaches its limit at {found.most / si:.0f} {unit}",
-        )  # fmt: skip
+        )
 
     def too_faint(self, found: TooFaint) -> Diagnostic:
         vector, turning = found.exerted
@@ -174,25 +171,27 @@ class _Phrases:
         there = "about its axis" if turning else "along it"
         stop = f"a stop on a {what} of {math.hypot(*vector) / si:g} {unit}"
         felt, least = found.friction / si, math.ceil(found.margin * found.friction / si)
-        return Diagnostic(
-            code=found.code,
-            message=f"{stop} is hard to tell from joint friction here",
-            primary=Label(span=self.modifier_span(found.step, "STOP")),
+        return problem(
+            found.code,
+            f"{stop} is hard to tell from joint friction here",
+            self.modifier_span(found.step, "STOP"),
             notes=(f"friction of the joints can be felt as {felt:.2g} {unit} {there}",),
             help=f"use at least {least} {unit}",
-        )  # fmt: skip
+        )
 
     def at_position(
-        self, found: PlanningFinding, message: str, *,
-        help: str, notes: tuple[str, ...] = (), secondary: tuple[Label, ...] = (),
-    ) -> Diagnostic:  # fmt: skip
-        """A diagnostic at the position it is about, or at the word of its motion."""
+        self,
+        found: PlanningFinding,
+        message: str,
+        *,
+        help: str,
+        notes: tuple[str, ...] = (),
+        secondary: tuple[Label, ...] = (),
+    ) -> Diagnostic:
+        """A diagnostic at the position it concerns, or at the word of its motion."""
         name = found.position
         span = self.word_span(found.step) if name is None else self.name_span(found.step, name)
-        primary = Label(span=span)
-        return Diagnostic(
-            code=found.code, message=message, primary=primary, secondary=secondary, notes=notes, help=help
-        )
+        return problem(found.code, message, span, *secondary, notes=notes, help=help)
 
     def along(self, number: int, along: float) -> str:
         inches, goal = f"{along / INCH:.1f} in along", self.goal(number)
@@ -209,19 +208,19 @@ class _Phrases:
         return self.find(step, step.word) or self.span(step)
 
     def name_span(self, number: int, name: str) -> Span:
-        """The name of a position in a statement or in one of its modifiers; else the word of the statement."""
+        """Span of a position's name in a statement or its modifiers, else of its word."""
         step = self.program.steps[number]
         places: tuple[Step | SourcePlace, ...] = (*step.modifiers, step)
         found = (self.find(words, name, behind=1) for words in places)
         return next((span for span in found if span is not None), self.word_span(number))
 
     def modifier_span(self, number: int, word: str) -> Span:
-        """A modifier of a statement; else, as `PLACE` has none, the word of the statement."""
+        """Span of a modifier, else of the statement's word (`PLACE` has no modifier)."""
         found = (self.find(words, word) for words in self.program.steps[number].modifiers)
         return next((span for span in found if span is not None), self.word_span(number))
 
     def find(self, words: Step | SourcePlace, word: str, *, behind: int = 0) -> Span | None:
-        """Where a word stands among some words, the first `behind` left out."""
+        """Span of a word, after the first `behind` tokens."""
         span = self.span(words)
         text, start = self.whole.find(span.start)
         lines = scan(text.text[start : start + span.end - span.start], span.start)

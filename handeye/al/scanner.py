@@ -1,4 +1,4 @@
-"""Characters to tokens, in one pass; nothing is lost and nothing is refused here."""
+"""Splits text into tokens in one pass; every character is accepted."""
 
 import re
 from enum import Enum
@@ -9,8 +9,6 @@ from handeye.core.source import Located
 
 
 class TokenKind(Enum):
-    """Kinds of tokens."""
-
     NAME = "name"
     NUMBER = "number"  # or what starts like one
     STRING = "string"  # `"`, and perhaps no closing one
@@ -18,31 +16,28 @@ class TokenKind(Enum):
     JUNK = "junk"
 
 
-NAME, NUMBER, STRING, MARK, JUNK = TokenKind
-"""The members by themselves, for code that asks often: looking one up in its enumeration takes time."""
+NAME, NUMBER, STRING, MARK, JUNK = TokenKind  # members by name: looking one up in an Enum is slow
 
 
 class Token(Located, frozen=True, gc=False):
-    """A piece of the text; its offsets are of the whole."""
+    """A token; offsets are of the whole."""
 
     kind: TokenKind
     text: str
 
 
 class Line(msgspec.Struct, frozen=True, gc=False):
-    """A line of the text, numbered from 1; `start` is the offset of its first character."""
+    """A line, numbered from 1; `comment` starts at the `;`, without trailing blanks."""
 
     number: int
     start: int
     end: int
     tokens: tuple[Token, ...]
     comment: str | None
-    """From the `;` to the end, without trailing blanks."""
-    indented: bool
-    """Starts with a blank."""
+    indented: bool  # starts with a blank
 
     def split(self) -> tuple[tuple[Token, ...], tuple[Token, ...]]:
-        """The names of the labels, and what follows them."""
+        """Label tokens, and the tokens after them."""
         tokens, at = self.tokens, 0
         if len(tokens) < 2 or tokens[1].text != ":":
             return (), tokens
@@ -52,7 +47,7 @@ class Line(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def is_blank(self) -> bool:
-        """Nothing on it at all: ends a macro."""
+        """True for an empty line, which ends a macro."""
         return not self.tokens and self.comment is None
 
 
@@ -74,7 +69,7 @@ _COMMENT = _TOKEN.groupindex["COMMENT"]
 
 
 def scan(text: str, offset: int = 0) -> list[Line]:
-    """The lines of a text that begins at an offset; a final newline starts no line of its own."""
+    """Lines of a text that begins at `offset`; a final newline starts no line."""
     lines: list[Line] = []
     tokens: list[Token] = []
     comment = None

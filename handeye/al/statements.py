@@ -1,25 +1,27 @@
-"""The statements of a script by their words, and the names in them: what every check begins with."""
+"""Statements of a script by word, and the names in them."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Final
+
+from msgspec.structs import replace
 
 from handeye.al.definition import Operand, Refers
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.syntax import Name, Script, Statement, Value
+from handeye.al.syntax import Name, Script, Statement, Value, Vector
 
 ByWord = Mapping[str, Sequence[Statement]]
-"""Statements by their instruction or macro, in the order of the text; those without a word left out."""
+"""Statements by instruction or macro, in text order."""
 Used = Mapping[Refers, Sequence[Name]]
-"""Names by what they are to be names of."""
+"""Names by the kind of thing they refer to."""
 _NAMED = {
     i.op: [(place, operand.refers) for place, operand in enumerate(i.operands) if Name in operand.takes]
     for i in INSTRUCTIONS.values()
-}
-"""Operands that may be names, by their places."""
+}  # indices of operands that may be names
 
 
 def all_statements(script: Script) -> Iterator[Statement]:
-    """The statements of a script and of its macros."""
+    """Statements of a script and its macros."""
     yield from script.statements
     for macro in script.macros.values():
         yield from macro.body
@@ -35,7 +37,7 @@ def by_word(statements: Iterable[Statement]) -> ByWord:
 
 
 def used_names(words: ByWord) -> Used:
-    """Every name that stands for something, by what it stands for."""
+    """Every name that refers to something, by kind."""
     found: dict[Refers, list[Name]] = {refers: [] for refers in Refers}
     for word, statements in words.items():
         for place, refers in _NAMED.get(word, ()):
@@ -47,7 +49,42 @@ def used_names(words: ByWord) -> Used:
 
 
 def pairs(statement: Statement) -> Iterable[tuple[Operand, Value | None]]:
-    """The operands of an instruction with their definitions; none for a macro or a broken statement."""
+    """Operand definitions with values; empty for a macro call or a broken statement."""
     if statement.word is None or statement.broken or not statement.operands:
         return ()
     return zip(INSTRUCTIONS[statement.word.text].operands, statement.operands, strict=True)
+
+
+Vectors = Mapping[str, tuple[float, ...]]
+"""Components by name, in the unit of the operand."""
+_TAKE_NAMES: Final = {
+    i.op for i in INSTRUCTIONS.values() if any(operand.refers is Refers.VECTOR for operand in i.operands)
+}
+_UNITS: Final = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
+
+
+def named_vectors(words: ByWord) -> Vectors:
+    """Named vectors of a script, axes included."""
+    known: dict[str, tuple[float, ...]] = dict(_UNITS)
+    for statement in words.get("VECT", ()):
+        if not statement.broken:
+            name, vector = statement.operands
+            assert isinstance(name, Name)
+            assert isinstance(vector, Vector)
+            known[name.text] = vector.values
+    return known
+
+
+def with_vectors(statement: Statement, known: Vectors) -> Statement:
+    """A statement with vectors in the place of their names."""
+    named = statement.word is not None and statement.word.text in _TAKE_NAMES
+    if not named or statement.broken or not any(isinstance(value, Name) for value in statement.operands):
+        return statement
+    return replace(statement, operands=tuple(_resolved(v, o, known) for o, v in pairs(statement)))
+
+
+def _resolved(value: Value | None, operand: Operand, known: Vectors) -> Value | None:
+    """A value, or the vector it names; an unknown name gives an arbitrary vector."""
+    if isinstance(value, Name) and operand.refers is Refers.VECTOR:
+        return Vector(value.start, value.end, known.get(value.text, _UNITS["Z"]))
+    return value

@@ -1,4 +1,4 @@
-"""The syntax tree of an arm program. It has no cycles, so that nobody has to look for them (`gc`)."""
+"""The syntax tree of an arm program; it has no cycles (`gc=False`)."""
 
 from typing import ClassVar, Final
 
@@ -7,26 +7,24 @@ import msgspec
 from handeye.al.scanner import Token
 from handeye.core.source import Located, Span
 
-LONGEST_LINE: Final = 1000
-"""Characters. Steps, plans and traces repeat the line they come from, for each call of a macro."""
+LONGEST_LINE: Final = 1000  # characters; steps, plans and traces repeat it for each macro call
 
 
 class Operand(Located, frozen=True, gc=False, kw_only=True):
-    """What stands at an operand."""
+    """An operand; `use` is the span of the macro parameter it replaces, if any."""
 
     use: Span | None = None
-    """The parameter of a macro in whose place it stands; None: it stands where it is written."""
 
 
 class Name(Operand, frozen=True, gc=False):
-    """A word: the name of something, or a word of the language."""
+    """The name of something, or a keyword."""
 
     what: ClassVar[str] = "a name"
     text: str
 
 
 class Number(Operand, frozen=True, gc=False):
-    """A number in the unit of its place."""
+    """A number in its operand's unit."""
 
     what: ClassVar[str] = "a number"
     value: float
@@ -40,7 +38,7 @@ class Vector(Operand, frozen=True, gc=False):
 
 
 class Text(Operand, frozen=True, gc=False):
-    """Words for people; without the quotes."""
+    """A text without its quotes."""
 
     what: ClassVar[str] = "a string"
     text: str
@@ -50,28 +48,21 @@ Value = Name | Number | Vector | Text
 
 
 class Statement(Located, frozen=True, gc=False):
-    """A line: labels and perhaps an instruction or the name of a macro; from that to the last operand."""
+    """A line: labels, and perhaps an instruction or macro call."""
 
     labels: tuple[Name, ...]
-    word: Name | None
-    """The instruction, in capitals, or the macro; None when the line has labels only."""
-    line: int
-    """In its own text; offsets are of the whole."""
-    operands: tuple[Value | None, ...] = ()
-    """One for each operand in the definition of the instruction; None where an optional one is left out."""
-    broken: bool = False
-    """A mistake in it has been reported; `operands` is empty, but for a name it begins with."""
-    tokens: tuple[Token, ...] = ()
-    """Its operands before they are read: of a call, and of every line of a macro with parameters."""
-    open: bool = False
-    """A parameter stands in it: only a call tells its operands, which are not read yet."""
+    word: Name | None  # instruction in capitals, or macro; None if there are only labels
+    line: int  # in its own file
+    operands: tuple[Value | None, ...] = ()  # as in the definition; None where left out
+    broken: bool = False  # an error was reported; at most a first name in `operands`
+    tokens: tuple[Token, ...] = ()  # unread operands, kept for calls and lines of macros with parameters
+    open: bool = False  # has a parameter: operands are read at each call
 
 
 class Macro(msgspec.Struct, frozen=True, gc=False, kw_only=True):
     """`DEFINE name parameter ...`, statements, and a blank line."""
 
-    name: Name
-    """In capitals, as words of the instruction column are."""
+    name: Name  # in capitals
     parameters: tuple[Name, ...] = ()
     body: tuple[Statement, ...]
 

@@ -1,16 +1,18 @@
-"""Check the form of a text itself, whatever its names mean and whatever it requires."""
+"""Checks the form of a text itself, whatever it requires."""
 
 from handeye.al.parser import parse_whole
 from handeye.core.diagnostics import Diagnostic
 from handeye.core.source import Source
 
-MISSING = ("unreadable-file", "too-much-required")
-"""A part of the text is not there: what it makes would be told as unknown."""
+MISSING = (
+    "unreadable-file",
+    "too-much-required",
+)  # part of the text is missing: what it defines would be unknown
 _OF_OTHERS = (*MISSING, "require-circle", "required-twice")
 
 
 def check_form(source: Source) -> list[Diagnostic]:
-    """The mistakes of a text alone; what it requires is looked at for the names of macros."""
+    """Syntax errors of a text alone; required texts are read for macro names."""
     found = parse_whole(source)[1]
     left_out = {*_OF_OTHERS}
     if any(d.code in MISSING for d in found):

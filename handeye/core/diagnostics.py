@@ -69,6 +69,23 @@ class Diagnostic:
         return CODES[self.code].severity
 
 
+def problem(
+    code: str,
+    message: str,
+    span: Span,
+    *secondary: Label,
+    text: str = "",
+    notes: tuple[str, ...] = (),
+    help: str | None = None,
+    meant: Meant | None = None,
+) -> Diagnostic:
+    """A diagnostic at a span; `text` stands beside the mark."""
+    primary = Label(span=span, text=text)
+    return Diagnostic(
+        code=code, message=message, primary=primary, secondary=secondary, notes=notes, help=help, meant=meant
+    )
+
+
 def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
     """True if any of them is an error."""
     return any(d.severity == "error" for d in diagnostics)

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from handeye.al.definition import Instruction, Operand
-from handeye.al.heads import Head, heads
+from handeye.al.heads import MacroHead, heads
 from handeye.al.scanner import Line, TokenKind, scan
 from handeye.editor.places import instruction, places
 
@@ -13,7 +13,7 @@ from handeye.editor.places import instruction, places
 class MacroBody:
     """A macro as it stands in its text."""
 
-    head: Head
+    head: MacroHead
     lines: Sequence[Line]
 
     @property

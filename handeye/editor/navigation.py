@@ -7,8 +7,7 @@ from typing import Final
 
 from handeye.al.definition import AXES
 from handeye.al.includes import key_of, own_key, required_by
-from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.word_groups import OPERAND_WORDS
+from handeye.al.instructions import INSTRUCTIONS, OPERAND_WORDS
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.source import Span

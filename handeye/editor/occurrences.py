@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from handeye.al.definition import Instruction, Refers
-from handeye.al.heads import Head, heads
+from handeye.al.heads import MacroHead, heads
 from handeye.al.parameters import braced
 from handeye.al.scanner import Line, Token, TokenKind, scan
 from handeye.al.syntax import Name
@@ -84,7 +84,7 @@ def _walk(lines: Sequence[Line], macros: Macros, parts: set[str]) -> Iterator[Oc
             yield from _operands(line, _Where(macros, scope, parameters, parts))
 
 
-def _head(head: Head) -> Iterator[Occurrence]:
+def _head(head: MacroHead) -> Iterator[Occurrence]:
     yield Occurrence(kind=MACRO, name=head.word, span=head.name.span, makes=True)
     first = {token.text: token for token in reversed(head.parameters) if token.kind is TokenKind.NAME}
     for token in reversed(first.values()):

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterable
 from typing import Final
 
-from handeye.al.word_groups import FREE_TEXT, JUMPS, MODIFIERS, OPERAND_WORDS, OTHERS
+from handeye.al.instructions import FREE_TEXT, JUMPS, MODIFIERS, OPERAND_WORDS, OTHERS
 
 _NAME: Final = r"[A-Za-z_]\w*"
 _NUMBER: Final = r"(?<![\w.])[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?(?![\w.])"

@@ -1,4 +1,4 @@
-"""Stops and checks that come out in one way only, whatever the arm meets."""
+"""Stops and checks with only one possible outcome, whatever the arm meets."""
 
 import math
 import re
@@ -14,24 +14,22 @@ from handeye.program.guards import Force, GuardKind
 from handeye.program.motion_operations import Center, Change, Close, Open, Travel
 
 _TIME: Final = re.compile(r"[\d.]+ *(?:m?s|secs?|seconds?)?", re.ASCII | re.IGNORECASE)
-LEAST: Final = 1e-6
-"""m by which a figure has to be off before anything is said of it."""
+TOLERANCE_M: Final = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AlwaysFails:
-    """A step that never does what it is for."""
+    """A step that never does its job; `cause` is the step that makes it so."""
 
     code: str
     step: int
     message: str
     help: str
     cause: int | None = None
-    """The step that is the reason."""
 
 
-def in_vain(graph: Graph) -> Iterator[AlwaysFails]:
-    """The steps of a program that never do what they are for, or always raise an error."""
+def always_failing(graph: Graph) -> Iterator[AlwaysFails]:
+    """Yield the steps that never do their job, or always raise an error."""
     yield from _stops(graph)
     yield from _grasps(graph)
     yield from _travels(graph)
@@ -56,7 +54,7 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
-    """Grasps of more than the hand was opened to."""
+    """Grasps wider than the hand was opened."""
     least = min(_gaps(graph, graph.which(Open)), default=math.inf)  # no OPEN is too little for less
     grasps: Iterator[tuple[int, Close | Center]] = chain(graph.each(Close), graph.each(Center))
     for number, grasp in grasps:
@@ -64,7 +62,7 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
             continue
         before = graph.last(number, Open, Close, Center)
         opened = _gaps(graph, before)
-        if before and len(opened) == len(before) and max(opened) < grasp.minimum - LEAST:
+        if before and len(opened) == len(before) and max(opened) < grasp.minimum - TOLERANCE_M:
             yield AlwaysFails(
                 code="opened-too-little",
                 step=number,
@@ -76,29 +74,29 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _gaps(graph: Graph, numbers: Iterable[int]) -> list[float]:
-    """Gaps of those of some steps that open the hand, m."""
+    """Gaps (m) of the OPEN steps among `numbers`."""
     return [opened.gap for n in numbers if (opened := graph.at(n, Open)) is not None]
 
 
 def _travels(graph: Graph) -> Iterator[AlwaysFails]:
-    """Checks for a longer way than the motion before goes."""
+    """TRAVELs that ask for more than the motion before can go."""
     for number, travel in graph.each(Travel):
         before = graph.last(number, Change)
         changes = (graph.at(n, Change) for n in before)
-        ways = [math.hypot(*change.displacement) for change in changes if change is not None]
-        if ways and max(ways) < travel.minimum - LEAST:
+        lengths = [math.hypot(*change.displacement) for change in changes if change is not None]
+        if lengths and max(lengths) < travel.minimum - TOLERANCE_M:
             yield AlwaysFails(
                 code="travel-too-long",
                 step=number,
                 message=f"`TRAVEL` asks for at least {travel.minimum / INCH:g} in, and the motion goes at most "
-                f"{max(ways) / INCH:g} in",
+                f"{max(lengths) / INCH:g} in",
                 help="it would always raise error 8",
                 cause=max(before),
             )
 
 
 def _torques(graph: Graph) -> Iterator[AlwaysFails]:
-    """Stops on the torque of a screwdriver that does not turn."""
+    """Stops on a torque while the screwdriver is off."""
     tools = graph.each(Tool)
     running = {number for number, tool in tools if tool.speed}
     started: set[int] | None = None
@@ -116,7 +114,7 @@ def _torques(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _touches(graph: Graph) -> Iterator[AlwaysFails]:
-    """Stops on a touch of fingers that are closed."""
+    """Stops on a touch while the fingers are closed."""
     for number in _guarded(graph, GuardKind.TOUCH):
         last = graph.last(number, Open, Close, Center)
         if last and not any(graph.at(n, Open) for n in last):
@@ -130,14 +128,14 @@ def _touches(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _guarded(graph: Graph, kind: GuardKind) -> Iterator[int]:
-    """The motions that a guard of a kind may end."""
+    """Motions with a guard of a kind."""
     for number in graph.which(*(one for one in graph.kinds if one.family == "motion")):
         if any(guard.kind is kind for guard in graph.steps[number].operation.guards):
             yield number
 
 
 def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
-    """Calls of the operator that were meant to let time pass."""
+    """WAITs that were meant as a delay."""
     for number, wait in graph.each(Wait):
         if _TIME.fullmatch(wait.message):
             yield AlwaysFails(
@@ -149,7 +147,7 @@ def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _undoes(graph: Graph) -> Iterator[AlwaysFails]:
-    """Stages that are undone whatever happens in them."""
+    """Stages that are undone unconditionally."""
     steps = graph.steps
     for number, _ in graph.each(Undo):
         stage = steps[number].stage

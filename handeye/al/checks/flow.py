@@ -1,18 +1,17 @@
-"""Check for what cannot be meant in the flow of a program, on the graph of its steps: nothing has to move to find it.
-
-A statement of a macro is several steps. It is at fault only if it is at fault in every call with the same operands.
+"""Checks of control flow, on the graph of steps.\n\nA statement of a macro becomes several steps; it is reported only
+if it is wrong in every call with the same operands.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 
-from handeye.al.checks.always_fails import in_vain
-from handeye.al.checks.loops import stale_rounds
+from handeye.al.checks.always_fails import always_failing
 from handeye.al.syntax import Name, Statement
-from handeye.core.diagnostics import Diagnostic, Label
+from handeye.core.diagnostics import Diagnostic, Label, problem
 from handeye.core.errors import ERRORS, NO_FORCE, NO_TORQUE, NO_TOUCH, WRONG_THICKNESS
 from handeye.core.source import Span
-from handeye.program.flow_operations import Advance, Jump, Save, Search, Test, Wait
+from handeye.program.flow_operations import Advance, Assign, Countdown, Jump, Save, Search, Test, Wait
 from handeye.program.graph import Graph
 from handeye.program.motion_operations import Change, Height, Move, Travel
 from handeye.program.operation import Operation
@@ -27,7 +26,7 @@ _CURES = {
 
 
 def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
-    """Mistakes in the flow of a program whose statements are all right; `origins`: those of its steps."""
+    """Control-flow diagnostics for a program without errors; `origins` is the statement of each step."""
     flow = _Flow(graph, origins)
     found = [*flow.unreachable(), *flow.loops()]
     for check in (flow.tests, flow.rounds, flow.vain, *(_order(flow, order) for order in _ORDERS)):
@@ -37,7 +36,7 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Order:
-    """An operation that makes sense only after (or only before) another."""
+    """An operation that makes sense only after another, or with `later` only before it."""
 
     code: str
     of: type[Operation]
@@ -45,7 +44,6 @@ class _Order:
     message: str
     help: str
     later: bool = False
-    """The other one has to come after it."""
 
 
 _ORDERS = (
@@ -120,7 +118,7 @@ class _Flow:
         self.trapped = graph.trapped(graph.which(Wait, Advance))
 
     def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
-        """Findings of a check at every step that a statement has become, unreachable ones left out."""
+        """Diagnostics of a check that hold at every reachable step of a statement."""
         found = {number: diagnostic for number, diagnostic in check() if number in self.reached}
         if not found:
             return
@@ -130,7 +128,7 @@ class _Flow:
                 yield diagnostic
 
     def unreachable(self) -> Iterator[Diagnostic]:
-        """The first statement of each stretch that nothing leads to, unless it only follows an endless loop."""
+        """The first statement of each unreachable stretch, unless it only follows an endless loop."""
         if len(self.reached) == len(self.graph.steps):
             return
         reached = {self.span(number) for number in self.reached}
@@ -145,7 +143,7 @@ class _Flow:
             before = lost
 
     def loops(self) -> Iterator[Diagnostic]:
-        """Loops that nothing leads out of, each once."""
+        """Loops without an exit, each once."""
         known: set[int] = set()
         for number in sorted(self.trapped & self.reached, reverse=True):
             loop = set() if number in known else self.graph.loop(number, known)
@@ -168,7 +166,7 @@ class _Flow:
         return self.problem(code, number, message, *head, notes=notes)
 
     def tests(self) -> Iterator[Finding]:
-        """Tests of errors that cannot have been raised where they stand."""
+        """Tests of errors that cannot be pending where they stand."""
         raised, actions = self.incoming()
         for number, operation in self.graph.each(Test):
             if not actions[number]:
@@ -179,33 +177,33 @@ class _Flow:
                 yield number, self.no_effect(number, operation.number)
 
     def rounds(self) -> Iterator[Finding]:
-        """Searches and counts that try the same in every round."""
-        told: dict[int, Span] = {}
-        for found in stale_rounds(self.graph):
-            word = self.word(found.jump).text
-            if found.cause is None:
+        """Searches and counts that repeat the same round."""
+        reported: dict[int, Span] = {}
+        for stale in stale_rounds(self.graph):
+            word = self.word(stale.jump).text
+            if stale.cause is None:
                 message = "no `MOVE` comes between the label and this `AOJ`: every round tries the same place"
                 help = "a `MOVE` after the label would go to the next place"
-                yield found.jump, self.problem("search-stands-still", found.jump, message, help=help)
+                yield stale.jump, self.problem("search-stands-still", stale.jump, message, help=help)
                 continue
-            if told.setdefault(found.cause, self.span(found.jump)) != self.span(found.jump):
+            if reported.setdefault(stale.cause, self.span(stale.jump)) != self.span(stale.jump):
                 continue  # one search may have several jumps back
-            begin = self.word(found.cause)
+            begin = self.word(stale.cause)
             message = f"`{word}` jumps back to before the `{begin.text}`: every round starts anew"
             help = f"put the label after the `{begin.text}`"
-            is_search = self.graph.at(found.cause, Search) is not None
+            is_search = self.graph.at(stale.cause, Search) is not None
             code = "search-begun-anew" if is_search else "count-begun-anew"
             cause = Label(span=begin.span, text="this starts anew")
-            yield found.jump, self.problem(code, found.jump, message, cause, help=help)
+            yield stale.jump, self.problem(code, stale.jump, message, cause, help=help)
 
     def vain(self) -> Iterator[Finding]:
-        """Stops and checks that come out in one way only."""
-        for found in in_vain(self.graph):
+        """Stops and checks with only one possible outcome."""
+        for found in always_failing(self.graph):
             cause = () if found.cause is None else (Label(span=self.span(found.cause), text="by this"),)
             yield found.step, self.problem(found.code, found.step, found.message, *cause, help=found.help)
 
     def incoming(self) -> tuple[dict[int, set[int]], dict[int, set[int]]]:
-        """For each test: the errors that can be pending when it is reached, and the actions that raise them."""
+        """For each test: the errors that can be pending there, and the actions that can raise them."""
         steps, onward = self.graph.steps, self.graph.onward
         tests = self.graph.which(Test)
         raised: dict[int, set[int]] = {number: set() for number in tests}
@@ -240,7 +238,7 @@ class _Flow:
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: Test, number: int, raised: Mapping[int, set[int]]) -> bool:
-        """True if a test leaves out nothing but the test of another error, which can be there, before a case."""
+        """True if a test skips only the next test, of an error that can be pending, and both lead to the same case."""
         steps, behind = self.graph.steps, self.graph.steps[number].next
         second = self.graph.at(behind, Test)
         if behind is None or second is None or second.number not in raised[behind]:
@@ -288,7 +286,50 @@ class _Flow:
         help: str | None = None,
         notes: tuple[str, ...] = (),
     ) -> Diagnostic:
-        primary = Label(span=self.word(number).span)
-        return Diagnostic(
-            code=code, message=message, primary=primary, secondary=secondary, help=help, notes=notes
-        )
+        return problem(code, message, self.word(number).span, *secondary, notes=notes, help=help)
+
+
+@dataclass(frozen=True, slots=True)
+class StaleRound:
+    """A step that jumps back to repeat the same round; `cause` restarts the search or count, or None if nothing moves
+    on.
+    """
+
+    jump: int
+    cause: int | None
+
+
+Circles = Callable[[], list[set[int]]]
+
+
+def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
+    """Yield the jumps of searches and counts that can never finish by themselves."""
+    circles = cache(graph.circles)  # asked for only where something looks wrong
+    searches, moves = set(graph.which(Search)), set(graph.which(Move))
+    places = searches | moves
+    for jump in graph.which(Advance):
+        target = graph.steps[jump].next
+        yield from _anew(graph, circles, jump, target, searches)
+        if graph.leads(target, jump, without=places) and circles()[jump].isdisjoint(moves):
+            yield StaleRound(jump, None)
+    assigns = _assigns(graph)
+    for jump, count in graph.each(Countdown):
+        yield from _anew(graph, circles, jump, count.positive, assigns.get(count.counter, set()))
+
+
+def _anew(
+    graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]
+) -> Iterator[StaleRound]:
+    """A jump back that restarts in every round; none if another path leads to the end."""
+    if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):
+        return
+    if target in circles()[jump]:
+        yield StaleRound(jump, min(circles()[jump] & begins))
+
+
+def _assigns(graph: Graph) -> dict[str, set[int]]:
+    """Steps that set each counter."""
+    assigns: dict[str, set[int]] = {}
+    for number, assign in graph.each(Assign):
+        assigns.setdefault(assign.counter, set()).add(number)
+    return assigns

@@ -1,16 +1,15 @@
-"""Every name must be the name of something: positions, parts, pictures, saved differences, error numbers."""
+"""Checks of names: each must refer to a position, part, picture, saved difference or error number that exists."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
 from handeye.al.definition import AXES, NIL, Refers
-from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.hints import no_units
+from handeye.al.instructions import INSTRUCTIONS, SKIPS
 from handeye.al.parameters import across, uses
 from handeye.al.statements import ByWord, Used, pairs
 from handeye.al.syntax import Name, Number, Statement
-from handeye.al.unitwords import no_units
-from handeye.al.word_groups import SKIPS
-from handeye.core.diagnostics import LIMIT, Diagnostic, Label, alternatives, quoted, told_names
+from handeye.core.diagnostics import LIMIT, Diagnostic, Label, alternatives, problem, quoted, told_names
 from handeye.core.errors import ERRORS
 from handeye.program.taught import Taught
 
@@ -23,8 +22,7 @@ _CODES = {
     Refers.COUNTER: "unknown-counter",
     Refers.SAVED: "never-saved",
 }
-_RESERVED = {**dict.fromkeys(AXES, "is an axis of the table"), NIL: "stands for no vector"}
-"""Names of vectors that are there already."""
+_BUILT_IN_VECTORS = {**dict.fromkeys(AXES, "is an axis of the table"), NIL: "stands for no vector"}
 _MESSAGES = {
     Refers.POSITION: "position {} is neither taught nor defined by `TRANS`",
     Refers.PART: "there is no part {}",
@@ -34,15 +32,14 @@ _MESSAGES = {
     Refers.COUNTER: "no `ASSIGN` sets a counter {}",
     Refers.SAVED: "no `SAVE` saves a difference {}",
 }
-_DECLARE = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
-"""Instructions that make what they name."""
+_DECLARING = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
 
 
 def check_names(
     statements: Sequence[Statement], words: ByWord, used: Used, taught: Taught
 ) -> list[Diagnostic]:
-    """Names in a script, its macros included, of what is not there, or is there twice."""
-    declared = {op: _declared(words.get(op, ())) for op in _DECLARE}
+    """Diagnostics for names, macros included, that are unknown or defined twice."""
+    declared = {op: _declared(words.get(op, ())) for op in _DECLARING}
     known = _known(declared, taught)
     unknown = [
         (name, refers) for refers, there in known.items() for name in used[refers] if name.text not in there
@@ -61,7 +58,7 @@ def check_names(
 
 
 def _swapped(statements: Sequence[Statement], known: dict[Refers, set[str]]) -> Iterator[Diagnostic]:
-    """Two names of an instruction that would be right the other way round."""
+    """Pairs of operands that would be right in the other order."""
     labels = {label.text for statement in statements for label in statement.labels}
     known = {**known, Refers.LABEL: labels}
     for statement in statements:
@@ -72,12 +69,12 @@ def _swapped(statements: Sequence[Statement], known: dict[Refers, set[str]]) -> 
                 continue
             assert statement.word is not None
             op = statement.word.text
-            yield Diagnostic(
-                code="wrong-operand",
-                message=f"{quoted(a.text)} is a {second.value} and {quoted(b.text)} a {first.value}: "
+            yield problem(
+                "wrong-operand",
+                f"{quoted(a.text)} is a {second.value} and {quoted(b.text)} a {first.value}: "
                 f"`{op}` takes them the other way round",
-                primary=Label(span=across(a, b)),
-                secondary=uses(a),
+                across(a, b),
+                *uses(a),
                 help=f"usage: `{INSTRUCTIONS[op].usage}`",
             )
 
@@ -93,7 +90,7 @@ def _error_numbers(words: ByWord) -> list[Diagnostic]:
 
 
 def _declared(statements: Iterable[Statement]) -> list[Name]:
-    """The names that stand first in statements."""
+    """First operands that are names."""
     return [name for s in statements if s.operands and isinstance(name := s.operands[0], Name)]
 
 
@@ -125,11 +122,11 @@ def _twice(names: list[Name], taught: Taught) -> list[Diagnostic]:
         else:
             continue
         found.append(
-            Diagnostic(
-                code="position-twice",
-                message=f"position {quoted(name.text)} is defined twice",
-                primary=Label(span=name.span),
-                secondary=secondary,
+            problem(
+                "position-twice",
+                f"position {quoted(name.text)} is defined twice",
+                name.span,
+                *secondary,
                 notes=notes,
             )
         )
@@ -141,14 +138,14 @@ def _vectors_twice(names: list[Name]) -> list[Diagnostic]:
     first: dict[str, Name] = {}
     for name in names:
         before = first.setdefault(name.text, name)
-        taken = _RESERVED.get(name.text)
+        taken = _BUILT_IN_VECTORS.get(name.text)
         if taken is not None or before is not name:
             found.append(
-                Diagnostic(
-                    code="vector-twice",
-                    message=f"vector {quoted(name.text)} is defined twice",
-                    primary=Label(span=name.span),
-                    secondary=() if taken else (Label(span=before.span, text="first defined here"),),
+                problem(
+                    "vector-twice",
+                    f"vector {quoted(name.text)} is defined twice",
+                    name.span,
+                    *(() if taken else (Label(span=before.span, text="first defined here"),)),
                     notes=(f"{quoted(name.text)} {taken}",) if taken else (),
                 )
             )
@@ -156,16 +153,10 @@ def _vectors_twice(names: list[Name]) -> list[Diagnostic]:
 
 
 def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagnostic:
-    said = no_units(name.text) if refers is Refers.VECTOR else None
-    if said is not None:
+    unit_help = no_units(name.text) if refers is Refers.VECTOR else None
+    if unit_help is not None:
         message = f"{quoted(name.text)} follows a number"
-        return Diagnostic(
-            code="unit-written",
-            message=message,
-            primary=Label(span=name.span),
-            secondary=uses(name),
-            help=said,
-        )
+        return problem("unit-written", message, name.span, *uses(name), help=unit_help)
     message = _MESSAGES[refers].format(quoted(name.text))
     meant = alternatives(name.text, known[refers])
     help = told_names(meant)
@@ -174,17 +165,14 @@ def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagn
         help, meant = f"{quoted(name.text)} is a {other.value}; `SAVE` saves a difference", None
     elif other is not None:
         message = f"{quoted(name.text)} is a {other.value}, not a {refers.value}"
-    primary = Label(span=name.span)
-    return Diagnostic(
-        code=_CODES[refers], message=message, primary=primary, secondary=uses(name), help=help, meant=meant
-    )
+    return problem(_CODES[refers], message, name.span, *uses(name), help=help, meant=meant)
 
 
 def _unknown_error(number: Number) -> Diagnostic:
-    return Diagnostic(
-        code="unknown-error-number",
-        message=f"nothing raises error {int(number.value)}",
-        primary=Label(span=number.span),
-        secondary=uses(number),
+    return problem(
+        "unknown-error-number",
+        f"nothing raises error {int(number.value)}",
+        number.span,
+        *uses(number),
         help="errors: " + ", ".join(map(str, sorted(ERRORS))),
     )

@@ -1,34 +1,35 @@
-"""All there is to say of a program whose statements are all right."""
+"""Checks of a whole program whose statements are all well formed."""
 
-from collections.abc import Container, Sequence
-from dataclasses import dataclass
+import re
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from typing import Final
 
 from handeye.al.checks.flow import check_flow
-from handeye.al.checks.here import check_here
 from handeye.al.checks.layout import check_layout
-from handeye.al.checks.parameters import check_parameters, unused_parameters
 from handeye.al.checks.restores import check_restores
-from handeye.al.checks.unused import check_unused, with_unused
-from handeye.al.checks.vision_requirements import check_sights
+from handeye.al.definition import Refers
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.lower import Lowered
 from handeye.al.macros import Placed
-from handeye.al.statements import ByWord, Used
-from handeye.al.syntax import Script, Statement
-from handeye.al.vectors import Vectors
-from handeye.core.diagnostics import Diagnostic
+from handeye.al.parameters import across, braced_in, parameters_in, uses
+from handeye.al.statements import ByWord, Used, Vectors, all_statements, pairs
+from handeye.al.syntax import Name, Script, Statement
+from handeye.core.diagnostics import Diagnostic, Label, alternatives, problem, quoted, told_names
 from handeye.core.source import Source
 from handeye.program.graph import Graph
+from handeye.program.program import Part
 from handeye.program.taught import Taught
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompiledScript:
-    """A script, and what has been made of it on the way to a program."""
+    """A script with the intermediate results of compiling it; `statements` has macros with parameters as called."""
 
     source: Source
     script: Script
     statements: Sequence[Statement]
-    """Those of its macros with parameters as they are called."""
     words: ByWord
     used: Used
     vectors: Vectors
@@ -37,7 +38,7 @@ class CompiledScript:
 
 
 def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]) -> list[Diagnostic]:
-    """Everything that cannot be meant in a script or on a way through it; `positions` are those taught or written."""
+    """Diagnostics of every check of a whole program; `positions` are those taught or written."""
     graph = Graph(whole.lowered.steps)
     found = check_flow(graph, whole.lowered.origins)
     found += check_sights(whole.words, taught)
@@ -50,21 +51,208 @@ def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]
 
 
 def _unused(whole: CompiledScript, found: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Things written for nothing; not those in lines that are never carried out."""
+    """Unused names, except on lines that are never carried out."""
     lost = {_line(whole.source, d) for d in found if d.code == "unreachable-code"}
     unused = [
         *unused_parameters(whole.script),
         *check_unused(whole.script, whole.statements, whole.words, whole.used, whole.source),
     ]
-    return [d for d in unused if _line(whole.source, d) not in lost and _is_for_us(whole.source, d)]
+    return [d for d in unused if _line(whole.source, d) not in lost and _is_ours(whole.source, d)]
 
 
 def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:
-    """The text a diagnostic is about, and the line in it."""
+    """File key and line of a diagnostic."""
     text, offset = source.find(diagnostic.primary.span.start)
     return text.key, text.position(offset)[0]
 
 
-def _is_for_us(source: Source, unused: Diagnostic) -> bool:
-    """A required file may make things for other scripts; what it jumps to is its own."""
+def _is_ours(source: Source, unused: Diagnostic) -> bool:
+    """False for an unused definition of a required file, which other scripts may use; its labels are its own."""
     return unused.code == "unused-label" or not _line(source, unused)[0]
+
+
+_POSITION_KINDS: Final = (Refers.POSITION, Refers.TARGET)
+
+
+def check_here(placed: Sequence[Placed], known: Container[str]) -> Iterator[Diagnostic]:
+    """An error for each use that comes before the `HERE` it needs, in text order; `known` are positions taught or
+    written.
+    """
+    defined: dict[str, int] = {}
+    for number, item in enumerate(placed):
+        word, operands = item.statement.word, item.statement.operands
+        if word is not None and word.text == "HERE" and isinstance(operands[0], Name):
+            defined.setdefault(operands[0].text, number)
+    for number, item in enumerate(placed):
+        for operand, value in pairs(item.statement):
+            if isinstance(value, Name) and operand.refers in _POSITION_KINDS and value.text not in known:
+                here = defined.get(value.text, number)
+                if here > number:
+                    yield _early(value, placed[here].statement)
+
+
+def _early(use: Name, here: Statement) -> Diagnostic:
+    return problem(
+        "position-before-here",
+        f"position {quoted(use.text)} is used before `HERE` defines it",
+        use.span,
+        Label(span=here.span, text="defined here"),
+        *uses(use),
+        help="planning follows the order of the text; a `TRANS` would give it a place",
+    )
+
+
+_DECLARED = {
+    "TRANS": ("position", (Refers.POSITION, Refers.TARGET)),
+    "VECT": ("vector", (Refers.VECTOR,)),
+}  # declaring instruction: what it declares, and how that is used
+_COMMENTED_OUT = re.compile(
+    r"""^ (?: [^\n;"] | "[^\n"]*" )* ; [ \t]* (\w+) [ \t]+ (\w+)""", re.ASCII | re.MULTILINE | re.VERBOSE
+)
+_TOO_FAR = ("search-begun-anew", "count-begun-anew")
+
+
+def check_unused(
+    script: Script, statements: Iterable[Statement], words: ByWord, used: Used, source: Source
+) -> Iterator[Diagnostic]:
+    """Warnings for unused names in a script without errors. Taught positions may be there for another script."""
+    targets = {name.text for name in used[Refers.LABEL]}
+    for statement in statements:
+        for label in statement.labels:
+            if label.text not in targets:
+                message = f"no instruction jumps to label {quoted(label.text)}"
+                yield problem("unused-label", message, label.span)
+    for op, (what, as_) in _DECLARED.items():
+        found = {name.text for refers in as_ for name in used[refers]}
+        commented = cache(partial(_in_comments, source, as_))
+        for statement in words.get(op, ()):
+            name = statement.operands[0]
+            if isinstance(name, Name) and name.text not in found:
+                line = commented().get(name.text)
+                help = None if line is None else f"on line {line} it is in a comment, after a `;`"
+                message = f"{what} {quoted(name.text)} is defined but never used"
+                yield problem(f"unused-{what}", message, name.span, help=help)
+    called = {statement.word.text for statement in all_statements(script) if statement.word is not None}
+    for word, macro in script.macros.items():
+        if word not in called:
+            yield problem("unused-macro", f"macro {quoted(word)} is never used", macro.name.span)
+
+
+def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagnostic]:
+    """All diagnostics; a jump too far back and an unused label that it may have meant are one mistake."""
+    left, merged = list(unused), []
+    for diagnostic in found:
+        if diagnostic.code in _TOO_FAR:
+            begin, end = diagnostic.secondary[0].span.start, diagnostic.primary.span.start
+            meant = [d for d in left if d.code == "unused-label" and begin < d.primary.span.start < end]
+            if len(meant) == 1:
+                left.remove(meant[0])
+                label = Label(span=meant[0].primary.span, text="nothing jumps here")
+                diagnostic = replace(diagnostic, secondary=(*diagnostic.secondary, label))
+        merged.append(diagnostic)
+    return merged + left
+
+
+def _in_comments(source: Source, refers: tuple[Refers, ...]) -> dict[str, int]:
+    """First operands of instructions in comments, with their lines."""
+    words = {i.op for i in INSTRUCTIONS.values() if i.operands and i.operands[0].refers in refers}
+    found: dict[str, int] = {}
+    for comment in _COMMENTED_OUT.finditer(source.text):
+        if comment[1].upper() in words:
+            found.setdefault(comment[2], source.position(comment.start(1))[0])
+    return found
+
+
+Need = tuple[str, Callable[[Part], bool]]  # what must be taught of a part, and whether it is
+_REGION: Final[Need] = ("`region`", lambda part: part.region is not None)
+_OUTLINE: Final[Need] = ("`outline`", lambda part: part.outline is not None)
+_HOLES: Final[Need] = ("two `holes`", lambda part: len(part.holes) >= 2)
+_NEEDS: Final = {
+    "GENERAL": (_REGION, _OUTLINE),
+    "SPECIFIC": (_HOLES,),
+    "INSPECT": (_HOLES,),
+    "MATCH": (_OUTLINE,),
+}
+
+
+def check_sights(words: ByWord, taught: Taught) -> Iterator[Diagnostic]:
+    """Diagnostics on vision instructions of a script whose names are right."""
+    for op, needs in _NEEDS.items():
+        for statement in words.get(op, ()):
+            name = statement.operands[0] if statement.operands else None
+            if isinstance(name, Name) and name.text in taught.parts:
+                yield from _not_described(op, name, needs, taught.parts)
+    yield from _not_comparable(words)
+
+
+def _not_described(
+    op: str, name: Name, needs: tuple[Need, ...], parts: Mapping[str, Part]
+) -> Iterator[Diagnostic]:
+    lacking = [what for what, has in needs if not has(parts[name.text])]
+    if lacking:
+        others = [quoted(other) for other, part in parts.items() if all(has(part) for _, has in needs)]
+        known = f"; taught in full: {', '.join(others)}" if others else ""
+        yield problem(
+            "part-not-described",
+            f"`{op}` cannot find {quoted(name.text)} without its {' and '.join(lacking)}",
+            name.span,
+            help=f"add it under `[parts.{name.text}]` in the taught file{known}",
+        )
+
+
+def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
+    """Comparisons with a picture that was not taken with `HOLD`."""
+    looks: dict[str, list[tuple[Name, bool]]] = {}
+    for look in words.get("LOOK", ()):
+        name, hold = look.operands
+        assert isinstance(name, Name)
+        looks.setdefault(name.text, []).append((name, hold is not None))
+    for comparison in (*words.get("INSPECT", ()), *words.get("MATCH", ())):
+        _, before, after = comparison.operands
+        assert isinstance(before, Name)
+        assert isinstance(after, Name)
+        taken = looks.get(after.text, [])
+        if not taken or any(held for _, held in taken):
+            continue
+        if any(held for _, held in looks.get(before.text, [])):
+            yield problem(
+                "compared-without-hold",
+                f"{quoted(before.text)} is taken with `HOLD`, after {quoted(after.text)}",
+                across(before, after),
+                help="the earlier picture comes first",
+            )
+        else:
+            yield problem(
+                "compared-without-hold",
+                f"picture {quoted(after.text)} is taken at a target voltage of its own",
+                after.span,
+                Label(span=taken[0][0].span, text="the camera sets its target voltage anew here"),
+                help=f"`LOOK {after.text} HOLD` keeps that of the earlier picture",
+            )
+
+
+def check_parameters(script: Script) -> Iterator[Diagnostic]:
+    """Warnings for braces in a text of a macro that name no parameter of it."""
+    for macro in script.macros.values():
+        known = {parameter.text for parameter in macro.parameters}
+        for name, span in (found for s in macro.body if known for found in braced_in(s)):
+            if name not in known:
+                meant = alternatives(name, known)
+                message = (
+                    f"{quoted(macro.name.text)} has no parameter {quoted(name)}: the text keeps its braces"
+                )
+                yield problem("unknown-parameter", message, span, help=told_names(meant))
+
+
+def unused_parameters(script: Script) -> Iterator[Diagnostic]:
+    """Warnings for parameters that no line of their macro uses."""
+    for macro in script.macros.values():
+        used = {name for line in macro.body for name, _ in braced_in(line)}
+        used |= {token.text for line in macro.body for token in parameters_in(line)}
+        for parameter in macro.parameters:
+            if parameter.text not in used:
+                words = {token.text for line in macro.body for token in line.tokens}
+                braces = f"in a text it stands in braces: `{{{parameter.text}}}`"
+                help = braces if parameter.text in words else None
+                message = f"parameter {quoted(parameter.text)} is never used"
+                yield problem("unused-parameter", message, parameter.span, help=help)

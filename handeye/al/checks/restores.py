@@ -1,6 +1,5 @@
-"""RESTOREs of differences that are saved, but on no way that leads to them.
-
-A difference that is saved for the very goal it is restored for follows something that moves: zero is where it starts.
+"""RESTOREs of differences that no path to them saves.\n\nA difference saved for the goal it is restored to follows
+something that moves: it starts at zero.
 """
 
 from collections.abc import Iterator
@@ -9,14 +8,14 @@ from functools import cache
 from handeye.al.lower import Lowered
 from handeye.al.parameters import uses
 from handeye.al.syntax import Name, Statement
-from handeye.core.diagnostics import Diagnostic, Label, quoted
+from handeye.core.diagnostics import Diagnostic, Label, problem, quoted
 from handeye.program.flow_operations import Save
 from handeye.program.graph import Graph
 from handeye.program.motion_operations import Move
 
 
 def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
-    """A warning for each that is at fault in every call; a name that no SAVE has is told of with the names."""
+    """Warnings for RESTOREs that are wrong in every call; names without any SAVE are left to `check_names`."""
     saves = {number: _name(lowered.origins[number]) for number in graph.which(Save)}
     first: dict[str, Name] = {}
     for save in saves.values():
@@ -44,7 +43,7 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
 
 
 def _follows(graph: Graph, move: int, name: str) -> bool:
-    """True if a difference is saved from the goal of a MOVE: on a way from it, before the next."""
+    """True if the difference is saved from the goal of this MOVE, before the next MOVE."""
     seen: set[int] = set()
     waiting = list(graph.onward[move])
     while waiting:
@@ -61,9 +60,8 @@ def _follows(graph: Graph, move: int, name: str) -> bool:
 
 
 def _saved(graph: Graph, bits: dict[int, int]) -> list[int | None]:
-    """For each step: what may have been saved before it, by the bits that steps set; None if nothing leads to it.
-
-    They flow in sweeps from the first step to the last, until nothing changes.
+    """For each step, the bit set of names that may have been saved before it; None if it is unreachable.\n\nPropagates
+    forwards through the steps until nothing changes.
     """
     before: list[int | None] = [None] * len(graph.steps)
     before[0] = 0
@@ -88,7 +86,7 @@ def _never_saved(name: Name, save: Name) -> Diagnostic:
     message = f"no `SAVE` of {quoted(name.text)} comes before this `RESTORE`: the goal is not shifted"
     here = Label(span=save.span, text="it is saved only here")
     secondary = (here, *uses(name))
-    return Diagnostic(code="never-saved", message=message, primary=Label(span=name.span), secondary=secondary)
+    return problem("never-saved", message, name.span, *secondary)
 
 
 def _name(statement: Statement) -> Name:
