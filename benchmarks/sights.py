@@ -7,9 +7,8 @@ from typing import Final
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.ports.camera import CLOSE_UP, WIDE, Picture
 from handeye.program.program import Part
-from handeye.tasks.water_pump.base_trial import base_poses
-from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.still_pump import StillPump, look, pump_base, put_base
+from handeye.tasks.water_pump.trials.still_pump import StillPump, base_poses, look, pump_base, put_base
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.vision.camera_model import View
 from handeye.vision.holes import hole_places
 

@@ -15,7 +15,7 @@ import screw_rigs  # noqa: E402
 import static_rigs  # noqa: E402
 from static_rigs import Force  # noqa: E402
 
-from handeye.tasks.water_pump.pump_world import PumpWorld  # noqa: E402
+from handeye.tasks.water_pump.world.pump_world import PumpWorld  # noqa: E402
 
 PAGE = ROOT / "docs" / "figures.md"
 BEGIN, END = "<!-- Below: docs/make_figures.py -->\n", "<!-- Above: docs/make_figures.py -->\n"

@@ -14,7 +14,7 @@ from handeye.ports.camera import Renderer
 from handeye.systems.stanford import executor_run as programs
 from handeye.systems.stanford.conditions import Conditions
 from handeye.systems.stanford.kept_calibrations import MAGIC, VERSION
-from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.vision.calibration import Calibration
 
 

@@ -11,7 +11,7 @@ from handeye.cli.common import screen
 from handeye.cli.world_options import ErrorOptions, WorldOptions
 from handeye.core.variation import DRAWING, LARGEST_SEED, Overrides, WorldSpec
 from handeye.tasks import task
-from handeye.tasks.water_pump.variation import SEVENTH, variation
+from handeye.tasks.water_pump.world.variation import SEVENTH, variation
 
 CHOSEN = ("--seed", "3", "--level", "high", "--without", "camera,base.x", "--set", "part_mass=5%")
 SPEC = {

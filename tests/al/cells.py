@@ -30,7 +30,7 @@ from handeye.core.pose import Array
 from handeye.core.units import INCH, OUNCE_INCH
 from handeye.ports.workcell import Workcell
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 SIMULATED = "the simulated cell"
 

@@ -31,7 +31,7 @@ from handeye.program.events import AnyEvent
 from handeye.program.program import Program
 from handeye.program.taught import Taught, load_taught
 from handeye.program.world_model import WorldModel
-from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.trace.account import account
 
 ROOT = Path(__file__).parents[2]

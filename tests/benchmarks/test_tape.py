@@ -12,7 +12,7 @@ from benchmarks.tape import Tape
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.sleep import asleep
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 OPENING = Drive(gap=0.08)

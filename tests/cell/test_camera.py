@@ -13,8 +13,8 @@ from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.core.errors import InvalidInput
 from handeye.ports.camera import CLOSE_UP, COLUMNS, DIGITISE, ROWS, WIDE, Renderer
-from handeye.tasks.water_pump.eye import DRAWING, LOOKS
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.vision.camera_model import View
 
 BLOCK = (0.65, 0.95, 0.0)

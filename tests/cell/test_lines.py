@@ -16,8 +16,8 @@ from handeye.core.errors import InvalidInput
 from handeye.core.resources import scenes
 from handeye.core.units import JIFFY
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.tasks.water_pump.park import PARK
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 EFFECTS = {
     "stuck": (Stuck(), [5.0, 5.0, 5.0]),

@@ -8,8 +8,8 @@ from released_arm import arm_alone
 from handeye.cell.converter import Converters, converted
 from handeye.core.units import INCH
 from handeye.core.variation import Overrides, WorldSpec
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.arm import ARM
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def world(**set: float) -> PumpWorld:

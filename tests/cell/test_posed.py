@@ -7,8 +7,8 @@ from scene_bench import Bench
 from handeye.cell.looks import SEEN
 from handeye.cell.posed import posed
 from handeye.core.pose import planar
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

@@ -14,7 +14,7 @@ from handeye.cell.state import CellState
 from handeye.core.errors import InvalidInput
 from handeye.core.units import JIFFY
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

@@ -18,7 +18,7 @@ from handeye.core.pose import hand
 from handeye.core.units import DEGREE, INCH, JIFFY
 from handeye.ports.workcell import Sensed
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 LOOSE = Drive(torque=np.zeros(6))
 

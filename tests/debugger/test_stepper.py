@@ -42,7 +42,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AtLabel, ByHand
 from handeye.systems.stanford.executor_run import context_of
-from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.vision.base import GeneralLocation
 from handeye.vision.blob import BoundingBox
 

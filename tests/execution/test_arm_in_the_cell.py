@@ -6,7 +6,7 @@ from released_arm import let_go
 
 from handeye.core.errors import WATCHDOG
 from handeye.core.units import DEGREE, INCH
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

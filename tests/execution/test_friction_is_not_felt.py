@@ -13,7 +13,7 @@ from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.program.guards import Force
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.touch.guards import monitor
 
 pytestmark = pytest.mark.slow

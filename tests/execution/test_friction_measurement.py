@@ -20,7 +20,7 @@ from handeye.execution.servo import Halted
 from handeye.execution.state import DriveState
 from handeye.tasks import task
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

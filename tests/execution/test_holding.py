@@ -9,7 +9,7 @@ from pump_bench import bench
 from handeye.core.errors import NOTHING_HELD, WRONG_THICKNESS
 from handeye.core.units import INCH
 from handeye.runs.advance import advance
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

@@ -4,7 +4,7 @@ import pytest
 from pump_bench import bench
 
 from handeye.program.events import PartSeen, to_line
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = [pytest.mark.slow, pytest.mark.render]
 

@@ -23,7 +23,7 @@ from handeye.execution.executor import Executor
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
 from handeye.program.events import AnyEvent, to_line
-from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.world.nominal import DRAWING
 
 pytestmark = pytest.mark.slow
 

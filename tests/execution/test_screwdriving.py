@@ -10,8 +10,8 @@ from handeye.core.mutable_records import copied
 from handeye.core.pose import planar, translated
 from handeye.core.units import INCH, OUNCE_INCH
 from handeye.program.events import GuardTripped, SearchAdvanced
-from handeye.tasks.water_pump.drawing import screw_holes
 from handeye.tasks.water_pump.threads import holes_of
+from handeye.tasks.water_pump.world.dimensions import screw_holes
 
 pytestmark = pytest.mark.slow
 

@@ -7,7 +7,7 @@ their senses is in `test_feeling`, `test_insertion` and `test_standard_position`
 import pytest
 from pump_bench import INSERT, SEATED, TAUGHT, at_standard, base_off, bench, shifted, stage, without
 
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

@@ -5,8 +5,8 @@ from pump_bench import Bench, at_standard, bench, shifted, stage
 
 from handeye.core.units import INCH
 from handeye.program.events import GuardTripped
-from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.referee import judge
+from handeye.tasks.water_pump.referee.findings import judge
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

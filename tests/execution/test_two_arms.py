@@ -21,8 +21,8 @@ from handeye.execution.state import DriveState
 from handeye.ports.arm import ArmPort
 from handeye.ports.clock import Clock
 from handeye.ports.workcell import Workcell
-from handeye.tasks.water_pump.park import PARK
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 SIDES = ("left/", "right/")
 

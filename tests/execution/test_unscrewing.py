@@ -20,8 +20,8 @@ from handeye.execution.undo.resistance import Resistance
 from handeye.execution.undo.way import Way, packed, unpacked
 from handeye.program.causes import ScrewFast, ScrewLost, UndoResisted
 from handeye.program.guards import GuardKind
-from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.threads import holes_of
+from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.touch.guards import Reading, Trip
 
 pytestmark = pytest.mark.slow

@@ -9,7 +9,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.state import Found
 from handeye.execution.vision_actions import just_found
 from handeye.program.causes import NoGasket, PartAstray
-from handeye.tasks.water_pump.park import PARK
+from handeye.tasks.water_pump.world.nominal import PARK
 from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
 from handeye.vision.blob import BoundingBox
 from handeye.vision.gasket import GasketInspection

@@ -37,7 +37,7 @@ from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS
 from handeye.runs.runner import Runner
 from handeye.tasks import task
-from handeye.tasks.water_pump.referee import judge
+from handeye.tasks.water_pump.referee.findings import judge
 from handeye.trace.account import account
 from handeye.trials.chaos.sound_run import with_faults
 

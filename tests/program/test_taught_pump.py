@@ -7,8 +7,13 @@ from handeye.core.pose import planar
 from handeye.core.resources import plans
 from handeye.program.program import Part
 from handeye.program.taught import load_taught
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, dispenser_places, screw_holes, standard
+from handeye.tasks.water_pump.world.dimensions import (
+    base_top,
+    dimensions,
+    dispenser_places,
+    screw_holes,
+    standard,
+)
 
 TAUGHT = load_taught(plans() / "water_pump.toml")
 

@@ -11,8 +11,8 @@ from player_bytes import Unpacked
 
 from handeye.report.player.scene import lowest, scene_bytes
 from handeye.report.player.surfaces import Surface, surface
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import dressed
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 SCENE = """
 <mujoco>

@@ -21,8 +21,8 @@ from handeye.runs.snapshot import Checkpoint
 from handeye.systems.stanford import executor_run as programs
 from handeye.systems.stanford.conditions import conditions_of
 from handeye.systems.stanford.kept_calibrations import KeptCalibrations
-from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.task import WaterPump
+from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS
 from handeye.vision.calibration import Calibration
 
 pytestmark = pytest.mark.slow

@@ -19,8 +19,7 @@ from handeye.program.cause_text import call_sentence
 from handeye.program.events import ErrorRaised, Event, StepStarted
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught
-from handeye.tasks.water_pump.eye import DRAWING
-from handeye.tasks.water_pump.park import PARK
+from handeye.tasks.water_pump.world.nominal import DRAWING, PARK
 
 Kind = TypeVar("Kind", bound=Event)
 

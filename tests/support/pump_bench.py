@@ -30,10 +30,9 @@ from handeye.program.events import ErrorRaised, Event, OperatorCalled, SearchAdv
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught, load_taught
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard
-from handeye.tasks.water_pump.eye import DRAWING
-from handeye.tasks.water_pump.pump_world import Placing, PumpWorld
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, screw_holes, standard
+from handeye.tasks.water_pump.world.nominal import DRAWING
+from handeye.tasks.water_pump.world.pump_world import Placing, PumpWorld
 
 Kind = TypeVar("Kind", bound=Event)
 

@@ -5,10 +5,9 @@ import numpy as np
 
 from handeye.core.pose import Pose, planar
 from handeye.core.units import DEGREE, INCH
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, screw_holes, standard
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 PARKED = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [1, 1, INCH / DEGREE, 1, 1, 1] * DEGREE
 FREE = ("base", "gasket", "top", "pin0", "pin1", "driver", *(f"screw{k}" for k in range(6)))

@@ -8,7 +8,7 @@ import numpy as np
 from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.program import Hole, Part
-from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.vision.camera_model import View
 from handeye.vision.holes import hole_places
 

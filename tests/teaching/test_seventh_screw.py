@@ -17,9 +17,9 @@ from handeye.planfile.store import read_plan
 from handeye.planning.planner import make_plan
 from handeye.program.program import Position
 from handeye.program.taught import load_taught
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.threads import holes_of
-from handeye.tasks.water_pump.variation import SEVENTH
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.variation import SEVENTH
 
 pytestmark = pytest.mark.slow
 

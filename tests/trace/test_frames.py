@@ -10,8 +10,8 @@ from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.park import PARK
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.trace.frames import Frames
 
 SCENE_LIMIT = 300_000  # bytes: what a trace may grow by to show shapes and not only axes

@@ -12,7 +12,7 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.tasks import task
-from handeye.tasks.water_pump.disturbances import FAR, THIN, bystanders
+from handeye.tasks.water_pump.faults.after import FAR, THIN, bystanders
 from handeye.trials import disturbing
 from handeye.trials.disturbing import Disturbed, disturbances_of, disturbed
 

@@ -7,7 +7,7 @@ import pytest
 
 from handeye.core.errors import InvalidInput
 from handeye.core.units import DEGREE, INCH
-from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.vision.calibration import Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from handeye.core.errors import InvalidInput
 from handeye.core.units import DEGREE, INCH
-from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.vision.camera_model import CENTRE, CameraModel, LensModel
 
 TILTED = CameraModel(

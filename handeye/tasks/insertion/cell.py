@@ -9,8 +9,8 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.tasks.insertion.scene import build
 from handeye.tasks.insertion.witness import Witness
 from handeye.tasks.insertion.world import BenchWorld
-from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.scene.arm import ARM
+from handeye.tasks.water_pump.world.nominal import PARK
 
 
 class InsertionCell(SimulatedCell):

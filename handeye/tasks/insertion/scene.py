@@ -11,10 +11,9 @@ from handeye.core.pose import Array
 from handeye.core.resources import scenes
 from handeye.core.units import INCH
 from handeye.tasks.insertion.world import BenchWorld
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, pin_seat
 from handeye.tasks.water_pump.scene.arm import add_arm
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, pin_seat
 
 HOLE: Final = (25 * INCH, 38 * INCH)
 """Where the program was taught that the hole is, m: among those of the pump's base."""

@@ -11,8 +11,8 @@ from handeye.judge.finding import Findings, at_most
 from handeye.tasks.inserting import Inserting, Witnessed
 from handeye.tasks.insertion.world import VARIATION, BenchWorld
 from handeye.tasks.interface import Words
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.park import PARK
+from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.water_pump.world.nominal import PARK
 
 if TYPE_CHECKING:
     import mujoco

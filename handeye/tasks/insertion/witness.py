@@ -9,7 +9,7 @@ import numpy as np
 from handeye.cell.stepper import Stepper
 from handeye.core.pose import Array
 from handeye.tasks.insertion.scene import FACE, PUSH
-from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.world.dimensions import dimensions
 
 SEATED: Final = 2e-4
 """Height of the shoulder over the face up to which a pin is seated, m. Chosen: a hundredth of its way."""

@@ -6,8 +6,8 @@ from typing import Final, Self
 from handeye.core.distributions import Normal, Range
 from handeye.core.variation import Quantity, Variation, World, WorldSpec
 from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD
-from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.variation import variation as pump_variation
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.variation import variation as pump_variation
 
 REACH: Final = 40.0
 """How far off the hole can be along an axis, mm."""

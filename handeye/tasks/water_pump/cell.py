@@ -13,14 +13,13 @@ from handeye.cell.rendering import RendererMaker
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.simulated import SimulatedCell
 from handeye.tasks.water_pump.clamping import Clamping
-from handeye.tasks.water_pump.device_faults import defects
-from handeye.tasks.water_pump.eye import DRAWING
-from handeye.tasks.water_pump.mishaps import Mishaps, due
-from handeye.tasks.water_pump.park import PARK
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.faults.devices import defects
+from handeye.tasks.water_pump.faults.during import Mishaps, due
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.threads import Threads
+from handeye.tasks.water_pump.world.nominal import DRAWING, PARK
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: bool = True) -> SimulatedCell:

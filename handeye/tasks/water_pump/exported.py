@@ -15,11 +15,11 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, inverse
 from handeye.core.resources import scenes
 from handeye.tasks.interface import ExportedScene
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import specification
 from handeye.tasks.water_pump.scene.textures import add_textures
 from handeye.tasks.water_pump.threads import holes_of
+from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 RENAMED: Final = {"pin0": "pin1", "pin1": "pin2"}
 """Names of the scene, and what is exported by another: joints, too, have the names of their bodies."""

@@ -12,13 +12,12 @@ from handeye.judge.finding import Findings
 from handeye.program.program import Fixture, Program
 from handeye.program.senses import Sense
 from handeye.tasks.interface import Disturbance, ExportedScene, Eye, Period, Predicted, Task, Words
-from handeye.tasks.water_pump.base_trial import BaseTrial
-from handeye.tasks.water_pump.eye import DRAWING, LOOKS
-from handeye.tasks.water_pump.gasket_trial import GasketTrial
-from handeye.tasks.water_pump.park import PARK
-from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.stations import planned_fixtures
-from handeye.tasks.water_pump.variation import variation
+from handeye.tasks.water_pump.trials.base import BaseTrial
+from handeye.tasks.water_pump.trials.gasket import GasketTrial
+from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS, PARK
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.stations import planned_fixtures
+from handeye.tasks.water_pump.world.variation import variation
 
 if TYPE_CHECKING:
     import mujoco
@@ -69,7 +68,7 @@ class WaterPump(Task):
         return variation(seed)
 
     def faults(self, seed: int) -> Catalogue:
-        from handeye.tasks.water_pump.catalogue import catalogue
+        from handeye.tasks.water_pump.faults.catalogue import catalogue
 
         return catalogue(seed)
 
@@ -96,22 +95,22 @@ class WaterPump(Task):
         return exported(PumpWorld.draw(world), truth, keyframe)
 
     def disturbances(self) -> tuple[Disturbance, ...]:
-        from handeye.tasks.water_pump.disturbances import disturbances
+        from handeye.tasks.water_pump.faults.after import disturbances
 
         return disturbances()
 
     def bystanders(self, truth: Truth) -> Mapping[str, Array]:
-        from handeye.tasks.water_pump.disturbances import bystanders
+        from handeye.tasks.water_pump.faults.after import bystanders
 
         return bystanders(truth)
 
     def judge(self, truth: Truth) -> Findings:
-        from handeye.tasks.water_pump.referee import judge
+        from handeye.tasks.water_pump.referee.findings import judge
 
         return judge(truth)
 
     def judge_apart(self, truth: Truth) -> Findings:
-        from handeye.tasks.water_pump.apart import judge_apart
+        from handeye.tasks.water_pump.referee.findings import judge_apart
 
         return judge_apart(truth)
 

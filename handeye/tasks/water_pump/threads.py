@@ -25,8 +25,8 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Array, Pose, pose, translated
 from handeye.core.record import Record
 from handeye.tasks.water_pump.carriers import Carriers
-from handeye.tasks.water_pump.part_faults import crossing_threads, scarred_threads, slipping_screws
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.faults.before import crossing_threads, scarred_threads, slipping_screws
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 CAPTURE: Final = 0.0004  # m, tip to axis. The bore leaves the point .35 mm of play.
 START_DEPTH: Final = 0.00127  # m, tip below the mouth: one turn of the thread.

@@ -13,8 +13,8 @@ from handeye.tasks.insertion.scene import CORNERS, FACE, HOLE, build
 from handeye.tasks.insertion.task import INSERTION
 from handeye.tasks.insertion.witness import SEATED, Witness, shoulder, tip
 from handeye.tasks.insertion.world import BenchWorld
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.park import PARK
+from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.water_pump.world.nominal import PARK
 
 WORLD = WorldSpec(seed=0, overrides=Overrides(set={"plate.x": 0.0, "plate.y": 0.0}))
 PUSH = 12.0

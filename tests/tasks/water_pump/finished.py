@@ -14,12 +14,11 @@ from handeye.core.pose import Pose, planar, pose, translated
 from handeye.core.units import JIFFY
 from handeye.judge.measured import Measured
 from handeye.runs.exhibit import Exhibit
-from handeye.tasks.water_pump import limits
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, standard
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.threads import Threads
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, standard
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 TIGHTENING = 0.30  # N m
 

@@ -16,10 +16,9 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, hand, inverse, planar, pose, rotation, rotation_x, translated
 from handeye.core.units import DEGREE
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import screw_holes, standard
-from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.threads import ThreadsState, holes_of
+from handeye.tasks.water_pump.world.dimensions import dimensions, screw_holes, standard
+from handeye.tasks.water_pump.world.nominal import PARK
 
 MM = 1e-3
 PUMP = ("base", "gasket", "top")

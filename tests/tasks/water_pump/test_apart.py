@@ -6,9 +6,9 @@ import pytest
 
 from handeye.core.pose import rotation_z
 from handeye.judge.finding import Findings, all_right
-from handeye.tasks.water_pump.apart import judge_apart
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.referee.findings import judge_apart
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

@@ -8,10 +8,10 @@ import pytest
 from handeye.core.units import INCH
 from handeye.core.variation import WorldSpec
 from handeye.program.cause_text import cause_sentence
-from handeye.tasks.water_pump.base_trial import BaseTrial
-from handeye.tasks.water_pump.gasket_trial import ABSENT, RIGHT, SHIFTED, GasketTrial
-from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.still_pump import StillPump, locate, look, pump_base
+from handeye.tasks.water_pump.trials.base import BaseTrial
+from handeye.tasks.water_pump.trials.gasket import ABSENT, RIGHT, SHIFTED, GasketTrial
+from handeye.tasks.water_pump.trials.still_pump import StillPump, locate, look, pump_base
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.vision.base import Failure, SpecificLocation, locate_specific
 from handeye.vision.drawing import annotate
 from handeye.vision.marks import marks

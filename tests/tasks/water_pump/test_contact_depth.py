@@ -12,7 +12,7 @@ import numpy as np
 
 from handeye.core.pose import Array
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 ITS_OWN = 1e-6  # m, MuJoCo's tolerance where a scene does not say
 PLACES = 1000

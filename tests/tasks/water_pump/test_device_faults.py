@@ -17,11 +17,11 @@ from handeye.planfile.store import read_plan
 from handeye.program.flow_operations import Wait
 from handeye.program.motion_operations import Move
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.device_faults import defects, device_faults
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.noticing import EXPECTED, PINNED, SCREWED, expected
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.faults.devices import defects, device_faults
+from handeye.tasks.water_pump.faults.expected_detection import EXPECTED, PINNED, SCREWED, expected
 from handeye.tasks.water_pump.task import WATER_PUMP
+from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 PROGRAM = read_plan(plans() / "water_pump.plan.json").program
 CALLS = {step.operation.message for step in PROGRAM.steps if isinstance(step.operation, Wait)}

@@ -18,10 +18,10 @@ from handeye.core.pose import Array
 from handeye.ports.camera import CLOSE_UP, WIDE
 from handeye.report.player.surfaces import surface
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.eye import DRAWING
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build, dressed
-from handeye.tasks.water_pump.scene.bevels import bevelled
+from handeye.tasks.water_pump.scene.dressing import bevelled
+from handeye.tasks.water_pump.world.nominal import DRAWING
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

@@ -18,12 +18,11 @@ from handeye.core.variation import WorldSpec
 from handeye.results.exported_scene import scene_files
 from handeye.results.exported_solids import exported_solids
 from handeye.runs.exhibit import drawn
-from handeye.tasks.water_pump import limits
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top
 from handeye.tasks.water_pump.exported import RENAMED
-from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.referee import judge
+from handeye.tasks.water_pump.referee import limits
+from handeye.tasks.water_pump.referee.findings import judge
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

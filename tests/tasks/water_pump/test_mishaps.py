@@ -10,9 +10,9 @@ from handeye.core.errors import InvalidInput
 from handeye.core.pose import Array
 from handeye.core.variation import WorldSpec
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.mishaps import LIFTED, MOVE, PUSH, MishapsState, mishap_faults
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.faults.during import LIFTED, MOVE, PUSH, MishapsState, mishap_faults
 from handeye.tasks.water_pump.task import WATER_PUMP
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 PERIOD = 1 / 60
 

@@ -11,10 +11,10 @@ from handeye.core.faults import Fault
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
-from handeye.tasks.water_pump.part_faults import GONE, METAL, part_faults, scarred_threads
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.faults.before import GONE, METAL, part_faults, scarred_threads
 from handeye.tasks.water_pump.scene import build
-from handeye.tasks.water_pump.variation import SEVENTH
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.variation import SEVENTH
 
 pytestmark = pytest.mark.slow
 

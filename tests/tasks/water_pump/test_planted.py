@@ -6,8 +6,8 @@ from planted import right, wrong
 
 from handeye.cell.truth import Truth
 from handeye.judge.finding import all_right
-from handeye.tasks.water_pump import limits, measure
-from handeye.tasks.water_pump.referee import judge
+from handeye.tasks.water_pump.referee import limits, measure
+from handeye.tasks.water_pump.referee.findings import judge
 
 pytestmark = pytest.mark.slow
 

@@ -19,9 +19,6 @@ from handeye.planfile.plan import Plan
 from handeye.program.program import Program
 from handeye.runs.scripts import default_script, plan_script
 from handeye.tasks import task
-from handeye.tasks.water_pump.drawing import web_centre
-from handeye.tasks.water_pump.eye import DRAWING, LOOKS
-from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.prediction import eye, layers, pins, screws
 from handeye.tasks.water_pump.prediction.assembly import Assembly
 from handeye.tasks.water_pump.prediction.hands import Hands
@@ -29,8 +26,10 @@ from handeye.tasks.water_pump.prediction.poses import placed
 from handeye.tasks.water_pump.prediction.predict import predict
 from handeye.tasks.water_pump.prediction.things import drawn_on_stand, standing_base
 from handeye.tasks.water_pump.prediction.worlds import Worlds
-from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.variation import variation
+from handeye.tasks.water_pump.world.dimensions import web_centre
+from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS, PARK
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.variation import variation
 from handeye.vision.calibration import Sighting, calibrate, moved
 
 HIGH = WorldSpec(seed=3, level="high")

@@ -14,10 +14,10 @@ from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import Level, Overrides, WorldSpec
 from handeye.judge.measured import Measured, tilt
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.overlap import deepest
-from handeye.tasks.water_pump.pump_world import Placing, PumpWorld
+from handeye.tasks.water_pump.referee.measure import deepest
 from handeye.tasks.water_pump.scene import build
-from handeye.tasks.water_pump.variation import BELT_X, BELT_Y, DRILLED, SEVENTH, STOOD, variation
+from handeye.tasks.water_pump.world.pump_world import Placing, PumpWorld
+from handeye.tasks.water_pump.world.variation import BELT_X, BELT_Y, DRILLED, SEVENTH, STOOD, variation
 
 NEAR = np.array([-25.0, 105.0, 0.0, 0.0, 75.0, 20.0]) * DEGREE + np.array([0, 0, 31 * INCH, 0, 0, 0])
 

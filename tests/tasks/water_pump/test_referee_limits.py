@@ -22,12 +22,11 @@ from handeye.core.resources import plans
 from handeye.core.units import DEGREE
 from handeye.judge.finding import Findings
 from handeye.judge.measured import Measured
-from handeye.tasks.water_pump import limits, measure
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top
-from handeye.tasks.water_pump.measure import head_force
-from handeye.tasks.water_pump.referee import judge
+from handeye.tasks.water_pump.referee import limits, measure
+from handeye.tasks.water_pump.referee.findings import judge
+from handeye.tasks.water_pump.referee.measure import head_force
 from handeye.tasks.water_pump.threads import ThreadsState, holes_of
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions
 
 pytestmark = pytest.mark.slow
 

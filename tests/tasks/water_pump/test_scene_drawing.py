@@ -8,13 +8,19 @@ from scene_bench import Bench
 from handeye.core.errors import InvalidInput
 from handeye.core.pose import planar
 from handeye.core.units import INCH
-from handeye.tasks.water_pump.dimensions import dimensions, parse
-from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard, web_centre
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.scene.shapes import Bore
-from handeye.tasks.water_pump.stations import Station
+from handeye.tasks.water_pump.world.dimensions import (
+    base_top,
+    dimensions,
+    parse,
+    screw_holes,
+    standard,
+    web_centre,
+)
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.stations import Station
 
 
 @pytest.fixture(scope="module")

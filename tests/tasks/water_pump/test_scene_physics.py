@@ -5,9 +5,8 @@ import pytest
 from scene_bench import FREE, Bench, pinned_base, shift
 
 from handeye.core.pose import planar, translated
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, pin_seat, screw_holes, standard
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, pin_seat, screw_holes, standard
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 @pytest.mark.slow

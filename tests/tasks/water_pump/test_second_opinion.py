@@ -16,8 +16,8 @@ from handeye.runs.checkpoint_file import write_checkpoint
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.tasks.water_pump import limits, measure
-from handeye.tasks.water_pump.referee import judge
+from handeye.tasks.water_pump.referee import limits, measure
+from handeye.tasks.water_pump.referee.findings import judge
 
 pytestmark = pytest.mark.slow
 

@@ -23,9 +23,8 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.core.pose import Array, hand, planar, translated
 from handeye.core.units import INCH
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard, web_centre
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, screw_holes, standard, web_centre
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 

@@ -17,9 +17,8 @@ from handeye.program.findings import RunsInto
 from handeye.program.taught import Taught
 from handeye.runs.scripts import taught
 from handeye.tasks import task
-from handeye.tasks.water_pump import stations, variation
-from handeye.tasks.water_pump.dimensions import Dimensions, parse
-from handeye.tasks.water_pump.drawing import Point
+from handeye.tasks.water_pump.world import stations, variation
+from handeye.tasks.water_pump.world.dimensions import Dimensions, Point, parse
 
 ENTRY = """
 [stations.tool_tray]

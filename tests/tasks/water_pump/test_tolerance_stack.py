@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from handeye.core.resources import scenes
-from handeye.tasks.water_pump.variation import variation
+from handeye.tasks.water_pump.world.variation import variation
 
 pytestmark = pytest.mark.slow
 

@@ -8,8 +8,8 @@ from conftest import Command
 
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
-from handeye.tasks.water_pump.base_trial import BaseAttempt, BaseTrial
-from handeye.tasks.water_pump.gasket_trial import ABSENT, DOUBLED, RIGHT, SHIFTED, GasketAttempt, GasketTrial
+from handeye.tasks.water_pump.trials.base import BaseAttempt, BaseTrial
+from handeye.tasks.water_pump.trials.gasket import ABSENT, DOUBLED, RIGHT, SHIFTED, GasketAttempt, GasketTrial
 
 CASES = (RIGHT, SHIFTED, ABSENT, DOUBLED)
 

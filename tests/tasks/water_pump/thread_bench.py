@@ -12,8 +12,8 @@ from handeye.cell.watchdog import Watchdog
 from handeye.core.faults import Fault
 from handeye.core.pose import Pose, pose
 from handeye.core.units import JIFFY
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.threads import Thread, Threads
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 MOUTH = 0.05  # m, height of the hole's mouth
 LENGTH, HEAD = 0.01905, 0.004  # m, screw under the head; head

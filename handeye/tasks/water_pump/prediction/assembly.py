@@ -12,11 +12,11 @@ from handeye.program.program import Program
 from handeye.program.senses import Sense
 from handeye.program.world_model import WorldModel
 from handeye.tasks.interface import Predicted
-from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.prediction.hands import Hands
 from handeye.tasks.water_pump.prediction.instructions import Way, ways
 from handeye.tasks.water_pump.prediction.poses import moved
 from handeye.tasks.water_pump.prediction.worlds import Worlds
+from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.touch.spiral import line, spiral
 
 _UP: Final = (0.0, 0.0, 1.0)

@@ -14,10 +14,10 @@ import numpy as np
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import Array, hand
 from handeye.ports.camera import CLOSE_UP
-from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.prediction.hands import Hands
 from handeye.tasks.water_pump.prediction.poses import points
 from handeye.tasks.water_pump.prediction.worlds import Worlds
+from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS
 from handeye.vision.calibration import (
     PLACE_PRIOR,
     SCALE_PRIOR,

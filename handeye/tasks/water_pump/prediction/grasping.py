@@ -5,11 +5,10 @@ from typing import Final
 import numpy as np
 
 from handeye.core.pose import Array, inverse, planar
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top
 from handeye.tasks.water_pump.prediction.assembly import Assembly
 from handeye.tasks.water_pump.prediction.eye import seen_off
 from handeye.tasks.water_pump.prediction.poses import moved, points
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions
 
 _WAYS: Final = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 _STEP: Final = 2e-4  # m: how finely the room of a finger is measured

@@ -9,9 +9,9 @@ from handeye.arm.ik import branches, solve
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import Array, Pose
-from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.prediction.poses import moved
 from handeye.tasks.water_pump.prediction.worlds import Worlds
+from handeye.tasks.water_pump.world.nominal import PARK
 
 _WHOLE: Final = 2 * np.pi
 

@@ -6,9 +6,6 @@ import numpy as np
 
 from handeye.core.pose import Array, inverse, planar
 from handeye.program.motion_operations import Height, Travel
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, web_centre
-from handeye.tasks.water_pump.limits import SOFT
 from handeye.tasks.water_pump.prediction.assembly import Assembly
 from handeye.tasks.water_pump.prediction.poses import inverses, points
 from handeye.tasks.water_pump.prediction.things import (
@@ -18,6 +15,8 @@ from handeye.tasks.water_pump.prediction.things import (
     pinned,
     standing_base,
 )
+from handeye.tasks.water_pump.referee.limits import SOFT
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, web_centre
 
 _SWEEPS: Final = 30
 """In which a layer finds its place between two pins; the last ones move nothing by a micrometre."""

@@ -7,11 +7,10 @@ import numpy as np
 
 from handeye.core.pose import Array
 from handeye.program.motion_operations import Travel
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, pin_seat
 from handeye.tasks.water_pump.prediction.assembly import Assembly
 from handeye.tasks.water_pump.prediction.poses import inverses, moved, points
 from handeye.tasks.water_pump.prediction.things import mouth, pin_in_holder, pinned, seat_in_holder
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, pin_seat
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

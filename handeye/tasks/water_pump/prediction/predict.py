@@ -13,13 +13,12 @@ from handeye.program.motion_operations import Travel
 from handeye.program.program import Program
 from handeye.program.senses import Sense
 from handeye.tasks.interface import Predicted
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, standard
 from handeye.tasks.water_pump.prediction import grasping, layers, pins, screws
 from handeye.tasks.water_pump.prediction.assembly import Assembly
 from handeye.tasks.water_pump.prediction.poses import points
 from handeye.tasks.water_pump.prediction.things import standing_base
 from handeye.tasks.water_pump.prediction.worlds import Worlds
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, standard
 
 GOALS: Final = (
     "A", "B", *(goal for pin in pins.PINS for goal in pin.positions), "GUP", "GON", "TOPON", "FACE", "D",

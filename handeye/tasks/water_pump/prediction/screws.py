@@ -8,11 +8,11 @@ import numpy as np
 
 from handeye.core.pose import Array
 from handeye.program.motion_operations import Height, Travel
-from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.prediction.assembly import Assembly
 from handeye.tasks.water_pump.prediction.poses import inverses, moved, points
 from handeye.tasks.water_pump.prediction.things import driver_in_rack, mouth, rack_seat, screw_head
 from handeye.tasks.water_pump.threads import SQUARE
+from handeye.tasks.water_pump.world.dimensions import dimensions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,19 +3,19 @@
 import numpy as np
 
 from handeye.core.pose import Array, planar
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import (
+from handeye.tasks.water_pump.prediction.poses import placed, points
+from handeye.tasks.water_pump.prediction.worlds import Worlds
+from handeye.tasks.water_pump.world.dimensions import (
     Point,
     base_top,
+    dimensions,
     dispenser_places,
     pin_seat,
     screw_holes,
     standard,
     web_centre,
 )
-from handeye.tasks.water_pump.prediction.poses import placed, points
-from handeye.tasks.water_pump.prediction.worlds import Worlds
-from handeye.tasks.water_pump.stations import Station
+from handeye.tasks.water_pump.world.stations import Station
 
 _LEVEL = ("x", "y", "yaw")
 _TILTED = (*_LEVEL, "z", "pitch", "roll")

@@ -11,7 +11,7 @@ from handeye.core.pose import Array
 from handeye.core.random_streams import streams
 from handeye.core.units import UNITS
 from handeye.core.variation import WorldSpec
-from handeye.tasks.water_pump.variation import ARM_CENTRE, ARM_PERIOD, JOINT_UNITS, variation
+from handeye.tasks.water_pump.world.variation import ARM_CENTRE, ARM_PERIOD, JOINT_UNITS, variation
 
 
 class Worlds:

@@ -5,8 +5,7 @@ from typing import Final
 import mujoco
 
 from handeye.core.resources import scenes
-from handeye.tasks.water_pump.part_faults import break_parts
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.faults.before import break_parts
 from handeye.tasks.water_pump.scene.arm import add_arm
 from handeye.tasks.water_pump.scene.base import add_base
 from handeye.tasks.water_pump.scene.cover import add_gasket, add_merging, add_top
@@ -16,6 +15,7 @@ from handeye.tasks.water_pump.scene.fixtures import add_blocks, add_plain_statio
 from handeye.tasks.water_pump.scene.room import add_room
 from handeye.tasks.water_pump.scene.shapes import Shaper
 from handeye.tasks.water_pump.scene.tool import add_driver
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 _METAL: Final = (
     "solid", "grip", "bore", "tap", "face", "hub", "shank", "shoulder", "threaded", "nose", "head",

@@ -10,7 +10,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.device_errors import ArmBuild
 from handeye.core.pose import Array, yaw
 from handeye.core.resources import scenes
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 ARM: Final = "stanford/"
 """Prefix of all names of the arm."""

@@ -5,12 +5,11 @@ from collections.abc import Sequence
 
 import mujoco
 
-from handeye.tasks.water_pump.dimensions import Dimensions, dimensions
-from handeye.tasks.water_pump.drawing import Point, web_centre
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.fixtures import add_gasket_stand, add_top_stand
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
+from handeye.tasks.water_pump.world.dimensions import Dimensions, Point, dimensions, web_centre
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def add_gasket(shaper: Shaper, world: PumpWorld) -> None:

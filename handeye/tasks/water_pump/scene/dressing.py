@@ -3,14 +3,23 @@
 It touches nothing, weighs nothing, and lies in a group that the television camera leaves out.
 """
 
+import math
+from itertools import product
 from typing import Final
 
-from handeye.tasks.water_pump.scene.bevels import add_bevels
-from handeye.tasks.water_pump.scene.boom_cables import add_boom_cables
-from handeye.tasks.water_pump.scene.machine_room import add_reels, add_teletype
-from handeye.tasks.water_pump.scene.shapes import Shaper
+import mujoco
+import numpy as np
+from manifold3d import Manifold  # type: ignore[import-not-found]  # stubs, but no marker
+
+from handeye.cell.clock_hands import TURNS
+from handeye.cell.looks import BOX, PLAIN, SEEN
+from handeye.core.pose import Array
+from handeye.tasks.water_pump.scene import solids
+from handeye.tasks.water_pump.scene.arm import ARM
+from handeye.tasks.water_pump.scene.room import LEFT, cabinet
+from handeye.tasks.water_pump.scene.shapes import Shaper, Vector
 from handeye.tasks.water_pump.scene.textures import add_textures
-from handeye.tasks.water_pump.scene.wall_clock import add_clock
+from handeye.tasks.water_pump.world.dimensions import dimensions
 
 _MATERIALS: Final = {
     "case": (0.70, 0.66, 0.55, 0.25),
@@ -31,3 +40,179 @@ def dress(shaper: Shaper) -> None:
     add_clock(shaper)
     add_boom_cables(shaper)
     add_bevels(shaper)
+
+
+_REEL: Final = 0.100
+"""Radius of a reel, m."""
+_TELETYPE: Final = (-1.70, -0.55)
+"""Where the teletype stands, m."""
+_TURN: Final = [math.cos(math.radians(-5)), 0.0, 0.0, math.sin(math.radians(-5))]
+"""How it is turned: towards people's lamp, for faces that are nearly in line with its light are full of specks."""
+
+
+def add_reels(shaper: Shaper) -> None:
+    """Two tape drives: a pair of reels in the upper panels of two cabinets, one nearly full, and the heads below."""
+    body = shaper.spec.worldbody
+    for drive in (0, 1):
+        (left, front, _), (right, _, top) = cabinet(drive)
+        middle, z = (left + right) / 2, top - 0.45
+        for side, tape in ((-1, 0.085), (1, 0.060)):
+            _add_reel(
+                shaper, f"{2 * drive + (side + 1) // 2}", (middle + side * 0.128, front + 0.006, z), tape
+            )
+        low, high = (middle - 0.05, front, z - 0.19), (middle + 0.05, front + 0.02, z - 0.135)
+        shaper.box(body, "scenery", low, high, "steel", f"tape_heads{drive}")
+
+
+def _add_reel(shaper: Shaper, number: str, at: Vector, tape: float) -> None:
+    """A reel with its axis along y, on a deck at `at`, with tape to a radius (m)."""
+    body, (x, y, z) = shaper.spec.worldbody, at
+    shaper.cylinder(body, "scenery", tape, (x, y, z), (x, y + 0.012, z), "tape", f"tape{number}")
+    shaper.cylinder(body, "scenery", 0.024, (x, y, z), (x, y + 0.024, z), "black", f"tape_hub{number}")
+    shaper.scenery(body, "tape_reel", "reel", _flange(), (x, y + 0.012, z)).name = f"tape_reel{number}"
+
+
+def _flange() -> solids.Surface:
+    """The front flange of a reel, with three windows, its axis along y."""
+    disc = solids.disc(_REEL)
+    for k in range(3):
+        angle = 2 * math.pi * k / 3 + 0.5
+        disc -= solids.disc(0.030, 0.060 * math.cos(angle), 0.060 * math.sin(angle), 24)
+    return solids.surface(solids.extruded(disc, 0.0, 0.003).rotate((-90.0, 0.0, 0.0)))
+
+
+def add_teletype(shaper: Shaper) -> None:
+    """A teletype on its stand, with keyboard, platen and paper, and a punch for paper tape; it looks along its x."""
+    place = (*_TELETYPE, -dimensions()("table.height"))
+    body = shaper.spec.worldbody.add_body(name="teletype", pos=place, quat=_TURN)
+    shaper.scenery(body, "teletype_case", "case", _case())
+    shaper.scenery(body, "teletype_keys", "black", _keys())
+    for name, low, high, material in (
+        ("teletype_stand", (-0.15, -0.20, 0.02), (0.12, 0.16, 0.60), "case"),
+        ("teletype_foot", (-0.22, -0.24, 0.0), (0.22, 0.20, 0.03), "iron"),
+        ("tape_punch", (-0.14, 0.20, 0.62), (0.14, 0.33, 0.74), "case"),
+        ("printout", (-0.05, -0.18, 0.80), (-0.042, 0.12, 1.00), "paper"),
+    ):
+        shaper.box(body, "scenery", low, high, material, name)
+    shaper.cylinder(body, "scenery", 0.05, (0.02, 0.27, 0.74), (0.02, 0.27, 0.765), "paper", "paper_tape")
+    shaper.cylinder(body, "scenery", 0.030, (-0.01, -0.20, 0.805), (-0.01, 0.14, 0.805), "black", "platen")
+
+
+def _case() -> solids.Surface:
+    """The case of a teletype, its keyboard sloping down along x."""
+    profile = [
+        (-0.22, 0.60),
+        (0.30, 0.60),
+        (0.30, 0.655),
+        (0.12, 0.70),
+        (0.06, 0.80),
+        (-0.16, 0.82),
+        (-0.22, 0.79),
+    ]
+    return solids.surface(solids.prism(profile, -0.26, 0.20))
+
+
+def _keys() -> solids.Surface:
+    """Four rows of keys on the slope of the keyboard."""
+    key = solids.extruded(solids.disc(0.0075, segments=8), 0.0, 0.012)
+    return solids.surface(
+        Manifold.compose(
+            [
+                key.translate((0.285 - 0.04 * row, -0.22 + 0.028 * place + 0.007 * row, 0.655 + 0.010 * row))
+                for row in range(4)
+                for place in range(13)
+            ]
+        )
+    )
+
+
+_X, _Y, _Z = LEFT + 0.03, 0.30, 0.56
+"""Middle of the clock, m; who looks at it has y on the right and z above."""
+_UPRIGHT: Final = [0.5, 0.5, 0.5, 0.5]
+"""Quaternion of a frame whose z is away from the wall, and whose y is up."""
+_HANDS: Final = {
+    "hour": (43200.0, 0.085, 0.007),
+    "minute": (3600.0, 0.125, 0.005),
+    "second": (60.0, 0.135, 0.002),
+}
+"""Seconds of a turn, length and half the width (m)."""
+
+
+def add_clock(shaper: Shaper) -> None:
+    """The clock; each of its hands is a body."""
+    wall = shaper.spec.worldbody
+    for name, radius, back, front, material in (
+        ("clock_case", 0.165, -0.03, 0.008, "black"),
+        ("clock_face", 0.150, 0.0, 0.012, "paper"),
+        ("clock_hub", 0.008, 0.012, 0.022, "black"),
+    ):
+        shaper.cylinder(wall, "scenery", radius, (_X + back, _Y, _Z), (_X + front, _Y, _Z), material, name)
+    for hour in range(12):
+        _add_mark(shaper, hour)
+    for layer, (name, (_, length, half)) in enumerate(_HANDS.items()):
+        z, material = 0.014 + 0.002 * layer, "red" if name == "second" else "black"
+        hand = wall.add_body(name=f"{name}_hand", pos=[_X, _Y, _Z], quat=_UPRIGHT)
+        shaper.box(hand, "scenery", (-half, -0.02, z), (half, length, z + 0.001), material, f"{name}_hand")
+    for name, (period, _, _) in _HANDS.items():
+        shaper.spec.add_numeric(name=f"{TURNS}{name}_hand", data=[period])
+
+
+def _add_mark(shaper: Shaper, hour: int) -> None:
+    """The mark of an hour, long at every third."""
+    half, angle = 0.013 if hour % 3 == 0 else 0.007, math.pi * hour / 6
+    middle = 0.140 - half
+    shaper.spec.worldbody.add_geom(
+        shaper.style("scenery"), name=f"clock_mark{hour}", type=mujoco.mjtGeom.mjGEOM_BOX, material="black",
+        size=[0.001, 0.003, half], pos=[_X + 0.012, _Y + middle * math.sin(angle), _Z + middle * math.cos(angle)],
+        quat=[math.cos(angle / 2), -math.sin(angle / 2), 0.0, 0.0],
+    )  # fmt: skip
+
+
+_SIDE, _MIDDLE = -0.0352, 0.020
+"""x and y of the cables in the boom's frame, m."""
+_BACK, _FRONT = -1.36, -0.10
+"""From where to where along the boom they go, m."""
+
+
+def add_boom_cables(shaper: Shaper) -> None:
+    """Three cables in clips, and the loop in which they leave the motor behind the boom's end."""
+    boom = shaper.spec.body(f"{ARM}link3")
+    for number, y in enumerate((_MIDDLE - 0.006, _MIDDLE, _MIDDLE + 0.006)):
+        start, end = (_SIDE, y, _BACK), (_SIDE, y, _FRONT)
+        shaper.cylinder(boom, "scenery", 0.0024, start, end, "black", f"boom_cable{number}")
+    for number, z in enumerate(np.linspace(_BACK + 0.05, _FRONT - 0.05, 8)):
+        low, high = (-0.0385, _MIDDLE - 0.010, z - 0.006), (-0.030, _MIDDLE + 0.010, z + 0.006)
+        shaper.box(boom, "scenery", low, high, "steel", f"cable_clip{number}")
+    shaper.scenery(boom, "cable_loop", "black", _loop(), (_SIDE, _MIDDLE, _BACK))
+
+
+def _loop() -> solids.Surface:
+    """The loop, from the boom's side out and back to the end of the motor."""
+    turns = np.linspace(0.0, math.pi, 13)
+    way = [(0.007 * t - 0.06 * math.sin(t), 0.0, -0.06 * (1 - math.cos(t))) for t in turns]
+    return solids.surface(solids.tube(way, 0.006))
+
+
+BEVEL: Final = 0.0005
+"""m"""
+_BEVELLED: Final = ("block", "enamel", "red", "iron")
+"""Materials of blocks, fixtures and tools."""
+
+
+def add_bevels(shaper: Shaper) -> None:
+    """Show boxes of a scene with bevelled edges; the television camera still sees the boxes."""
+    boxes = [geom for geom in shaper.spec.geoms if geom.type == BOX and geom.group == SEEN]
+    for box in boxes:
+        if box.material in _BEVELLED:
+            half = box.size.copy()
+            name = "bevelled_" + "_".join(f"{1e6 * side:.0f}" for side in half)
+            look = shaper.scenery(box.parent, name, box.material, bevelled(half), box.pos.tolist())
+            look.name = box.name and f"{box.name}_bevelled"
+            box.group = PLAIN
+
+
+def bevelled(half: Array) -> solids.Surface:
+    """Surface of a box from -`half` to `half` (m) with bevels all around."""
+    corners = np.array(list(product((-1.0, 1.0), repeat=3)))
+    inner = np.where(np.eye(3, dtype=bool), half, half - BEVEL)
+    return solids.surface(Manifold.hull_points((corners[:, None] * inner).reshape(-1, 3)))

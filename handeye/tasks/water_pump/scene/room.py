@@ -8,9 +8,9 @@ import numpy as np
 
 from handeye.core.pose import Array
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.shapes import Shaper
+from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 LEFT, BACK, RIGHT, FRONT = -2.4, -2.0, 6.0, 6.0
 """Where the room ends, m: walls on the left and at the back, nothing elsewhere."""

@@ -5,11 +5,11 @@ from typing import Final
 
 import mujoco
 
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.fixtures import Fixture, add_fixture
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
-from handeye.tasks.water_pump.stations import Station
+from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.stations import Station
 
 _POLES: Final = 6
 """Of the bit's magnet, on a circle that halves the area of a head. An adhesion acts where geoms are near, and so a head

@@ -15,9 +15,8 @@ import numpy as np
 
 from handeye.core.faults import Fault, FaultKind, Size
 from handeye.core.pose import rotation_z
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import Point, base_top, web_centre
-from handeye.tasks.water_pump.variation import screws
+from handeye.tasks.water_pump.world.dimensions import Point, base_top, dimensions, web_centre
+from handeye.tasks.water_pump.world.variation import screws
 
 if TYPE_CHECKING:
     import mujoco

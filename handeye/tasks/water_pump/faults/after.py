@@ -15,7 +15,7 @@ from handeye.cell.sleep import wake
 from handeye.cell.truth import Truth
 from handeye.core.pose import Array, inverse, pose
 from handeye.tasks.interface import Disturbance
-from handeye.tasks.water_pump.mishaps import Scene
+from handeye.tasks.water_pump.faults.during import Scene
 from handeye.tasks.water_pump.scene.arm import ARM
 
 TIGHT: Final = 1.5

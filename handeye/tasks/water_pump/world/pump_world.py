@@ -10,10 +10,9 @@ from handeye.cell.raster import Raster
 from handeye.core.pose import Array, Pose, pose, rotation, rotation_x, rotation_z
 from handeye.core.units import UNITS
 from handeye.core.variation import Overrides, World, WorldSpec
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import Point, screw_holes
-from handeye.tasks.water_pump.stations import stations
-from handeye.tasks.water_pump.variation import (
+from handeye.tasks.water_pump.world.dimensions import Point, dimensions, screw_holes
+from handeye.tasks.water_pump.world.stations import stations
+from handeye.tasks.water_pump.world.variation import (
     ARM_CENTRE,
     ARM_PERIOD,
     DRILLED,

@@ -12,13 +12,12 @@ from handeye.core.pose import Pose, planar, translated, yaw
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
 from handeye.tasks.trial import Attempt, Count, Known, Trial
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, standard
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, standard
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 if TYPE_CHECKING:
     from handeye.program.program import Part
-    from handeye.tasks.water_pump.still_pump import Place, StillPump
+    from handeye.tasks.water_pump.trials.still_pump import Place, StillPump
     from handeye.vision.camera_model import View
 
 RIGHT: Final = "right"
@@ -49,8 +48,8 @@ class GasketTrial(Trial[GasketAttempt]):
     ) -> Iterator[GasketAttempt]:
         from handeye.core.errors import CalibrationFailed
         from handeye.ports.camera import CLOSE_UP
-        from handeye.tasks.water_pump.calibrations import known_camera
-        from handeye.tasks.water_pump.still_pump import StillPump, look, pump_base, put_base
+        from handeye.tasks.water_pump.trials.known_camera import known_camera
+        from handeye.tasks.water_pump.trials.still_pump import StillPump, look, pump_base, put_base
 
         still, part = StillPump(PumpWorld.draw(world), renderer=camera), pump_base(_standard())
         try:

@@ -1,4 +1,4 @@
-"""The referee's findings on a finished pump, point by point."""
+"""The referee's findings on a finished pump, and on one that was taken apart, point by point."""
 
 from collections.abc import Iterable
 from math import degrees, isfinite
@@ -11,14 +11,15 @@ from handeye.core.pose import yaw
 from handeye.core.units import INCH
 from handeye.judge.finding import Finding, Findings, at_least, at_most, worse
 from handeye.judge.measured import Measured, tilt
-from handeye.tasks.water_pump import limits, measure
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.overlap import Overlap, deepest
+from handeye.tasks.water_pump.referee import limits, measure
+from handeye.tasks.water_pump.referee.measure import Overlap, deepest
 from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.threads import Thread, holes_of
+from handeye.tasks.water_pump.world.dimensions import dimensions
 
 _MM: Final = 1e3
 _PINS: Final = ("pin0", "pin1")
+_PARTS: Final = {"base": limits.APART, "gasket": limits.APART_GASKET, "top": limits.APART}
 
 
 def judge(truth: Truth) -> Findings:
@@ -27,13 +28,17 @@ def judge(truth: Truth) -> Findings:
     Places are measured twice, as parts were left and when they have settled, and the worse finding counts: what hangs
     in the air falls, and what was pressed into something springs out. The state of the cell is not touched.
     """
-    left, settled = Measured(truth), Measured(truth, limits.SETTLE)
+    left, settled = _as_left_and_settled(truth)
     holes = holes_of(truth)
     return {
         **worse(_places(left, holes), _places(settled, holes)),
         "screws_clamp": _clamp(settled, holes),
         "rotor": _rotor(settled),
     }
+
+
+def _as_left_and_settled(truth: Truth) -> tuple[Measured, Measured]:
+    return Measured(truth), Measured(truth, limits.SETTLE)
 
 
 def _places(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
@@ -186,3 +191,46 @@ def _overlap(bores: Overlap, others: Overlap) -> Findings:
             others.depth * _MM, limits.PENETRATION, "mm", f"deepest overlap, of {others.between}"
         ),
     }
+
+
+def judge_apart(truth: Truth) -> Findings:
+    """Measure the parts as they were left and when they have settled; the worse finding counts."""
+    filled = sum(thread.screw is not None for thread in holes_of(truth))
+    in_threads = at_most(filled, 0, "screws", "screws left in their threads")
+    left, settled = _as_left_and_settled(truth)
+    return {**worse(_apart(left), _apart(settled)), "screws_out": in_threads}
+
+
+def _apart(measured: Measured) -> Findings:
+    screws = [name for name in _bodies(measured) if name.startswith("screw") and name[5:].isdecimal()]
+    findings = {
+        f"{name}_back": at_most(
+            measured.strayed((name,), (name,)) * _MM, limit, "mm", f"{name} from where the run found it"
+        )
+        for name, limit in _PARTS.items()
+    }
+    turned = max(measured.turned(name) for name in _PARTS)
+    findings["parts_turn"] = at_most(
+        degrees(turned), limits.APART_TURN, "deg", "turn of base, gasket or top against how the run found it"
+    )
+    for name, things, what in (
+        ("pins", _PINS, "farther pin from its hole in the holder"),
+        ("dispenser", screws, "farthest screw from its place in the dispenser"),
+        ("rack", ("driver",), "screwdriver from its rack"),
+    ):
+        findings[name] = at_most(measured.strayed(things, things) * _MM, limits.APART, "mm", what)
+    for name, things, most, what in (
+        ("pins_tilt", _PINS, limits.PIN_TILT, "lean of a pin in its holder"),
+        ("rack_tilt", ("driver",), limits.RACK_TILT, "lean of the screwdriver in its rack"),
+    ):
+        lean = max(tilt(measured.pose(thing)) for thing in things)
+        findings[name] = at_most(degrees(lean), most, "deg", what)
+    parts = (*_PARTS, *_PINS, "driver", *screws)
+    findings["hand"] = at_least(
+        hand_room(measured, parts) * _MM, limits.HAND_CLEAR, "mm", "hand from the nearest part"
+    )
+    return findings
+
+
+def _bodies(measured: Measured) -> list[str]:
+    return [measured.model.body(number).name for number in np.arange(measured.model.nbody)]

@@ -13,8 +13,8 @@ from handeye.execution.state import DriveState
 from handeye.ports.camera import LENSES
 from handeye.tasks.trial import Known
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.eye import DRAWING, LOOKS
-from handeye.tasks.water_pump.still_pump import StillPump
+from handeye.tasks.water_pump.trials.still_pump import StillPump
+from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
 

@@ -4,10 +4,10 @@ from dataclasses import replace
 from typing import Final
 
 from handeye.core.faults import Catalogue
-from handeye.tasks.water_pump.device_faults import device_faults
-from handeye.tasks.water_pump.mishaps import mishap_faults
-from handeye.tasks.water_pump.noticing import expected
-from handeye.tasks.water_pump.part_faults import part_faults
+from handeye.tasks.water_pump.faults.before import part_faults
+from handeye.tasks.water_pump.faults.devices import device_faults
+from handeye.tasks.water_pump.faults.during import mishap_faults
+from handeye.tasks.water_pump.faults.expected_detection import expected
 
 MATRIX: Final = (
     "finger_switch.stuck_closed",

@@ -8,7 +8,7 @@ from typing import Final
 from handeye.cell.defects import DEAD, PICTURE, Defect, Drifting, Effect, Missing, Scaled, Shifted, Stuck
 from handeye.core.faults import Fault, FaultKind, Size
 from handeye.core.units import JIFFY
-from handeye.tasks.water_pump.variation import JOINT_UNITS
+from handeye.tasks.water_pump.world.variation import JOINT_UNITS
 
 _FINGERS: Final = ("finger_switch.plus_y", "finger_switch.minus_y")
 _JUMP: Final = {

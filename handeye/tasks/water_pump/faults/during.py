@@ -21,7 +21,7 @@ from handeye.core.faults import Fault, FaultKind, Size
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.core.units import INCH
-from handeye.tasks.water_pump.part_faults import GONE, OVER
+from handeye.tasks.water_pump.faults.before import GONE, OVER
 from handeye.tasks.water_pump.scene.arm import ARM
 
 PUSH: Final = 2.0

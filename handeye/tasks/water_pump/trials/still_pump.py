@@ -1,22 +1,22 @@
 """The cell of the pump before it has moved, with parts put where one wants them, and the eye in it."""
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from handeye.cell.still_cell import StillCell
 from handeye.core.pose import planar
+from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import CLOSE_UP, WIDE, Picture, TvCamera
 from handeye.program.program import Hole, Part
-from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, pin_seat, screw_holes
-from handeye.tasks.water_pump.eye import DRAWING
-from handeye.tasks.water_pump.park import PARK
-from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
+from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, pin_seat, screw_holes
+from handeye.tasks.water_pump.world.nominal import DRAWING, PARK
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.variation import BELT_LINE, BELT_X, BELT_Y
 from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific
 from handeye.vision.camera_model import CameraModel, View
 
@@ -91,3 +91,12 @@ def locate(
     picture = camera.digitise()
     pictures.append((picture, view, None))
     return locate_specific(picture, view, part, general), pictures
+
+
+def base_poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
+    """Where the base lies: x, y (m) and yaw (rad); first where the world has it."""
+    yield world.base.x, world.base.y, world.base.yaw
+    rng, ranges = world.generator("trial.base"), np.array([BELT_X, BELT_Y, BELT_LINE])
+    for _ in range(number - 1):
+        x, y, yaw = rng.uniform(*ranges.T) * (INCH, INCH, DEGREE)
+        yield float(x), float(y), float(yaw)

@@ -14,12 +14,11 @@ from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
 from handeye.program.cause_text import cause_sentence
 from handeye.tasks.trial import Attempt, Count, Known, Trial
-from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 if TYPE_CHECKING:
     from handeye.program.program import Part
-    from handeye.tasks.water_pump.still_pump import StillPump
+    from handeye.tasks.water_pump.trials.still_pump import StillPump
     from handeye.vision.base import SpecificLocation
 
 WITHIN: Final = (INCH / 3, INCH / 4)
@@ -49,8 +48,14 @@ class BaseTrial(Trial[BaseAttempt]):
 
     def attempts(self, world: WorldSpec, number: int, *, camera: str, known: Known) -> Iterator[BaseAttempt]:
         from handeye.core.errors import CalibrationFailed
-        from handeye.tasks.water_pump.calibrations import known_camera
-        from handeye.tasks.water_pump.still_pump import StillPump, locate, pump_base, put_base
+        from handeye.tasks.water_pump.trials.known_camera import known_camera
+        from handeye.tasks.water_pump.trials.still_pump import (
+            StillPump,
+            base_poses,
+            locate,
+            pump_base,
+            put_base,
+        )
         from handeye.vision.base import Failure
 
         still, part = StillPump(PumpWorld.draw(world), renderer=camera), pump_base()
@@ -93,15 +98,6 @@ class BaseTrial(Trial[BaseAttempt]):
             ),
             wrong=wrong,
         )
-
-
-def base_poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
-    """Where the base lies: x, y (m) and yaw (rad); first where the world has it."""
-    yield world.base.x, world.base.y, world.base.yaw
-    rng, ranges = world.generator("trial.base"), np.array([BELT_X, BELT_Y, BELT_LINE])
-    for _ in range(number - 1):
-        x, y, yaw = rng.uniform(*ranges.T) * (INCH, INCH, DEGREE)
-        yield float(x), float(y), float(yaw)
 
 
 def _is_wrong(found: SpecificLocation, still: StillPump, part: Part, pose: Vector3) -> bool:

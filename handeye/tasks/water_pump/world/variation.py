@@ -14,7 +14,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.core.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Step, Uniform
 from handeye.core.units import UNITS
 from handeye.core.variation import Quantity, Variation
-from handeye.tasks.water_pump.stations import stations
+from handeye.tasks.water_pump.world.stations import stations
 
 JOINT_UNITS: Final = ("deg", "deg", "in", "deg", "deg", "deg")
 ARM_PERIOD: Final = (60.0, 60.0, 8.0, 60.0, 60.0, 60.0)

@@ -1,0 +1,1 @@
+"""The referee of the pump: its measurements, its limits and its findings."""

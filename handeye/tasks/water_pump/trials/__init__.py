@@ -1,0 +1,1 @@
+"""Trials of the eye in many worlds of the pump, without carrying out a program."""
