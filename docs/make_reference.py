@@ -61,8 +61,6 @@ GROUPS: Final = {
         "handeye.at_least": "judge.finding.at_least",
         "handeye.trials.assemble_each": "trials.assemble_each",
         "Results": "trials.results.Results",
-        "handeye.trials.predict": "trials.predict",
-        "PredictedWorlds": "trials.prediction.predicted.PredictedWorlds",
     },
     "Traces": {
         "handeye.open": "api.opening.open",

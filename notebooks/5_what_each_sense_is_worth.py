@@ -11,8 +11,8 @@
 # %% [markdown]
 # # 5. What each sense is worth
 #
-# At the end you will know which error each sense of the arm is there to beat, what a program without it would miss and
-# by how much, and how one finds that out for hundreds of worlds without carrying out a single pump.
+# At the end you will know which error each sense of the arm is there to beat, what a program goes by without it, and
+# how many pumps come about then: counted, over the same worlds with the sense and without.
 #
 # Nothing here needs to be run to be read. Run, it takes half a minute.
 
@@ -26,124 +26,58 @@ import handeye
 #
 # The potentiometers in the joints read wrong: by an offset, a scale and a waviness of their own, in each world others.
 # Where the joints read right for a place, the hand is somewhere else. And nothing stands just where the drawing has
-# it: not the holder of the pins, not the rack, not the blocks that the base is pushed against.
-#
-# `handeye.trials.predict` takes these errors from the same table that the simulator takes them from, follows the
-# program through its motions, and works out how far each thing would come down beside where it should go. It is
-# arithmetic: joints, frames, and what the program felt and saved before. Nothing is simulated.
+# it: not the holder of the pins, not the rack, not the blocks that the base is pushed against. A world is a number,
+# and these errors are drawn from it.
 
 # %%
-n = 150
-whole = handeye.trials.predict(n=n)
-worlds = whole.worlds()
-print(len(worlds), "worlds, seeds", worlds["seed"][0], "to", worlds["seed"][-1])
-
-# %% [markdown]
-# ## Search
-#
-# The first pin is brought over its hole. The hole's chamfer and the pin's bevel catch 1.4 mm. Beyond the first line
-# the pin stands beside its hole; the search of the program reaches to the second.
-
-# %%
-figure, axis = plt.subplots(figsize=(6.4, 2.6), dpi=80, layout="constrained")
-axis.hist(worlds["pin 1, T1: off"], bins=24, color="0.6")
-axis.axvline(1.4, color="tab:red", label="caught at the first place")
-axis.axvline(6.7, color="tab:red", linestyle="--", label="reached by the search")
-axis.set(xlabel="mm beside the hole, first pin", ylabel="worlds")
-axis.legend(fontsize=8)
-missed = (worlds["pin 1, T1: off"] > 1.4).mean()
-print(f"without a search, the first pin misses its hole in {missed:.0%} of the worlds")
+worlds = [handeye.World(seed) for seed in range(150)]
+print(f"world 3: the first joint reads {worlds[3]['arm.offset.1']:.3f} {worlds[3].unit('arm.offset.1')} off")
+print(len(worlds[3].values), "quantities are drawn in each world")
 
 # %% [markdown]
 # ## Vision
 #
-# The base lies anywhere on the belt. The eye is calibrated by a lamp that this same arm carries through the picture,
-# so that it learns to see in the arm's wrong coordinates; what both have wrong is not wrong between them. Without it,
-# the hand goes where the base was planned to be.
+# The base lies anywhere on the belt. Without the eye, the hand goes where the base was planned to be; the program feels
+# for a wall of the base there, and its search reaches 25 mm to either side.
 
 # %%
-without_vision = handeye.trials.predict(n=n, lacking=["vision"])
-blind = without_vision.worlds()
 figure, axis = plt.subplots(figsize=(6.4, 2.6), dpi=80, layout="constrained")
-axis.hist(worlds["grasp, A: off"], bins=range(0, 160, 5), alpha=0.6, label="where it was seen")
-axis.hist(blind["grasp, A: off"], bins=range(0, 160, 5), alpha=0.6, label="where it was planned")
-axis.axvline(24.8, color="tab:red", linestyle="--", label="reached by the search")
-axis.set(xlabel="mm beside the wall that is felt for", ylabel="worlds", yscale="log")
-axis.legend(fontsize=8)
-print(
-    f"largest with vision {worlds['grasp, A: off'].max():.0f} mm, without {blind['grasp, A: off'].max():.0f} mm"
-)
+axis.scatter(*([world[name] for world in worlds] for name in ("base.x", "base.y")), s=8, color="0.4")
+axis.set(xlabel=f"base, x, {worlds[0].unit('base.x')}", ylabel=f"y, {worlds[0].unit('base.y')}")
+far = [
+    max(world[name] for world in worlds) - min(world[name] for world in worlds)
+    for name in ("base.x", "base.y")
+]
+print("the base lies within {:.1f} by {:.1f} in".format(*far))
 
 # %% [markdown]
+# The eye is calibrated by a lamp that this same arm carries through the picture, so that it learns to see in the arm's
+# wrong coordinates; what both have wrong is not wrong between them.
+#
 # ## Touch
 #
 # Two switches in the fingers let CENTER move the *hand* to the thing instead of the thing to the hand. SAVE keeps how
-# far that was, and RESTORE goes by it later: at the first screw the hand knows its error there from two pins that it
-# has felt, one along x and one along y, and its error at the rack from the screwdriver.
+# far that was, and RESTORE goes by it later. Here the hand centres on the screwdriver in its rack, in four worlds with
+# large errors: so far off it was, and knows it from then on.
 
 # %%
-without_touch = handeye.trials.predict(n=n, lacking=["touch"])
-numb = without_touch.worlds()
-figure, axis = plt.subplots(figsize=(6.4, 2.6), dpi=80, layout="constrained")
-axis.hist(worlds["screw 1, H0: off"], bins=[k / 4 for k in range(21)], alpha=0.6, label="felt before")
-axis.hist(numb["screw 1, H0: off"], bins=[k / 4 for k in range(21)], alpha=0.6, label="not felt")
-axis.axvline(2.4, color="tab:red", label="caught at the first place")
-axis.set(xlabel="mm beside the hole, first screw", ylabel="worlds")
-axis.legend(fontsize=8)
-caught = [(each["screw 1, H0: off"] < 2.4).mean() for each in (worlds, numb)]
-print("caught at the first place: {:.0%} with what was felt, {:.0%} without".format(*caught))
+centring = """\
+        OPEN    1.6
+        MOVE    D
+        CENTER  .5
+        SAVE    DRV
+"""
+taught = "[positions]\nD = { at = [6, 33, 7, 90, 90, 0] }\n"
+runs = [handeye.begin(centring, taught=taught, world=handeye.World(seed, level="high")) for seed in range(4)]
+ends = [run.until() for run in runs]
+felt = [abs(run.state.memory.saved["DRV"][1]) * 1e3 for run in runs]
+print("\n".join(f"seed {seed}: {far:.1f} mm" for seed, far in enumerate(felt)))
 
 # %% [markdown]
-# ## Side by side
-#
-# Two measures: in how many worlds something does not fit at all, and how many further places the searches of a whole
-# pump try, each of which takes the arm a second and a half or two. (Checks of heights are left aside: whether their
-# windows are wide enough is a question to the program, and not to a sense.)
-
-# %%
-found = {
-    "nothing": whole,
-    "vision": without_vision,
-    "touch": without_touch,
-    "centring": handeye.trials.predict(n=n, lacking=["centring"]),
-    "search": handeye.trials.predict(n=n, lacking=["search"]),
-}
-things = [*zip(*(whole.table()[name] for name in ("operation", "at", "what")), strict=True)]
-kinds = [f"{operation}, {at}: {what}" for operation, at, what in things]
-rooms = {name: dict(zip(kinds, each.table()["room"], strict=True)) for name, each in found.items()}
-tables = {name: each.worlds() for name, each in found.items()}
-fits = {
-    name: [each[kind] <= rooms[name][kind] for kind in kinds if "height" not in kind]
-    for name, each in tables.items()
-}
-fail = {name: 1 - sum(all(column) for column in zip(*each, strict=True)) / n for name, each in fits.items()}
-searched = [f"{operation}, {at}: places" for operation, at, what in things if what == "off"]
-further = {name: sum(each[kind].mean() - 1 for kind in searched) for name, each in tables.items()}
-
-# %%
-figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 2.6), dpi=80, layout="constrained")
-bars = left.barh(list(fail), [100 * share for share in fail.values()], color="0.6")
-more = right.barh(list(further)[:-1], list(further.values())[:-1], color="0.6")
-left.set(xlabel="% of worlds where something fails", ylabel="without")
-right.set(xlabel="further places searched, mean")
-flipped = left.invert_yaxis(), right.invert_yaxis()
-print(
-    "\n".join(
-        f"without {name:9} {fail[name]:4.0%} fail, {further[name]:5.1f} further places" for name in found
-    )
-)
-
-# %% [markdown]
-# Vision and search decide whether a pump comes about. Touch saves searching, and the last stage needs it: a hand that
-# has not felt where the pump stands takes it, now and then, for one that was moved. `centring` is worth as much as
-# `touch` here, because what is saved is known by CENTER alone. Without `search` nothing is searched, so that it has no
-# bar on the right: each hole has one chance.
-#
 # ## Force
 #
-# The prediction takes it that a motion ends where it should. That is what force is for, so this sense has to be seen
-# at work. The hand goes down to the table, whose height is 0. `STOP` ends the motion at 40 ounces; where do the joints
-# then believe the hand to be?
+# The hand goes down to the table, whose height is 0. `STOP` ends the motion at 40 ounces; where do the joints then
+# believe the hand to be?
 
 # %%
 script = """\
@@ -161,60 +95,50 @@ print("\n".join(f"{run.state.hand[2, 3] / 0.0254:+.3f} in, on a table at 0" for 
 # table should be would hang over it by as much, or press on it with all that its motors have. And a height that was
 # felt is one that can be compared with another: so the program knows whether a gasket lies on the base, or two.
 #
-# ## Is it true?
+# ## Search
 #
-# A model that nobody has checked is an opinion. Here the hand really centres on the screwdriver in its rack, in the
-# simulator, in four worlds with large errors; beside it, what was predicted for the same seeds.
-
-# %%
-centring = """\
-        OPEN    1.6
-        MOVE    D
-        CENTER  .5
-        SAVE    DRV
-"""
-taught = "[positions]\nD = { at = [6, 33, 7, 90, 90, 0] }\n"
-runs = [handeye.begin(centring, taught=taught, world=handeye.World(seed, level="high")) for seed in range(4)]
-ends = [run.until() for run in runs]
-felt = [abs(run.state.memory.saved["DRV"][1]) * 1e3 for run in runs]
-told = handeye.trials.predict(handeye.World(0, level="high"), 4).worlds()["driver, D: along"]
-print("\n".join(f"seed {k}: predicted {told[k]:.1f} mm, felt {felt[k]:.1f} mm" for k in range(4)))
-
-# %% [markdown]
-# It holds to half a millimetre or so. The screwdriver hangs loosely, and the finger that comes first moves it a little
-# before its switch fires.
-#
-# And a whole pump: the run that comes with handeye. How many further places did its searches try, and how many had been
-# predicted?
+# What the other senses leave over, a search finds: it tries one place after the other, in a square spiral, until the
+# hand goes down into the hole. Most searches end at their first place, if vision and touch have done their work. The
+# run that comes with handeye tells how many further places were tried for a whole pump.
 
 # %%
 demo = handeye.open(handeye.demo)
-events = demo.table("events")
-advanced = events["event"].count("SearchAdvanced")
-same = handeye.trials.predict(handeye.World(demo.head.world.seed), 1).worlds()
-wanted = sum(int(same[kind][0]) - 1 for kind in searched)
-print(f"{len(searched)} searches, further places: {wanted} predicted, {advanced} tried")
+tried = [
+    said
+    for event, said in zip(demo.table("events")["event"], demo.table("events")["said"], strict=True)
+    if event == "SearchAdvanced"
+]
+print("\n".join(tried))
 
 # %% [markdown]
-# How well it agrees over a batch of whole trials, and what it leaves out, is told in [trials](../docs/trials.md).
+# ## What was counted
 #
-# ## The dear way
-#
-# Prediction says where to look. What counts is pumps. The same question is put to whole trials by
+# What a sense is worth is how many pumps come about without it. `--without` has the program go by what it believes in
+# the place of a sense; all else is the same, and so are the worlds:
 #
 # ```
-# $ handeye trials assembly --n 60 --out whole
-# $ handeye trials assembly --n 60 --without touch --out without-touch
+# $ handeye trials assembly --n 60 --seed 890000 --out whole
+# $ handeye trials assembly --n 60 --seed 890000 --without touch --out without-touch
 # $ handeye trials compare whole without-touch
 # ```
 #
-# with the same seeds on both sides, and a test (McNemar's) of whether the pairs that differ fall too unevenly for
-# chance. An evening's work for two processors; the cells above took seconds. `handeye trials predict --worst 100
-# --simulate` joins both: ten thousand worlds by arithmetic, and the hundred worst of them carried out.
-#
-# [What came of it](../docs/trials.md#what-they-are-worth): without force no pump of 60 is assembled, without vision 2,
-# without search 20. Touch and centring are missed where errors are twice as large: without touch 11 of 20 are
-# assembled, without centring 14, with all senses 20. Every failure was noticed.
+# An evening's work for two processors. [What came of it](../docs/trials.md#what-they-are-worth) is drawn here: pumps
+# assembled of 60 worlds, and of 20 in which errors are twice as large, for the senses that are not missed before.
+
+# %%
+nominal = {"nothing": 60, "centring": 59, "touch": 56, "search": 20, "vision": 2, "force": 0}
+high = {"nothing": 20, "centring": 14, "touch": 11}
+figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 2.6), dpi=80, layout="constrained")
+bars = left.barh(list(nominal), list(nominal.values()), color="0.6")
+more = right.barh(list(high), list(high.values()), color="0.6")
+left.set(xlabel="assembled of 60, nominal errors", ylabel="without", xlim=(0, 60))
+right.set(xlabel="of 20, errors twice as large", xlim=(0, 20))
+flipped = left.invert_yaxis(), right.invert_yaxis()
+
+# %% [markdown]
+# Force, vision and search decide whether a pump comes about in any world; touch and centring where errors are large.
+# Every failure was noticed: the program called its operator. How sure such counts are, and the test (McNemar's) of
+# whether the pairs that differ fall too unevenly for chance, is told in [trials](../docs/trials.md).
 #
 # You have come to the end. [Force and search](4_force_and_search.ipynb) shows how the hand feels;
 # [trials](../docs/trials.md) how to count, and how sure a count is.

@@ -150,18 +150,9 @@ def test_a_plan_that_cannot_be_written_leaves_nothing_behind(command: Command, t
         ),
         (("trials", "assembly", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
         (("trials", "assembly", "--seeds", f"0-{2**63 - 1}"), "at most 1,000,000 trials can be had"),
-        (("trials", "predict", "--n", str(2**63)), "at most 1,000,000 worlds can be had"),
         (("trials", "base", "9" * 20), "at most 1,000,000 worlds can be had"),
         (("trials", "pallet", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
         (("bench", "insertion", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
-        (
-            ("trials", "predict", "--against", "absent", "--level", "high"),
-            "leave --n, --seed, --level, --without and --set out",
-        ),
-        (
-            ("trials", "predict", "--against", "absent", "--n", "10000"),
-            "leave --n, --seed, --level, --without and --set out",
-        ),
         (("faults", "--list", "--only", "rotr"), "there is no fault `rotr`; there are `finger_switch`"),
         (("faults", "--list", "--stage", "pins"), "--list tries nothing: leave --stage and --out out"),
         (("faults", "--list", "--out", "it"), "--list tries nothing: leave --stage and --out out"),

@@ -12,17 +12,11 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
-from handeye.core.variation import WorldSpec
-from handeye.planfile.store import read_plan
 from handeye.program.events import AnyEvent, PanicStopped, RunStarted, StepStarted
 from handeye.runs.checkpoint_file import read_head
 from handeye.runs.folder import open_again
 from handeye.systems.stanford.executor_run import ProgramSystem
 from handeye.trace.eventlist import effective, read_events
-from handeye.trials.batch.batch import head_of
-from handeye.trials.batch.folder import BatchFolder
-from handeye.trials.batch.row import Row
-from handeye.trials.batch.trial import Trial
 
 pytestmark = pytest.mark.slow
 
@@ -277,16 +271,6 @@ def test_a_batch_of_trials_is_told_from_a_run(command: Command, words: tuple[str
         Path("batch", name).touch()
     sentence = "handeye: batch is the folder of a batch of trials, not of a run\n"
     assert command(*words, "batch") == (2, "", sentence)
-
-
-def test_a_batch_is_not_predicted_by_another_plan(command: Command, planned: Planned) -> None:
-    plan = read_plan(Path(planned("OPEN 1")))
-    folder = BatchFolder(Path("batch"), head_of(Trial(plan=plan), WorldSpec(seed=0)), plan)
-    folder.append(Row(trial=0, seed=0, ended="raised"))
-    folder.close()
-    Path(planned("OPEN 2")).replace("batch/plan.json")
-    sentence = "handeye: batch/plan.json is not the plan of the batch in batch\n"
-    assert command("trials", "predict", "--against", "batch") == (2, "", sentence)
 
 
 def test_leaving_a_run_that_has_ended_leaves_nothing_behind(command: Command, planned: Planned) -> None:

@@ -69,7 +69,6 @@ CHEAP = {
     "trials base": "trials base ✓",
     "trials gasket": "trials gasket 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
-    "trials predict": "trials predict --set ✓",
     "cache": "cache",
     "bench timing": "bench timing --set ✓",
     "bench insertion": "bench insertion ✓",

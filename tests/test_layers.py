@@ -60,7 +60,6 @@ UPWARDS: dict[str, set[str]] = {
     "trials.disturbing": {"systems.stanford.executor_run"},
     "trials.faults": {"systems.stanford.executor_run"},
     "trials.insertion": {"systems.stanford.executor_run"},
-    "trials.prediction.predicted": {"api.arguments", "api.plans", "api.worlds"},
     "trials.results": {"api.arguments", "api.html", "api.parts", "api.plans", "api.worlds"},
     "view.television": {"systems.stanford.executor_run"},
 }

@@ -9,7 +9,6 @@ from handeye.cli.chaos import chaos_trials
 from handeye.cli.common import Camera, Json, WholeNumber, note, positive, put_json, say
 from handeye.cli.dismantling import dismantling_trials
 from handeye.cli.disturbing import disturbed_trials
-from handeye.cli.predictions import predict_trials
 from handeye.cli.world_options import (
     ANY_WORLD,
     WorldOptions,
@@ -39,7 +38,6 @@ def register(app: App) -> None:
     trials.command(dismantling_trials, name="dismantling")
     trials.command(disturbed_trials, name="disturbed")
     trials.command(compare_trials, name="compare")
-    trials.command(predict_trials, name="predict")
     trials.command(base_vision_trials, name="base")
     trials.command(gasket_vision_trials, name="gasket")
     trials.command(chaos_trials, name="chaos")

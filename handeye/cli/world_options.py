@@ -44,8 +44,8 @@ class ErrorOptions:
         list[str] | None,
         Parameter(
             help="Errors or groups of them to switch off, separated by commas; `handeye world` lists their names. "
-            "`assemble`, `run`, `trials assembly` and `trials predict` take senses, too: vision, touch, search, force, "
-            "centring; the program goes by what it believes without them.",
+            "`assemble`, `run` and `trials assembly` take senses, too: vision, touch, search, force, centring; the "
+            "program goes by what it believes without them.",
             consume_multiple=False,
         ),
     ] = None

@@ -5,7 +5,7 @@ A quantity is one number with a dotted name, such as `camera.place.x`; what stan
 quantity moves no other, and one can be switched off or set while all others stay as they are.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Final, Literal
@@ -18,7 +18,7 @@ from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.distributions import Distribution
 from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.core.faults import Fault
-from handeye.core.random_streams import random_numbers, streams
+from handeye.core.random_streams import random_numbers
 from handeye.core.record import Record
 from handeye.core.units import UNITS, Unit
 from handeye.core.whole_numbers import whole
@@ -160,16 +160,12 @@ class Variation:
 
     def value(self, name: str, spec: WorldSpec) -> float:
         """A single quantity of a world that can be drawn here, SI."""
-        return self.each(name, spec, (spec.seed,))[0]
-
-    def each(self, name: str, spec: WorldSpec, seeds: Sequence[int]) -> list[float]:
-        """A single quantity in the worlds of several seeds, which are otherwise of a specification, SI."""
         quantity = self.quantities[name]
         if name in spec.overrides.set:
-            return [spec.overrides.set[name]] * len(seeds)
+            return spec.overrides.set[name]
         if any(within(name, group) for group in spec.overrides.without):
-            return [quantity.nominal * quantity.measure.size] * len(seeds)
-        return [drawn(quantity, spec.level, stream) for stream in streams(seeds, name)]
+            return quantity.nominal * quantity.measure.size
+        return drawn(quantity, spec.level, random_numbers(spec.seed, name))
 
     def check(self, spec: WorldSpec) -> None:
         """Make sure that a world is one that can be drawn here.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
@@ -18,8 +18,7 @@ from handeye.core.variation import Variation, WorldSpec
 from handeye.execution.calibration_look import CalibrationLook
 from handeye.judge.finding import Findings
 from handeye.planfile.plan import Plan
-from handeye.program.program import Fixture, Program
-from handeye.program.senses import Sense
+from handeye.program.program import Fixture
 from handeye.tasks.trial import Trial
 from handeye.vision.camera_model import CameraModel
 
@@ -62,30 +61,6 @@ class ExportedScene:
     """Names of the bodies of what it can be asked for by a name of its own."""
     densities: Mapping[str, float] = field(default_factory=dict)
     """Of the solids that are of one metal throughout, by their names, kg/m3."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Predicted:
-    """How far off one thing of a contact operation is predicted to be in each of many worlds."""
-
-    operation: str
-    at: str
-    """The position."""
-    what: str
-    unit: str
-    off: Array
-    """Never negative, shape (n,)."""
-    room: float
-    """How far off it may be."""
-    places: Array | None = None
-    """Of a search: the place that succeeds, from 1, shape (n,); one more than there are if none does."""
-    finding: str = ""
-    """The finding of the referee that is predicted, if it is one."""
-
-    @property
-    def used(self) -> Array:
-        """Share of the room that is used: 1 is its end."""
-        return self.off / self.room
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -191,21 +166,6 @@ class Task(AnyTask):
         Raises:
             InvalidInput: there is no such world, or pictures cannot be made so here.
         """
-
-    def predict(
-        self, program: Program, world: WorldSpec, seeds: Sequence[int], *, without: tuple[Sense, ...] = ()
-    ) -> tuple[Predicted, ...]:
-        """How far off each contact operation of a program is by kinematics and tolerances alone, nothing simulated.
-
-        Args:
-            world: what the worlds are but for their seeds.
-            without: senses that the program does without.
-
-        Raises:
-            InvalidInput: this task predicts nothing, not this program or not without these senses, or there is no
-                such world.
-        """
-        raise Refused(f"the task {quoted(self.name)} predicts nothing")
 
     def disturbances(self) -> tuple[Disturbance, ...]:
         """What can be changed before its work is undone; by default nothing."""

@@ -10,10 +10,9 @@ if TYPE_CHECKING:  # a trial is seldom wanted where something in this folder is
     from handeye.api.worlds import World
     from handeye.results.judging import Limits, Referee
     from handeye.touch.spiral import SearchPattern
-    from handeye.trials.prediction.predicted import PredictedWorlds
     from handeye.trials.results import Results
 
-__all__ = ["assemble_each", "predict"]
+__all__ = ["assemble_each"]
 
 
 def assemble_each(
@@ -54,38 +53,3 @@ def assemble_each(
     return assemble_in(
         worlds, script=script, taught=taught, camera=camera, search=search, referee=referee, jobs=jobs
     )
-
-
-def predict(
-    first: int | World = 0,
-    n: int = 1000,
-    *,
-    script: FileName | Planned | None = None,
-    taught: FileName | None = None,
-    lacking: Iterable[str] = (),
-    jobs: int = 1,
-) -> PredictedWorlds:
-    """Predict by kinematics and tolerances how near many worlds come to failing; nothing is simulated.
-
-    Args:
-        first: seed of the first world, or that world; the next has a seed greater by 1.
-        n: how many worlds.
-        script: what `handeye.plan` takes; by default that of the water pump. It has to do the pump's work.
-        taught: as for `handeye.plan`.
-        lacking: senses that the program does without: `vision`, `touch`, `search`, `centring`.
-        jobs: processes at a time; with more than 1 a program must be guarded by `if __name__ == "__main__":`.
-
-    Returns:
-        what is off in each contact operation, by how much, and how far off it may be.
-
-    Raises:
-        ScriptError: the script has errors.
-        InvalidInput: an argument cannot be used, or nothing is predicted of such a program.
-
-    >>> found = handeye.trials.predict(n=20)
-    >>> found.table()["operation"][0], len(found.worlds())
-    ('grasp', 20)
-    """
-    from handeye.trials.prediction.predicted import predict_from
-
-    return predict_from(first, n, script=script, taught=taught, lacking=lacking, jobs=jobs)

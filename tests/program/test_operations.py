@@ -69,17 +69,12 @@ def test_a_module_is_seen_to_ask_for_a_class_however_it_asks(line: str) -> None:
 def test_an_operation_is_asked_for_its_class_only_where_its_meaning_is_given() -> None:
     package = Path(operation.__file__).parents[1]
     found = {str(path.relative_to(package)) for path in package.rglob("*.py") if asked_for(path.read_text())}
-    assert (
-        found
-        == {
-            "al/lower.py",  # where a RESTORE finds its MOVE, and a search its own
-            "planning/grasp_state.py",  # where the planner opens and closes the hand
-            "planning/motion_checks.py",  # where it puts a load into it
-            "tasks/water_pump/prediction/assembly.py",  # where a prediction tells a check of height from one of travel
-            "tasks/water_pump/prediction/instructions.py",  # where it reads what is restored, and the checks behind
-            "trials/batch/contacts.py",  # where trials count the operations in which parts touch
-        }
-    )
+    assert found == {
+        "al/lower.py",  # where a RESTORE finds its MOVE, and a search its own
+        "planning/grasp_state.py",  # where the planner opens and closes the hand
+        "planning/motion_checks.py",  # where it puts a load into it
+        "trials/batch/contacts.py",  # where trials count the operations in which parts touch
+    }
 
 
 def test_every_guard_is_called_on_disk_as_its_kind() -> None:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.faults import Catalogue
 from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings
-from handeye.program.program import Fixture, Program
-from handeye.program.senses import Sense
-from handeye.tasks.interface import Disturbance, ExportedScene, Eye, Period, Predicted, Task, Words
+from handeye.program.program import Fixture
+from handeye.tasks.interface import Disturbance, ExportedScene, Eye, Period, Task, Words
 from handeye.tasks.water_pump.trials.base import BaseTrial
 from handeye.tasks.water_pump.trials.gasket import GasketTrial
 from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS, PARK
@@ -81,13 +80,6 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.cell import build_cell
 
         return build_cell(PumpWorld.draw(spec), camera=camera)
-
-    def predict(
-        self, program: Program, world: WorldSpec, seeds: Sequence[int], *, without: tuple[Sense, ...] = ()
-    ) -> tuple[Predicted, ...]:
-        from handeye.tasks.water_pump.prediction.predict import predict
-
-        return predict(program, world, seeds, without)
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
         from handeye.tasks.water_pump.exported import exported

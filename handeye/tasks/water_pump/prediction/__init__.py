@@ -1,1 +1,0 @@
-"""Kinematics and tolerances of the pump's assembly over many worlds at once, without simulating any."""
