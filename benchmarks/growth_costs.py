@@ -102,7 +102,7 @@ def _in_turn(runners: Iterable[Runner]) -> None:
 
 
 def _plan(source: Source, taught: Taught) -> Plan:
-    plan = plan_source(source, taught, task().arm, AL).plan
+    plan = plan_source(source, taught, task().arm, AL, task=task().name).plan
     assert plan is not None
     return plan
 

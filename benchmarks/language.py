@@ -128,7 +128,7 @@ def _check(text: str) -> None:
 
 
 def _plan(source: Source, taught: Taught) -> None:
-    assert plan_source(source, taught, task().arm, AL).plan is not None
+    assert plan_source(source, taught, task().arm, AL, task=task().name).plan is not None
 
 
 def _moved(taught: Taught, times: int) -> Taught:

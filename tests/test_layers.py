@@ -298,7 +298,7 @@ from handeye.core.source import Source
 
 SCRIPT = "TRANS P [25 38 6 90 90 0]\\nMOVE P\\nCLOSE\\nSKIPE 2\\nOPEN 1\\nFREE 1,X\\nCHANGE Z,1\\nOPEN 1"
 program, _ = compile_text(Source(name="wall.al", text=SCRIPT), Taught(positions={}, parts={}))
-plan, _ = make_plan(program, STANFORD)
+plan, _ = make_plan(program, STANFORD, task="water_pump")
 cell = FakeCell(np.array(plan.motions[0].knots[0])).devices
 executor = Executor(run=ExecutionContext(plan=plan, arm=STANFORD, cell=cell, camera=None, emit=lambda _: None))
 while executor.state.at is not None:

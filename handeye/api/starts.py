@@ -114,7 +114,6 @@ def _new(plan: Plan, wanted: Wanted) -> Checkpoint:
         plan=plan,
         world=wanted.spec or WorldSpec(seed=0),
         camera=wanted.camera or "auto",
-        task=wanted.task,
         judged=wanted.judged,
         limits=wanted.limits or {},
         replaced=wanted.replaced,

@@ -17,6 +17,7 @@ from handeye.core.plain_text import folded
 from handeye.core.source import Source
 from handeye.planfile.plan import Plan
 from handeye.runs.scripts import plan_script
+from handeye.tasks.interface import Task
 
 MOST: Final = 1_000_000
 """Trials, worlds, times and processes that a command takes."""
@@ -125,13 +126,13 @@ def complain(error: object) -> None:
     say(f"handeye: {error}", notes, style="red")
 
 
-def compiled(file: Path) -> Plan:
-    """The plan of a script, or its diagnostics and the end.
+def compiled(file: Path, work: Task | None = None) -> Plan:
+    """The plan of a script for a task, by default its own; or its diagnostics and the end.
 
     Raises:
         InvalidInput: the script has errors; they have been shown.
     """
-    made = plan_script(file)
+    made = plan_script(file, work=work)
     show(made.diagnostics, made.source, json=False)
     if made.plan is not None:
         return made.plan

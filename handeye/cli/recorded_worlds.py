@@ -32,7 +32,7 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
     _check_parts(path, begun)
     _check_faults(path, begun, plan)
     camera = _CAMERAS.get(begun.camera.method, "auto")
-    return Setup(plan=plan, world=begun.world, camera=camera, task=begun.task, judged=judged)
+    return Setup(plan=plan, world=begun.world, camera=camera, judged=judged)
 
 
 def _beginning(path: Path) -> RunStarted:

@@ -122,7 +122,7 @@ def _check(file: Path, *, json: bool, strict: bool) -> int:
 
     language = language_of(file, LANGUAGES)
     source = language.read(file)
-    diagnostics = plan_source(source, taught(file), task().arm, language).diagnostics
+    diagnostics = plan_source(source, taught(file), task().arm, language, task=task().name).diagnostics
     if strict:
         diagnostics = arranged([*diagnostics, *extensions(source)])
     show(diagnostics, source, json=json)

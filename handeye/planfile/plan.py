@@ -8,7 +8,7 @@ from typing import Final
 from handeye.core.record import Record
 from handeye.program.program import Program
 
-VERSION: Final = 2
+VERSION: Final = 3
 """Version of the format on disk."""
 
 Joints = tuple[float, ...]
@@ -29,6 +29,8 @@ class Plan(Record, frozen=True, kw_only=True):
 
     format: str = "handeye plan"
     version: int = VERSION
+    task: str
+    """Name of the task whose arm and cell it is for."""
     arm: str
     """Name of the arm model."""
     arm_digest: str

@@ -11,7 +11,6 @@ import msgspec
 
 from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole, write_over
-from handeye.planfile.migrations import migrated, oldest
 from handeye.planfile.plan import VERSION, Plan
 from handeye.planfile.soundness import faults
 
@@ -54,10 +53,10 @@ def _separated(lines: list[str]) -> list[str]:
 
 
 def decode(text: str | bytes, name: str) -> Plan:
-    """The plan in a text, brought to the present version if it is older.
+    """The plan in a text.
 
     Raises:
-        InvalidInput: not a plan, cut short, of a newer version, or not sound.
+        InvalidInput: not a plan, cut short, of another format version, or not sound.
     """
     try:
         head = msgspec.json.decode(text)
@@ -66,16 +65,15 @@ def decode(text: str | bytes, name: str) -> Plan:
     if not isinstance(head, dict) or head.get("format") != "handeye plan":
         raise BadFile(f'{name} is not a plan: it does not say "format": "handeye plan"')
     version = head.get("version")
-    if not isinstance(version, int) or version < oldest():
+    if not isinstance(version, int):
         raise BadFile(f"{name} does not say which version of the plan format it has")
-    if version > VERSION:
-        raise BadFile(f"{name} has plan format version {version}; this handeye reads up to version {VERSION}")
-    try:
-        plan = (
-            msgspec.json.decode(text, type=Plan)
-            if version == VERSION
-            else msgspec.convert(migrated(head, version, name), Plan, str_keys=True)
+    if version != VERSION:
+        raise BadFile(
+            f"{name} has plan format version {version}; this handeye reads version {VERSION}: "
+            "make the plan again from its script, with `handeye plan`"
         )
+    try:
+        plan = msgspec.json.decode(text, type=Plan)
     except msgspec.DecodeError as error:
         raise BadFile(f"{name} is not a sound plan: {error}") from None
     for fault in faults(plan):

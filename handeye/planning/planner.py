@@ -40,13 +40,14 @@ speeds."""
 
 
 def make_plan(
-    program: Program, arm: ArmModel, *, speed: float = SPEED, start: Array | None = None
+    program: Program, arm: ArmModel, *, task: str, speed: float = SPEED, start: Array | None = None
 ) -> tuple[Plan | None, list[PlanningFinding]]:
     """The plan of a program for an arm, and what is found against it. There is none if any of that is an error.
 
     A position that only a `HERE` defines is in the plan where the hand is planned to be then.
 
     Args:
+        task: name of the task that the plan is for.
         start: where the arm stands when the program begins, shape (n,), rad and m; by default at `HOME`, or at
             the first goal of a program that has none.
     """
@@ -60,7 +61,7 @@ def make_plan(
         return None, findings.found
     positions = {**walk.world.state.moved, **program.positions}
     plan = Plan(
-        arm=arm.name, arm_digest=digest(arm), speed=speed, motions=walk.motions,
+        task=task, arm=arm.name, arm_digest=digest(arm), speed=speed, motions=walk.motions,
         program=msgspec.structs.replace(program, positions=positions),
     )  # fmt: skip
     return plan, findings.found

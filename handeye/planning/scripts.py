@@ -23,19 +23,28 @@ class PlannedScript:
 
 
 def plan_source(
-    source: Source, taught: Taught, arm: ArmModel, language: Language, *, start: Array | None = None
+    source: Source,
+    taught: Taught,
+    arm: ArmModel,
+    language: Language,
+    *,
+    task: str,
+    start: Array | None = None,
 ) -> PlannedScript:
-    """Compile and plan a text; `start` is where the arm stands, as for `make_plan`."""
+    """Compile and plan a text; `task` and `start` are as for `make_plan`."""
     program, diagnostics = language.compile(source, taught)
     if program is None:
         return PlannedScript(source=source, plan=None, diagnostics=diagnostics)
-    plan, problems = plan_program(program, arm, language, start=start)
+    plan, problems = plan_program(program, arm, language, task=task, start=start)
     return PlannedScript(source=source, plan=plan, diagnostics=[*diagnostics, *problems])
 
 
 def plan_program(
-    program: Program, arm: ArmModel, language: Language, *, start: Array | None = None
+    program: Program, arm: ArmModel, language: Language, *, task: str = "", start: Array | None = None
 ) -> tuple[Plan | None, list[Diagnostic]]:
-    """The plan of a program, and what the planner says in the words of its language."""
-    plan, findings = make_plan(program, arm, start=start)
+    """The plan of a program, and what the planner says in the words of its language.
+
+    `task` may be left out where only the diagnostics are wanted.
+    """
+    plan, findings = make_plan(program, arm, task=task, start=start)
     return plan, language.phrase(program, arm, findings)

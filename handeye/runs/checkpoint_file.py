@@ -26,7 +26,6 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.runs.system import SystemKind
 from handeye.runs.systems import digest_of, kind_of, listing_of, system_kind, written
-from handeye.tasks import DEFAULT
 
 MAGIC: Final = "handeye-checkpoint"
 VERSION: Final = 4
@@ -58,7 +57,7 @@ class Head(Record, frozen=True, kw_only=True):
     """s on the cell's clock."""
     touched: bool
     """Somebody had interfered with the run: it is not what the plan alone makes of it."""
-    task: str = DEFAULT
+    task: str
     judged: bool = False
     """The referee is to look at what came out."""
     limits: dict[str, float] | UnsetType = UNSET
@@ -142,7 +141,6 @@ def decode(data: bytes, name: str) -> Checkpoint:
         plan=plan,
         world=head.world,
         camera=head.camera,
-        task=head.task,
         judged=head.judged,
         limits=head.limits or {},
         replaced=head.replaced or {},
@@ -166,8 +164,8 @@ def decode(data: bytes, name: str) -> Checkpoint:
     begun = {event.stage for event in body.events if isinstance(event, StageStarted | StageFinished)}
     if not begun <= set(listing.stages):
         raise BadFile(f"{name} is not a sound checkpoint: it has stages that its plan lacks")
-    told = (head.program, head.plan, head.position, head.touched)
-    if told != (listing.name, digest_of(setup), checkpoint.position, checkpoint.touched):
+    told = (head.task, head.program, head.plan, head.position, head.touched)
+    if told != (setup.task, listing.name, digest_of(setup), checkpoint.position, checkpoint.touched):
         raise BadFile(f"{name} is not a sound checkpoint: its head does not match its content")
     return checkpoint
 

@@ -1,9 +1,11 @@
-"""Scripts of the task that is meant where none is named: their language, what is taught for them, their plan."""
+"""Scripts: their language, their task, what is taught for them, their plan."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from handeye import tasks
 from handeye.al import AL, sewn
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument
@@ -12,7 +14,6 @@ from handeye.core.resources import plans
 from handeye.core.source import Source, read_source
 from handeye.program.language import Language, language_of
 from handeye.program.taught import Taught, load_taught
-from handeye.tasks import task
 from handeye.tasks.interface import Task
 
 if TYPE_CHECKING:
@@ -31,19 +32,45 @@ def default_script(work: Task | None = None) -> Path:
     Raises:
         InvalidInput: it comes with none.
     """
-    work = work or task()
+    work = work or tasks.task()
     if work.script is None:
         raise BadArgument(f"the task {quoted(work.name)} comes with no script; name one")
     return plans() / work.script
 
 
-def taught(file: Path) -> Taught:
+def program_named(name: str) -> tuple[Path, Task] | None:
+    """The script that a task comes with, by the name of its file without the ending, and that task."""
+    return next((each for each in _programs(others=True) if each[0].stem == name), None)
+
+
+def program_names() -> list[str]:
+    """The names that `program_named` knows."""
+    return [file.stem for file, _ in _programs(others=True)]
+
+
+def task_of(file: Path) -> Task:
+    """The task that comes with a script; of any other file the one that is meant where none is named."""
+    whole = file.resolve()
+    return (
+        next((work for each, work in _programs(others=False) if each.resolve() == whole), None)
+        or tasks.task()
+    )
+
+
+def _programs(*, others: bool) -> Iterator[tuple[Path, Task]]:
+    """The scripts that tasks come with, each with its task."""
+    for work in tasks.of_plans(others=others):
+        for script in ((work.script,) if work.script else ()) + work.other_scripts:
+            yield plans() / script, work
+
+
+def taught(file: Path, work: Task | None = None) -> Taught:
     """Positions and parts taught for a script, from the file beside it; a script may do without.
 
     Raises:
         InvalidInput: that file cannot be used.
     """
-    return in_cell(taught_beside(file), task())
+    return in_cell(taught_beside(file), work or task_of(file))
 
 
 def taught_beside(file: Path) -> Taught:
@@ -62,14 +89,14 @@ def plan_script(file: Path, known: Taught | None = None, work: Task | None = Non
 
     Args:
         known: what is taught for it; by default by the file beside it.
-        work: task whose arm is to do it; by default the one that is meant where none is named.
+        work: task whose arm is to do it; by default that of `task_of`.
 
     Raises:
         InvalidInput: the script, or what is taught for it, cannot be read.
     """
     language = language_of(file, LANGUAGES)
     source = language.read(file)
-    return planned(source, taught_beside(file) if known is None else known, work or task(), language)
+    return planned(source, taught_beside(file) if known is None else known, work or task_of(file), language)
 
 
 def plan_text(text: str, known: Taught, work: Task) -> "PlannedScript":
@@ -82,4 +109,4 @@ def planned(source: Source, known: Taught, work: Task, language: Language) -> "P
     """The plan of a source for the arm of a task."""
     from handeye.planning.scripts import plan_source  # not before something is planned: it takes a while
 
-    return plan_source(source, in_cell(known, work), work.arm, language)
+    return plan_source(source, in_cell(known, work), work.arm, language, task=work.name)

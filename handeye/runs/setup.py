@@ -20,8 +20,6 @@ class Setup(Record, frozen=True, kw_only=True):
     world: WorldSpec
     camera: str
     """How to make pictures: `auto`, `gl` or `ray`."""
-    task: str = DEFAULT
-    """Name of the task."""
     judged: bool = False
     """The referee is to look at what came out. It decides nothing of the run."""
     limits: dict[str, float] = msgspec.field(default_factory=dict)
@@ -30,6 +28,11 @@ class Setup(Record, frozen=True, kw_only=True):
     """Parts that code of whoever began the run takes the place of, with the names of that code."""
     without: tuple[Sense, ...] = ()
     """Senses that the program does without, in the order of `SENSES`."""
+
+    @property
+    def task(self) -> str:
+        """Name of the task, which the plan records."""
+        return str(getattr(self.plan, "task", DEFAULT))
 
 
 def plan_of(setup: Setup) -> Plan:

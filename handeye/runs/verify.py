@@ -33,7 +33,6 @@ def setup_of(trace: Trace) -> Setup:
         plan=plan,
         world=begun.world,
         camera=camera,
-        task=begun.task,
         replaced=begun.own_parts,
         without=begun.lacking,
     )

@@ -1,53 +1,84 @@
-"""Tasks by name. Each is a folder with its scene, its errors, its referee and what else knows it."""
+"""Tasks by name, whatever kind of system does them: the one place that knows which there are.
 
-from importlib import import_module
+A task comes with handeye, by the entry-point group `handeye.tasks` of an installed package, by `--task MODULE:NAME`, or
+from a Python program that calls `register`. Its module is imported when it is first asked for.
+"""
+
+import os
+import sys
+from collections.abc import Iterator
+from functools import cache
+from importlib import import_module, metadata
 from typing import Any, Final
 
 import numpy as np
 
 from handeye.arm import robots
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import BadArgument, NoSuchName, Refused
+from handeye.core.errors import BadArgument, InvalidInput, NoSuchName, Refused
 from handeye.tasks.interface import AnyTask, Task
 
 DEFAULT: Final = "water_pump"
 """The task that is meant where none is named."""
+GROUP: Final = "handeye.tasks"
+"""Entry points of this group name tasks of other packages."""
+ELSEWHERE: Final = "HANDEYE_TASKS"
+"""Environment variable: more tasks as MODULE:NAME, separated by spaces. `--task` adds its own, for child processes."""
 _BUILT_IN: Final = {
-    "water_pump": ("handeye.tasks.water_pump.task", "WATER_PUMP"),
-    "insertion": ("handeye.tasks.insertion.task", "INSERTION"),
+    "water_pump": "handeye.tasks.water_pump.task:WATER_PUMP",
+    "insertion": "handeye.tasks.insertion.task:INSERTION",
 }
-"""Where the tasks that come with handeye are found; they are imported when they are asked for."""
-_TAUGHT: Final = {
-    "palletise": ("handeye.systems.trig.jobs.task", "PALLET"),
-    "bucket": ("handeye.systems.trig.jobs.task", "BUCKET_TASK"),
+_OF_SYSTEMS: Final = {
+    "palletise": "handeye.systems.trig.jobs.task:PALLET",
+    "bucket": "handeye.systems.trig.jobs.task:BUCKET_TASK",
 }
-"""Those that no planned program does, likewise."""
-_ELSEWHERE: Final = " (a task of your own is known to the Python program that calls `handeye.tasks.register`)"
-_REGISTERED: Final[dict[str, Task]] = {}
+"""Tasks that no planned program does."""
+_OURS: Final = _BUILT_IN | _OF_SYSTEMS
+_HINT: Final = (
+    " (one of your own is given as `--task MODULE:NAME`, comes by an entry point of the group `handeye.tasks`, or is "
+    "known to the Python program that calls `handeye.tasks.register`)"
+)
+_REGISTERED: Final[dict[str, AnyTask]] = {}
 
 
-def register(task: Task) -> None:
+def register(task: AnyTask) -> None:
     """Make a task known by its name, and its arm by its own.
 
     Raises:
         InvalidInput: it is no task, has no name, its arm cannot stand where it is parked, or another task, or another
             arm, has the name.
     """
-    if not isinstance(task, Task):
+    if not isinstance(task, AnyTask):
         raise BadArgument(f"a task is an object of a class that is derived from handeye.Task, not {task!r}")
     name = getattr(task, "name", None)
     if not isinstance(name, str) or not name.strip():
         raise BadArgument(f"a task needs a name, which is a text; {name!r} is none")
-    joints = len(task.arm.joints)
-    if np.shape(task.park) != (joints,):
-        raise BadArgument(
-            f"the task {quoted(name)} parks its arm at a position of shape {np.shape(task.park)}; "
-            f"the {task.arm.name} arm has {joints} joints"
-        )
-    if task.name in {*_BUILT_IN, *_TAUGHT} or _REGISTERED.get(task.name, task) is not task:
-        raise BadArgument(f"there is a task called {quoted(task.name)} already")
-    robots.register(task.arm)
-    _REGISTERED[task.name] = task
+    if name in _OURS or _REGISTERED.get(name, task) is not task:
+        raise BadArgument(f"there is a task called {quoted(name)} already")
+    if isinstance(task, Task):
+        joints = len(task.arm.joints)
+        if np.shape(task.park) != (joints,):
+            raise BadArgument(
+                f"the task {quoted(name)} parks its arm at a position of shape {np.shape(task.park)}; "
+                f"the {task.arm.name} arm has {joints} joints"
+            )
+        robots.register(task.arm)
+    _REGISTERED[name] = task
+
+
+def named(words: str) -> AnyTask:
+    """The task that `--task` names: one that is known, or MODULE:NAME, found on the path or in the current folder.
+
+    Raises:
+        InvalidInput: there is none such.
+    """
+    if ":" not in words:
+        return any_task(words)
+    found = _loaded(words)
+    register(found)
+    if words not in (known := os.environ.get(ELSEWHERE, "").split()):
+        os.environ[ELSEWHERE] = " ".join([*known, words])
+    return found
 
 
 def any_task(name: str) -> AnyTask:
@@ -56,7 +87,14 @@ def any_task(name: str) -> AnyTask:
     Raises:
         InvalidInput: there is none such.
     """
-    return _imported(_TAUGHT[name]) if name in _TAUGHT else task(name)
+    if not isinstance(name, str):
+        raise BadArgument(f"a task is given by its name, not {name!r}")
+    found = known_any(name)
+    if found is None:
+        names = {*_OURS, *_REGISTERED, *_entry_points()}
+        near = suggestion(name, names) or f"there are {', '.join(map(quoted, sorted(names)))}"
+        raise NoSuchName(f"no task is called {quoted(name)}; {near}{_HINT}")
+    return found
 
 
 def task(name: str = DEFAULT) -> Task:
@@ -65,31 +103,77 @@ def task(name: str = DEFAULT) -> Task:
     Raises:
         InvalidInput: there is none such.
     """
-    if not isinstance(name, str):
-        raise BadArgument(f"a task is given by its name, not {name!r}")
-    if name in _TAUGHT:
-        raise Refused(f"the task {quoted(name)} is done by a taught program, not by a planned one")
-    found = known(name)
-    if found is None:
-        names = {*_BUILT_IN, *_REGISTERED}
-        near = suggestion(name, names) or f"there are {', '.join(map(quoted, sorted(names)))}"
-        raise NoSuchName(f"no task is called {quoted(name)}; {near}{_ELSEWHERE}")
-    return found
+    return planned(any_task(name))
 
 
-def known(name: str) -> Task | None:
-    """The task of a name; None: this process does not know it, as it may be another program's own."""
-    if name not in _BUILT_IN:
-        return _REGISTERED.get(name)
-    found: Task = _imported(_BUILT_IN[name])
-    return found
+def planned(task: AnyTask) -> Task:
+    """The task itself, if planned programs do it; raises InvalidInput otherwise."""
+    if not isinstance(task, Task):
+        raise Refused(f"the task {quoted(task.name)} is done by a taught program, not by a planned one")
+    return task
 
 
 def known_any(name: str) -> AnyTask | None:
-    """The task of a name, whatever kind of system does it; None: as for `known`."""
-    return any_task(name) if name in _TAUGHT else known(name)
+    """The task of a name; None: this process does not know it, as it may be another program's own.
+
+    Raises:
+        InvalidInput: it is known where it is, and cannot be imported.
+    """
+    if name in _OURS:
+        return _loaded(_OURS[name])
+    if name not in _REGISTERED and name in _entry_points():
+        found = _loaded(_entry_points()[name])
+        if found.name != name:
+            raise BadArgument(f"the entry point {quoted(name)} gives a task called {quoted(found.name)}")
+        register(found)
+    for words in () if name in _REGISTERED else os.environ.get(ELSEWHERE, "").split():
+        register(_loaded(words))
+    return _REGISTERED.get(name)
 
 
-def _imported(place: tuple[str, str]) -> Any:
-    module, value = place
-    return getattr(import_module(module), value)
+def known(name: str) -> Task | None:
+    """The task of a name that planned programs do; None: this process knows none."""
+    found = known_any(name)
+    return found if isinstance(found, Task) else None
+
+
+def of_plans(*, others: bool) -> Iterator[Task]:
+    """The tasks that planned programs do, handeye's own first; with `others`, those of entry points as well."""
+    for name in (*_BUILT_IN, *_REGISTERED, *(_entry_points() if others else ())):
+        try:
+            found = known(name)
+        except InvalidInput:  # told where it is asked for by its name
+            continue
+        if found is not None:
+            yield found
+
+
+@cache
+def _entry_points() -> dict[str, str]:
+    return {point.name: point.value for point in metadata.entry_points(group=GROUP)}
+
+
+def _loaded(words: str) -> AnyTask:
+    """The task MODULE:NAME; its module is imported.
+
+    Raises:
+        InvalidInput: there is none, or importing it fails.
+    """
+    module, _, name = words.partition(":")
+    if not all(part.isidentifier() for part in (*module.split("."), name)):
+        raise BadArgument(f"a task is named as MODULE:NAME, such as my_task:TASK; {quoted(words)} is not")
+    if module.partition(".")[0] != "handeye" and os.getcwd() not in sys.path:
+        sys.path.append(os.getcwd())  # last: nothing there takes the place of what is installed
+    try:
+        found: Any = getattr(import_module(module), name)
+    except InvalidInput:
+        raise
+    except Exception as error:
+        raise BadArgument(
+            f"the task {quoted(words)} cannot be imported: {type(error).__name__}: {error}"
+        ) from error
+    if not isinstance(found, AnyTask):
+        raise BadArgument(
+            f"{quoted(words)} is no task, which is an object of a class that is derived from handeye.Task"
+        )
+    return found

@@ -138,7 +138,9 @@ class Task(AnyTask):
     park: Array
     """Where the arm stands when the cell is switched on, shape (n,)."""
     script: str | None = None
-    """The program that is taken where none is named, a file among the plans."""
+    """The program that is taken where none is named: a file among the plans, or the path of one elsewhere."""
+    other_scripts: tuple[str, ...] = ()
+    """Its other programs, likewise. Commands find each by the name of its file without the ending."""
     eye: Eye | None = None
     period: Period | None = None
     contacts: Mapping[str, tuple[str, ...]] = MappingProxyType({})

@@ -37,6 +37,7 @@ def planned(
     arm: ArmModel,
     start: Array,
     *,
+    task: str,
     saved: Collection[str] = (),
     alone: bool = False,
 ) -> PlannedScript:
@@ -45,10 +46,11 @@ def planned(
     Args:
         arm: the arm that is to carry it out.
         start: where the arm stands, shape (n,), rad and m.
+        task: name of the task in whose cell that is.
         saved: differences that have been saved before.
         alone: the text is only a part of what is done, and need not make sense by itself.
     """
-    made = plan_source(source, taught, arm, AL, start=start)
+    made = plan_source(source, taught, arm, AL, task=task, start=start)
     told = [d for d in made.diagnostics if not (alone and d.code in _ALONE) and not _known(d, source, saved)]
     return replace(made, diagnostics=told)
 

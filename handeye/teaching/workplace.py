@@ -70,7 +70,7 @@ class Workplace:
         """
         self.taught, self.halt, self.observers = taught, halt, observers
         plan = _plan(_PICTURE if look else _NOTHING, taught, known_task(task))
-        setup = Setup(plan=plan, world=world, camera=camera, task=task)
+        setup = Setup(plan=plan, world=world, camera=camera)
         start = Checkpoint(setup=setup)
         self.runner = Runner(start, halt=halt, observers=observers, calibrate=calibrate)
         if self.runner.trouble is not None:
@@ -128,7 +128,8 @@ class Workplace:
 
     def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
         """Plan a text here and now; `alone` as for `planned`."""
-        return planned(source, self.known, self.run.arm, self.q, saved=self.run.state.saved, alone=alone)
+        task, saved = self.runner.setup.task, self.run.state.saved
+        return planned(source, self.known, self.run.arm, self.q, task=task, saved=saved, alone=alone)
 
     def checkpoint(self) -> Checkpoint:
         """The present state, nothing that happened forgotten."""
@@ -212,7 +213,7 @@ class Workplace:
 
 
 def _plan(text: str, taught: Taught, task: Task) -> Plan:
-    plan = planned(Source(name=TYPED, text=text), taught, task.arm, task.park).plan
+    plan = planned(Source(name=TYPED, text=text), taught, task.arm, task.park, task=task.name).plan
     assert plan is not None
     return plan
 

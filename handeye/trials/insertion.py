@@ -159,7 +159,7 @@ def trials_in_world(conditions: Sequence[Condition], last: InsertionTrial) -> li
 def fetched(plan: Plan, seed: int) -> Runner:
     """A run in the world of a seed that has come to where its second stage begins, or has stopped before."""
     world = WorldSpec(seed=seed, overrides=Overrides(set=Condition().hole))
-    setup = Setup(plan=plan, world=world, camera="ray", task=TASK)
+    setup = Setup(plan=plan, world=world, camera="ray")
     runner = Runner(Checkpoint(setup=setup))
     while not runner.ended and runner.next is not None and runner.next.stage == 0:
         runner.step()
@@ -231,6 +231,6 @@ def _plan(search: Search, step: float) -> Plan:
     file = plans() / bench().programs[search]
     written = read_source(file)
     source = Source(name=written.name, text=written.text.replace(_WRITTEN_STEP, f"SEARCH  {step:g}"))
-    made = plan_source(source, taught_beside(file), bench().arm, AL)
+    made = plan_source(source, taught_beside(file), bench().arm, AL, task=TASK)
     assert made.plan is not None, made.diagnostics
     return made.plan

@@ -40,7 +40,9 @@ def test_what_is_done_once_neither_hides_a_square_nor_makes_one() -> None:
 @pytest.mark.parametrize("number", [1, 60, 250])
 def test_a_measured_program_has_its_statements_and_nothing_is_said_about_it(number: int) -> None:
     taught = load_taught(default_script().with_suffix(".toml"))
-    made = plan_source(Source(name="growth.al", text=script(number)), taught, task().arm, AL)
+    made = plan_source(
+        Source(name="growth.al", text=script(number)), taught, task().arm, AL, task="water_pump"
+    )
     assert script(number).count("\n") == number
     assert made.plan is not None
     assert made.diagnostics == []

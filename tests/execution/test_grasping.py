@@ -28,7 +28,7 @@ def carried_out(statement: str) -> tuple[FakeCell, list[Sensed]]:
     """A statement carried out by an arm with such a hand, and all that was sensed meanwhile."""
     program, diagnostics = compile_text(Source(name="grasp.al", text=statement), SAMPLE)
     assert program is not None, diagnostics
-    plan, problems = make_plan(program, STANFORD)
+    plan, problems = make_plan(program, STANFORD, task="water_pump")
     assert plan is not None, problems
     cell, periods = FakeCell(np.array(PARK)), list[Sensed]()
     cell.hand.thickness = lambda _: THICKNESS

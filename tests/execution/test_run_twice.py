@@ -37,7 +37,7 @@ SHIFTED = "MOVE T\nCHANGE X .5\nSAVE H\nMOVE T\nRESTORE H"
 def plan_of(text: str) -> Plan:
     program, diagnostics = compile_text(Source(name="twice.al", text=text), SAMPLE)
     assert program is not None, diagnostics
-    plan, problems = make_plan(program, STANFORD)
+    plan, problems = make_plan(program, STANFORD, task="water_pump")
     assert plan is not None, problems
     return plan
 

@@ -40,7 +40,7 @@ L:      MOVE    T
 def planned(text: str) -> Plan:
     program, diagnostics = compile_text(Source(name="test.al", text=text), Taught())
     assert program is not None, diagnostics
-    plan, problems = make_plan(program, STANFORD)
+    plan, problems = make_plan(program, STANFORD, task="water_pump")
     assert plan is not None, problems
     return plan
 

@@ -25,7 +25,7 @@ PUMP = str(plans() / "water_pump.plan.json")
 def graph_of(text: str, stage: int | None = None) -> Flow:
     program, diagnostics = compile_text(Source(name="test.al", text=text), Taught())
     assert program is not None, diagnostics
-    plan, problems = make_plan(program, STANFORD)
+    plan, problems = make_plan(program, STANFORD, task="water_pump")
     assert plan is not None, problems
     return flow(plan, stage)
 

@@ -30,7 +30,7 @@ def compiled(text: str) -> Program:
 
 
 def step_of(text: str, number: int) -> InspectedStep:
-    plan, problems = make_plan(compiled(text), STANFORD)
+    plan, problems = make_plan(compiled(text), STANFORD, task="water_pump")
     assert plan is not None, problems
     return next(s for stage in inspection(plan).stages for s in stage.steps if s.step == number)
 

@@ -25,7 +25,7 @@ def planned(look: str) -> tuple[Source, Plan | None, list[Diagnostic]]:
     source = sewn_of(Source(name="two.al", text=SCRIPT), {"lib/look.al": look})
     program, diagnostics = compile_text(source, Taught())
     assert program is not None, diagnostics
-    return source, *plan_program(program, STANFORD, AL)
+    return source, *plan_program(program, STANFORD, AL, task="water_pump")
 
 
 def plan(look: str = LOOK) -> Plan:
@@ -43,7 +43,7 @@ def test_a_plan_keeps_the_texts_of_required_files_on_disk() -> None:
 def test_a_plan_of_one_file_says_nothing_of_required_ones() -> None:
     program, _ = compile_text(Source(name="one.al", text="OPEN 1"), Taught())
     assert program is not None
-    made, _ = plan_program(program, STANFORD, AL)
+    made, _ = plan_program(program, STANFORD, AL, task="water_pump")
     assert made is not None
     assert '"required"' not in encode(made)
     assert '"file"' not in encode(made)

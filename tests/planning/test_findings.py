@@ -33,7 +33,7 @@ T = "TRANS T [25 38 4 90 90 0]\nMOVE T\n"
 def found(text: str) -> list[PlanningFinding]:
     program, diagnostics = compile_text(Source(name="test.al", text=text), Taught())
     assert program is not None, diagnostics
-    return make_plan(program, STANFORD)[1]
+    return make_plan(program, STANFORD, task="water_pump")[1]
 
 
 def test_a_position_too_far_away_is_told_with_its_reason_in_metres() -> None:
@@ -91,6 +91,6 @@ def test_a_language_is_found_by_the_ending_of_a_file() -> None:
 
 def test_another_language_has_words_of_its_own_for_the_same_findings() -> None:
     source = Source(name="x.terse", text="TRANS T [25 38 -1 90 90 0]\nMOVE T")
-    said = plan_source(source, Taught(), STANFORD, TERSE)
+    said = plan_source(source, Taught(), STANFORD, TERSE, task="water_pump")
     assert [(d.code, d.message) for d in said.diagnostics] == [("hand-through-table", "Stanford: step 0")]
     assert said.plan is None

@@ -148,7 +148,7 @@ def block_plan(script: str | None = None) -> Plan:
     source = read_source(SCRIPT) if script is None else Source(name="small.al", text=script)
     program, problems = compile_text(source, load_taught(SCRIPT.with_suffix(".toml")))
     assert program is not None, problems
-    plan, findings = make_plan(program, CARTESIAN)
+    plan, findings = make_plan(program, CARTESIAN, task="block")
     assert plan is not None, findings
     return plan
 
@@ -156,5 +156,5 @@ def block_plan(script: str | None = None) -> Plan:
 def block_run(script: str, seed: int = 0, **set: float) -> Runner:
     """A run of a script in the drawn world of a seed, with some quantities set (SI), that has not begun."""
     world = WorldSpec(seed=seed, overrides=Overrides(set=set))
-    setup = Setup(plan=block_plan(script), world=world, camera="ray", task="block")
+    setup = Setup(plan=block_plan(script), world=world, camera="ray")
     return Runner(Checkpoint(setup=setup))

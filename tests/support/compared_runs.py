@@ -41,5 +41,5 @@ def kept(folder: Path, start: Checkpoint) -> Recorded:
 def block_start(script: str = SCRIPT, seed: int = 0, **values: float) -> Checkpoint:
     """A run of the small arm that has not begun, in a world with some quantities set (SI)."""
     world = WorldSpec(seed=seed, overrides=Overrides(set=values))
-    setup = Setup(plan=block_plan(script), world=world, camera="ray", task="block")
+    setup = Setup(plan=block_plan(script), world=world, camera="ray")
     return Checkpoint(setup=setup)

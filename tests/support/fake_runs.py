@@ -84,7 +84,7 @@ def fake_run(
     taught = Taught(positions={"T": T, **(positions or {})}, parts=parts or {})
     program, diagnostics = compile_text(Source(name="fake.al", text=script), taught)
     assert program is not None, diagnostics
-    plan, problems = make_plan(program, STANFORD, start=AT_T)
+    plan, problems = make_plan(program, STANFORD, task="water_pump", start=AT_T)
     assert plan is not None, problems
     cell, events = FakeCell(AT_T), list[Event]()
     context = ExecutionContext(plan=plan, arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append)

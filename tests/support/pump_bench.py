@@ -226,7 +226,7 @@ def bench(
     )
     program, diagnostics = compile_text(Source(name="test.al", text=script), taught)
     assert program is not None, diagnostics
-    plan, problems = make_plan(program, STANFORD)
+    plan, problems = make_plan(program, STANFORD, task="water_pump")
     assert plan is not None, problems
     cell = build_cell(world or PumpWorld.nominal(), camera=camera)
     for part, X_WP in (lay or {}).items():

@@ -52,7 +52,7 @@ def plan() -> Plan:
     """A plan of three steps."""
     program, _ = compile_text(Source(name="short.al", text=SCRIPT), Taught(positions={}, parts={}))
     assert program is not None
-    made, _ = make_plan(program, STANFORD)
+    made, _ = make_plan(program, STANFORD, task="water_pump")
     assert made is not None
     return made
 

@@ -60,7 +60,7 @@ def plan_of(script: str, files: tuple[tuple[str, str], ...] = ()) -> Plan:
     taught = load_taught(plans() / "water_pump.toml")
     program, diagnostics = compile_text(sewn_of(Source(name="short.al", text=script), dict(files)), taught)
     assert program is not None, diagnostics
-    plan, problems = make_plan(program, STANFORD)
+    plan, problems = make_plan(program, STANFORD, task="water_pump")
     assert plan is not None, problems
     return plan
 

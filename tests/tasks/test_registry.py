@@ -27,7 +27,7 @@ def test_the_water_pump_is_the_task_that_is_meant_where_none_is_named() -> None:
     ("name", "sentence"),
     [
         ("water_pmup", "no task is called `water_pmup`; did you mean `water_pump`?"),
-        ("clock", "no task is called `clock`; known: `insertion`, `water_pump`"),
+        ("clock", "no task is called `clock`; known: `bucket`, `insertion`, `palletise`, `water_pump`"),
     ],
 )
 def test_an_unknown_task_is_refused_with_the_nearest_name(
@@ -36,7 +36,7 @@ def test_an_unknown_task_is_refused_with_the_nearest_name(
     monkeypatch.setattr(tasks, "_REGISTERED", {})  # those of other tests
     with pytest.raises(
         InvalidInput,
-        match=f"^{re.escape(sentence)} \\(a task of your own is known to the Python program that calls",
+        match=f"^{re.escape(sentence)} \\(one of your own is given as `--task MODULE:NAME`, comes by",
     ):
         task(name)
 
@@ -49,7 +49,8 @@ def test_what_is_no_name_of_a_task_is_refused(wrong: object) -> None:
 
 def test_a_run_of_a_task_that_is_not_there_is_refused() -> None:
     start = begin("OPEN 1")
-    setup = msgspec.structs.replace(start.setup, task="water_pmup")
+    plan = msgspec.structs.replace(start.setup.plan, task="water_pmup")
+    setup = msgspec.structs.replace(start.setup, plan=plan)
     with pytest.raises(InvalidInput, match="did you mean `water_pump`"):
         Runner(msgspec.structs.replace(start, setup=setup))
 

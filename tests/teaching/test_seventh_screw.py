@@ -50,7 +50,7 @@ def planned(text: str, hole: Position) -> Plan:
     taught.positions["H6"] = hole
     program, diagnostics = compile_text(Source(name="seven.al", text=text), taught)
     assert program is not None, diagnostics
-    plan, problems = make_plan(program, STANFORD)
+    plan, problems = make_plan(program, STANFORD, task="water_pump")
     assert plan is not None, problems
     return plan
 

@@ -38,7 +38,11 @@ def start() -> Runner:
 
 def planned(text: str) -> Plan:
     made = plan_source(
-        Source(name="insertion.al", text=text), taught_beside(plans() / "insertion.al"), INSERTION.arm, AL
+        Source(name="insertion.al", text=text),
+        taught_beside(plans() / "insertion.al"),
+        INSERTION.arm,
+        AL,
+        task=INSERTION.name,
     )
     assert made.plan is not None
     return made.plan

@@ -30,6 +30,7 @@ class Insertion(Inserting):
     park = PARK
     words = Words(product="the pin", done="The pin is in its hole.")
     script = "insertion.al"
+    other_scripts = ("insertion_1973.al",)
     programs = MappingProxyType({"gentle": "insertion.al", "1973": "insertion_1973.al"})
 
     def variation(self, seed: int) -> Variation:

@@ -52,6 +52,7 @@ class WaterPump(Task):
     park = PARK
     words = Words(product="the pump", done="The pump is assembled.", apart="The pump is taken apart.")
     script = "water_pump.al"
+    other_scripts = ("water_pump_1973.al",)
     eye = Eye(drawing=DRAWING, looks=LOOKS)
     photographs = ("studio", "pump")
     period = PERIOD

@@ -24,7 +24,7 @@ pytestmark = pytest.mark.slow
 
 def begin(seed: int = 0, **overrides: float) -> Checkpoint:
     world = WorldSpec(seed=seed, overrides=Overrides(set=overrides))
-    return Checkpoint(setup=Setup(plan=block_plan(), world=world, camera="ray", task="block"))
+    return Checkpoint(setup=Setup(plan=block_plan(), world=world, camera="ray"))
 
 
 def kept(folder: Path, start: Checkpoint) -> Runner:

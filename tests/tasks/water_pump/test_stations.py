@@ -75,14 +75,18 @@ def test_the_planner_keeps_clear_of_a_new_station() -> None:
     known: Taught = taught(plans() / "water_pump.al")
     program, _ = compile_text(Source(name="through.al", text=THROUGH), known)
     assert program is not None
-    _, findings = make_plan(program, task().arm)
+    _, findings = make_plan(program, task().arm, task="water_pump")
     assert "TOOL_TRAY" in {finding.fixture for finding in findings if isinstance(finding, RunsInto)}
 
 
 def test_without_the_entry_nothing_is_in_the_way() -> None:
     program, _ = compile_text(Source(name="through.al", text=THROUGH), taught(plans() / "water_pump.al"))
     assert program is not None
-    assert not [problem for problem in make_plan(program, task().arm)[1] if isinstance(problem, RunsInto)]
+    assert not [
+        problem
+        for problem in make_plan(program, task().arm, task="water_pump")[1]
+        if isinstance(problem, RunsInto)
+    ]
 
 
 @pytest.mark.parametrize("value", ["[1, 2, 3]", "[1, 1, 1, 0, 2, 2]"])

@@ -80,6 +80,11 @@ class TaughtPlan(Record, frozen=True, kw_only=True):
     job: JobName
     script: str
 
+    @property
+    def task(self) -> JobName:
+        """Name of the task: that of the job."""
+        return self.job
+
 
 def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
     """The plan in some bytes; its script has not been typed.

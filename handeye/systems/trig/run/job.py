@@ -62,9 +62,7 @@ class JobReport(Record, frozen=True, kw_only=True):
 def setup_of_job(name: JobName, seed: int, blocks: int | None) -> Checkpoint:
     """A run of a job that has not begun; `blocks` are those of the palletiser's stack."""
     plan = TaughtPlan(job=name, script=job_script(name, blocks or 0))
-    setup = Setup(
-        system=TAUGHT.name, plan=plan, world=WorldSpec(seed=seed), camera="auto", task=name, judged=True
-    )
+    setup = Setup(system=TAUGHT.name, plan=plan, world=WorldSpec(seed=seed), camera="auto", judged=True)
     return Checkpoint(setup=setup)
 
 
