@@ -35,11 +35,9 @@ LAYERS: list[set[str]] = [
 UPWARDS: dict[str, set[str]] = {
     "api.run": {"systems.stanford.executor_run"},
     "api.state": {"systems.stanford.executor_run"},
-    "cli.__init__": {"systems.trig.cli.commands"},
     "cli.cache": {"systems.stanford.kept_calibrations"},
     "cli.job": {"systems.trig.run.job", "systems.trig.run.system"},
     "cli.reports": {"systems.trig.run.job_folder"},
-    "cli.trials": {"systems.trig.cli.pallet_trials"},
     "debugger.breakpoints": {"systems.trig.run.plan"},
     "debugger.choices": {"systems.stanford.executor_run"},
     "debugger.command_table": {"systems.stanford.executor_run"},

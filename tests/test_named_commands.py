@@ -9,6 +9,7 @@ from cyclopts import App
 
 from benchmarks.__main__ import app as benchmarks
 from handeye.cli import app
+from handeye.cli.commands import COMMANDS
 from handeye.planfile.store import read_plan
 
 ROOT = Path(__file__).parent.parent
@@ -79,3 +80,17 @@ def test_the_readme_counts_steps_stages_and_motions_as_the_plan_has_them() -> No
         len(plan.program.stages),
         len(plan.motions),
     )
+
+
+def test_lists_say_of_a_command_what_its_docstring_says_first() -> None:
+    listed = {}
+    for line in COMMANDS.strip().splitlines():
+        named, sentence = line.split(": ", 1)
+        listed[named.partition(" = ")[0]] = sentence
+    first = {}
+    for name in listed:
+        command = app
+        for word in name.split():
+            command = command[word]
+        first[name] = " ".join(command.help.split("\n\n")[0].split())
+    assert first == listed

@@ -6,34 +6,14 @@ from typing import Final, NoReturn
 
 from cyclopts import App, CycloptsError, Parameter
 
-from handeye.cli import (
-    benches,
-    cache,
-    comparisons,
-    completion,
-    dismantling,
-    editing,
-    exports,
-    fault_matrix,
-    plans,
-    records,
-    reports,
-    runs,
-    scripts,
-    teaching,
-    traces,
-    trials,
-    videos,
-    views,
-    worlds,
-)
+from handeye.cli import completion
+from handeye.cli.commands import COMMANDS, add_commands
 from handeye.cli.common import complain, note, notes, screen
 from handeye.cli.panic_button import terminable
 from handeye.cli.streams import let_go_of_streams, prepare_streams
 from handeye.cli.usage import usage_sentence
 from handeye.core.errors import HandeyeError
 from handeye.core.versions import HANDEYE
-from handeye.systems.trig.cli import commands as trig
 
 BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130
@@ -49,29 +29,8 @@ app = App(
     console=screen,
     error_console=notes,
 )
-for commands in (
-    runs,
-    dismantling,
-    records,
-    reports,
-    videos,
-    views,
-    comparisons,
-    teaching,
-    scripts,
-    editing,
-    exports,
-    plans,
-    traces,
-    worlds,
-    fault_matrix,
-    trials,
-    trig,
-    benches,
-    cache,
-    completion,
-):
-    commands.register(app)
+add_commands(app, COMMANDS)
+completion.register(app)
 
 
 def main() -> NoReturn:

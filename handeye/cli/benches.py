@@ -5,24 +5,12 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from cyclopts import App
-
-from handeye.cli import insertion
 from handeye.cli.common import Camera, compiled, notes, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
     pass
-
-
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    bench = App(name="bench", help="Measure how long things take.")
-    for command in (timing,):
-        bench.command(command)
-    insertion.register(bench)
-    app.command(bench)
 
 
 def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Annotated, Final
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import Json, put_json, say
 from handeye.core.plain_text import counted
@@ -13,11 +13,6 @@ if TYPE_CHECKING:
 SHOWN: Final = 20
 """Calibrations that people are shown, the newest."""
 _AGES: Final = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
-
-
-def register(app: App) -> None:
-    """Add the command to the command line."""
-    app.command(cache)
 
 
 def cache(

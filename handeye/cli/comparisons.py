@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import Json, note, put_json, say
 from handeye.cli.reports import read_recorded
@@ -14,11 +14,6 @@ if TYPE_CHECKING:
     from handeye.comparison.comparison import Comparison
     from handeye.comparison.page import Animations
     from handeye.report.recorded import Recorded
-
-
-def register(app: App) -> None:
-    """Add the command to the command line."""
-    app.command(compare)
 
 
 def compare(

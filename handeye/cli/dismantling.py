@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.batches import kept_batch, progress
 from handeye.cli.common import Camera, Json, Out, WholeNumber, compiled, note, positive, put_json, screen
@@ -25,11 +25,6 @@ if TYPE_CHECKING:
 
 COUNT: Final = 20
 """Trials, if nobody says how many."""
-
-
-def register(app: App) -> None:
-    """Add the command to the command line."""
-    app.command(dismantle)
 
 
 def dismantle(

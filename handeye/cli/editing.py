@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.al.formatter import format_text
 from handeye.al.includes import read_script
@@ -16,12 +16,6 @@ from handeye.core.files import write_whole
 from handeye.core.source import Source
 
 STANDARD_INPUT = Path("-")
-
-
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    for command in (fmt, explain, lsp):
-        app.command(command)
 
 
 def fmt(

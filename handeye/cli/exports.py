@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import Json, note, put_json, say
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
@@ -16,14 +16,6 @@ if TYPE_CHECKING:
 Run = Annotated[
     Path, Parameter(help="The folder of a run, or a checkpoint; without one, a world as it is drawn.")
 ]
-
-
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    export = App(name="export", help="Hand a world, or what a run has left, to other programs.")
-    for command in (mjcf, glb):
-        export.command(command)
-    app.command(export)
 
 
 def mjcf(

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put, put_json, say, screen
 from handeye.cli.kept_records import KeptRecords
@@ -21,11 +21,6 @@ if TYPE_CHECKING:
     from handeye.trials.faults import FaultTrial
 
 OUTCOMES: Final = Kind("list of outcomes", rb'\{"name":')
-
-
-def register(app: App) -> None:
-    """Add the command to the command line."""
-    app.command(faults)
 
 
 def faults(

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final, Literal
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import Json, WholeNumber, positive, put_json, screen
 from handeye.cli.tally import Tally
@@ -21,11 +21,6 @@ GRID_N: Final = 10
 PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search of the listing of 1973"}
 MOST_SD: Final = 5.0
 """mm: beyond it most holes would be beyond the search."""
-
-
-def register(bench: App) -> None:
-    """Add the command to those that measure."""
-    bench.command(insertion)
 
 
 def insertion(

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Annotated, Final, Literal
 
 import msgspec
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import Json, PlanFile, put, put_json, say
 from handeye.core.errors import BadArgument
@@ -13,12 +13,6 @@ from handeye.planfile.store import read_plan
 
 StageName = Annotated[str | None, Parameter(help="One stage only: its number, its name, or a piece of it.")]
 DRAWINGS: Final = {"svg": Kind("SVG drawing", rb"<svg ", ending=".svg"), "dot": Kind("graph", rb"digraph ")}
-
-
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    for command in (inspect, diff, schema):
-        app.command(command)
 
 
 def inspect(

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import Json, note, screen
 from handeye.cli.trace_files import check_no_batch
@@ -16,11 +16,6 @@ if TYPE_CHECKING:
     from handeye.results.result import Result
 
 Folder = Annotated[Path, Parameter(help="The folder of a run.")]
-
-
-def register(app: App) -> None:
-    """Add the command to the command line."""
-    app.command(show)
 
 
 def show(folder: Folder, /, *, json: Json = False) -> int:

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import note, say
 from handeye.cli.trace_files import TraceFile, motion_file
@@ -15,11 +15,6 @@ if TYPE_CHECKING:
 
 DEMO: Final = "demo.html"
 """The page of the run that comes with handeye, if nobody says otherwise."""
-
-
-def register(app: App) -> None:
-    """Add the command to the command line."""
-    app.command(report)
 
 
 def report(

@@ -4,7 +4,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import Calibrate, Camera, Json, Out, PlanFile, compiled, note
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
@@ -48,12 +48,6 @@ OnStop = Annotated[
         "`unwind`: of the one that fails) or `ask`. By default asks on a terminal and aborts elsewhere."
     ),
 ]
-
-
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    for command in (assemble, run, resume):
-        app.command(command)
 
 
 def assemble(

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.al import extensions
 from handeye.cli.common import (
@@ -29,12 +29,6 @@ from handeye.runs.scripts import LANGUAGES, taught
 from handeye.tasks import task
 
 Version = tuple[int, int, int] | None
-
-
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    for command in (check, plan, stages):
-        app.command(command)
 
 
 def check(

@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import Calibrate, Camera, Json, note, put_line, say
 from handeye.cli.panic_button import PanicButton
@@ -32,12 +32,6 @@ TaughtFile = Annotated[
 Looking = Annotated[bool, Parameter(name="--look", help="Set the camera up first, as `assemble` does.")]
 From = Annotated[Path | None, Parameter(name="--from", help="Begin with the cell of this checkpoint.")]
 Keep = Annotated[Path | None, Parameter(help="Save the cell at the end to this checkpoint.")]
-
-
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    for command in (do, repl, teach):
-        app.command(command)
 
 
 def do(

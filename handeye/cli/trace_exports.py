@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import say
 from handeye.cli.reports import read_recorded
@@ -18,15 +18,6 @@ if TYPE_CHECKING:
 
 Folder = Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write.")]
 Overwrite = Annotated[bool, Parameter(help="Replace the tables that are in the folder.")]
-
-
-def register(trace: App) -> None:
-    """Add the commands to those on traces."""
-    trace.command(plot)
-    export = App(name="export", help="Write joints, forces and events of a run as tables.")
-    for command in (csv, parquet):
-        export.command(command)
-    trace.command(export)
 
 
 def plot(

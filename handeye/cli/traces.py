@@ -4,9 +4,8 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
-from handeye.cli import trace_exports
 from handeye.cli.common import (
     Height,
     Json,
@@ -21,7 +20,6 @@ from handeye.cli.common import (
     screen,
 )
 from handeye.cli.photographs import PLAIN, FineOptions
-from handeye.cli.thinning import thin
 from handeye.cli.trace_files import File, TraceFile, trace_file
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.files import check_place, write_over
@@ -29,15 +27,6 @@ from handeye.core.files import check_place, write_over
 if TYPE_CHECKING:
     from handeye.program.events import AnyEvent
     from handeye.trace.reading import Trace
-
-
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    trace = App(name="trace", help="Read the traces that runs leave.")
-    for command in (show, stats, photograph, verify, thin):
-        trace.command(command)
-    trace_exports.register(trace)
-    app.command(trace)
 
 
 def show(file: File, /, *, json: Annotated[bool, Parameter(help="Events as JSON lines.")] = False) -> int:

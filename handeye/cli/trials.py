@@ -2,19 +2,14 @@
 
 from typing import Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
-from handeye.cli.batches import assembly_trials, compare_trials
-from handeye.cli.chaos import chaos_trials
 from handeye.cli.common import Camera, Json, WholeNumber, note, positive, put_json, say
-from handeye.cli.dismantling import dismantling_trials
-from handeye.cli.disturbing import disturbed_trials
 from handeye.cli.world_options import (
     ANY_WORLD,
     WorldOptions,
 )
 from handeye.core.variation import WorldSpec
-from handeye.systems.trig.cli.pallet_trials import pallet_trials
 from handeye.tasks import task
 from handeye.tasks.trial import Known
 
@@ -29,20 +24,6 @@ Worlds = Annotated[
     WholeNumber | None, Parameter(help="Worlds to try in, from --seed on; by default as many as COUNT.")
 ]
 Jobs = Annotated[WholeNumber, Parameter(help="Processes at a time.")]
-
-
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    trials = App(name="trials", help="Try in many worlds and count.")
-    trials.command(assembly_trials, name="assembly")
-    trials.command(dismantling_trials, name="dismantling")
-    trials.command(disturbed_trials, name="disturbed")
-    trials.command(compare_trials, name="compare")
-    trials.command(base_vision_trials, name="base")
-    trials.command(gasket_vision_trials, name="gasket")
-    trials.command(chaos_trials, name="chaos")
-    trials.command(pallet_trials, name="pallet")
-    app.command(trials)
 
 
 def base_vision_trials(

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import note, notes, say
 from handeye.cli.trace_files import TraceFile, motion_file
@@ -16,11 +16,6 @@ from handeye.core.errors import BadArgument
 if TYPE_CHECKING:
     from handeye.trace.trace import Trace
     from handeye.video.making import Told
-
-
-def register(app: App) -> None:
-    """Add the command to the command line."""
-    app.command(video)
 
 
 def video(

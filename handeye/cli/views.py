@@ -4,7 +4,7 @@ from pathlib import Path
 from threading import Event
 from typing import Annotated, Final
 
-from cyclopts import App, Parameter
+from cyclopts import Parameter
 
 from handeye.cli.common import Camera, Out, WholeNumber, compiled, note, say
 from handeye.cli.panic_button import PanicButton
@@ -20,11 +20,6 @@ DEMO: Final = ("pace 1x", "continue")
 """What is said to the run of the demo at first."""
 _RECORDED: Final = (".mcap", ".part", ".jsonl")
 """Endings of what a run has left."""
-
-
-def register(app: App) -> None:
-    """Add the command to the command line."""
-    app.command(view)
 
 
 def view(

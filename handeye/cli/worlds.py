@@ -1,18 +1,10 @@
 """Commands that show a world: its quantities, a picture of it."""
 
-from cyclopts import App
-
 from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, put, say, screen
 from handeye.cli.photographs import PLAIN, FineOptions
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.files import check_place, write_over
 from handeye.tasks import task
-
-
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    app.command(world)
-    app.command(render)
 
 
 def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:

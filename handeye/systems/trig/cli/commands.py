@@ -34,14 +34,6 @@ trig = App(
 )
 
 
-def register(app: App) -> None:
-    """Add the commands to the command line."""
-    trig.default(edit)
-    for command in (run, show, palletise, bucket):
-        trig.command(command)
-    app.command(trig)
-
-
 def edit(
     file: Annotated[Path | None, Parameter(help="A program to begin with: .trig or .trig.json.")] = None,
     /,
@@ -163,3 +155,8 @@ def _conversed(session: "Session", arm: str) -> int:
         return 0
     Screen(session, pace=PACE if arm == "none" else 0.0).run()
     return 0
+
+
+trig.default(edit)
+for _command in (run, show, palletise, bucket):
+    trig.command(_command)

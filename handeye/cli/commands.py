@@ -1,0 +1,85 @@
+"""The commands by name, each loaded when it is called or asked for its help; lists of commands load none."""
+
+from typing import Final
+
+from cyclopts import App
+from cyclopts.command_spec import CommandSpec
+
+COMMANDS: Final = """
+assemble = runs:assemble: Assemble the water pump: plan, work, judge.
+run = runs:run: Carry out a plan in the work cell, or stages of it, or step by step.
+resume = runs:resume: Resume an interrupted run.
+dismantle = dismantling:dismantle: Have the arm undo what it did in a run: take the pump apart again.
+show = records:show: Show what a run came to, or how far it has come; its folder stays as it is.
+report = reports:report: Make a page of a run, or of two: one file with what happened, why, and what was seen and felt.
+video = videos:video: Make a video of a recorded run; nothing is simulated.
+view = views:view: Show the live cell in a browser, and step a run or teach positions there; or show a run that was recorded.
+compare = comparisons:compare: Compare two runs, step by step: what went otherwise first, where each searched, felt and corrected.
+do = teaching:do: Plan functions and carry them out at once, each by itself: `handeye do "OPEN 3" PARK`.
+repl = teaching:repl: Type functions to collect and check them; DO carries them out. HELP lists the commands.
+teach = teaching:teach: Move the arm and name positions; new names go into the taught file, and the rest of it stays.
+check = scripts:check: Check a script and its taught positions, the arm's reach included; nothing moves.
+plan = scripts:plan: Compile a script into a plan.
+stages = scripts:stages: List the stages of a plan and their steps, with lines of the source.
+fmt = editing:fmt: Format scripts in columns, as in a listing of the period; comments stay.
+explain = editing:explain: Explain a diagnostic's code, an error number or an instruction; without an argument, list the codes.
+lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
+export: Hand a world, or what a run has left, to other programs.
+export mjcf = exports:mjcf: Write a scene that plain MuJoCo opens: scene.xml, its meshes and textures, and a README.
+export glb = exports:glb: Write solids for programs that show or measure shapes, and check that they are closed and weigh what they should.
+inspect = plans:inspect: Show what a plan does: stages, steps, times, guards, forces, and what each step depends on.
+diff = plans:diff: Compare what two plans do, step by step.
+schema = plans:schema: Print the JSON schema of the plan format.
+trace: Read the traces that runs leave.
+trace show = traces:show: Show what happened in a run, and why.
+trace stats = traces:stats: Count and time what happened in a run, stage by stage.
+trace photograph = traces:photograph: Photograph the cell as it was at a moment of a recorded run; nothing is simulated.
+trace verify = traces:verify: Carry out a recorded run again and compare.
+trace thin = thinning:thin: Write a trace with no more of the motion than it takes to show the run, a tenth as large.
+trace plot = trace_exports:plot: Draw joints, force of the hand and events of a run against time; it needs the extra `plot`, matplotlib.
+trace export: Write joints, forces and events of a run as tables.
+trace export csv = trace_exports:csv: Write tables of a run as CSV, with a README that tells their columns.
+trace export parquet = trace_exports:parquet: Write tables of a run as Parquet, with a README that tells their columns; it needs the extra `export`, pyarrow.
+world = worlds:world: List every quantity in which worlds differ: what it is in this world, unit, spread and source.
+render = worlds:render: Render a picture of the work cell.
+faults = fault_matrix:faults: Assemble once with each fault of a matrix, at its usual size, and tell what that comes to.
+trials: Try in many worlds and count.
+trials assembly = batches:assembly_trials: Assemble in many worlds and count: how often, how sure that is, and what failed where.
+trials dismantling = dismantling:dismantling_trials: Assemble in many worlds, have the arm take each apart again, and count how often everything is where it was.
+trials disturbed = disturbing:disturbed_trials: Build a pump, change something behind the arm's back, and have the arm undo it: is it stopped before harm?
+trials compare = batches:compare_trials: Compare batches with a first one, world by world: what a sense, or an error of the world, makes of the rate.
+trials base = trials:base_vision_trials: Find the base on the belt at many poses: how often, how exactly, and how often wrongly.
+trials gasket = trials:gasket_vision_trials: Check gaskets of every kind by eye: on properly, shifted by .3 in, absent, and one on another.
+trials chaos = chaos:chaos_trials: Draw faults, times, worlds, kills, panics, retries and skips together, and check what must always hold.
+trials pallet = handeye.systems.trig.cli.pallet_trials:pallet_trials: Palletise in many worlds, and take everything back: how often it comes out right, and how far off blocks are.
+trig = handeye.systems.trig.cli.commands:trig: TRIG (MIT, 1982): teach a program by doing, see it as it grows, run it backwards.
+bench: Measure how long things take.
+bench timing = benches:timing: Assemble once and print the timing table beside that of 1973.
+bench insertion = insertion:insertion: Put one pin into one hole, many times: success, peak force, and time from the first contact to seated.
+cache = cache:cache: Show the calibrations of cameras that are kept, or remove them.
+"""  # noqa: E501
+"""`NAME = MODULE:FUNCTION: SENTENCE` of each command, with the sentence that lists say of it, which is the first one of
+its docstring; a group of commands has no function. Modules are those of this folder, or have their full name."""
+
+
+class _Command(CommandSpec):
+    def resolve(self, parent_app: App) -> App:
+        """Import the command. Its own help is its docstring: the sentence is for lists, which do not import it."""
+        self.help = None
+        return super().resolve(parent_app)
+
+
+def add_commands(app: App, table: str) -> None:
+    """Add the commands of a table to those there are; a group stands above its commands."""
+    for line in table.strip().splitlines():
+        named, sentence = line.split(": ", 1)
+        name, _, path = named.partition(" = ")
+        *before, last = name.split()
+        group = app
+        for word in before:
+            group = group[word]
+        if not path:
+            group.command(App(name=last, help=sentence))
+            continue
+        path = path if "." in path else f"{__package__}.{path}"
+        group._commands[last] = _Command(import_path=path, name=last, help=sentence)
