@@ -16,7 +16,7 @@ from handeye.core.record import Record
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
 from handeye.execution.undo.done import Undoing
-from handeye.program.events import AnyEvent, Choice
+from handeye.program.events import AnyEvent, Choice, SystemEvent
 from handeye.program.operation import Device
 from handeye.program.system_state import SystemState
 from handeye.runs.parts import OWN, Parts
@@ -176,7 +176,7 @@ class System(Protocol):
         """Steps that were executed and that the arm has not undone, in order; none of a system that cannot undo."""
         return ()
 
-    def undo(self, undoing: Undoing) -> None:
+    def reverse(self, undoing: Undoing) -> None:
         """From now on each step undoes one that was executed, the last first.
 
         Raises:
@@ -199,6 +199,14 @@ class System(Protocol):
         """Its state, for people who look at it."""
         shown: dict[str, Any] = msgspec.to_builtins(self.state, enc_hook=np.ndarray.tolist)
         return shown
+
+    def type_line(self, text: str, task: str) -> None:
+        """Give a task a line typed at the console, and emit `LineTyped` before all that comes of it.
+
+        Raises:
+            InvalidInput: this system has no console, or no such task; nothing has happened then.
+        """
+        raise Refused("this system has no console to type at")
 
     def settables(self) -> Mapping[str, Settable]:
         """Things that a person can set, by kind."""
@@ -248,6 +256,8 @@ class SystemKind:
     """Raises InvalidInput unless that machine is that of the task."""
     build: Callable[[Setup, Surroundings], System]
     """Raises InvalidInput if it cannot be built here."""
+    events: tuple[type[SystemEvent], ...] = ()
+    """Kinds of events that it adds to those of all systems."""
     executed: Callable[[Any, Any], Sequence[ExecutedStep]] = lambda plan, state: ()
     """Steps of a plan that were executed and not undone, by a state: what its `System.executed` would say."""
     order: Callable[[Any, Any, Undoing], None] = lambda plan, state, undoing: None

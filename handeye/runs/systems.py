@@ -7,17 +7,23 @@ from handeye.core.diagnostics import quoted
 from handeye.core.errors import NoSuchName
 from handeye.core.record import Record
 from handeye.planfile.store import written_digest
+from handeye.program.event_reading import declare_events
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, SystemKind
 from handeye.systems.stanford.executor_run import PROGRAM
 from handeye.systems.trig.run.system import TAUGHT
 
-_KINDS: Final[dict[str, SystemKind]] = {PROGRAM.name: PROGRAM, TAUGHT.name: TAUGHT}
+_KINDS: Final[dict[str, SystemKind]] = {}
 
 
 def register(kind: SystemKind) -> None:
-    """Let runs be driven by another kind of system."""
+    """Let runs be driven by another kind of system, and its events be read."""
+    declare_events(kind.name, kind.events)
     _KINDS[kind.name] = kind
+
+
+for _kind in (PROGRAM, TAUGHT):
+    register(_kind)
 
 
 def system_kind(name: str) -> SystemKind:

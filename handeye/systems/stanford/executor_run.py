@@ -176,7 +176,7 @@ class ProgramSystem(System):
     def executed(self) -> Sequence[Done]:
         return self.state.done
 
-    def undo(self, undoing: Undoing) -> None:
+    def reverse(self, undoing: Undoing) -> None:
         self.executor.undo(undoing)
 
     def finish(self) -> bool:
