@@ -75,6 +75,9 @@ MAKERS = {
     "cell.opengl": {"importlib"},  # one of two libraries of OpenGL, whichever is there
     "tasks.__init__": {"importlib.import_module", "importlib.metadata"},  # a task when it is asked for
     "core.versions": {"importlib.metadata.version"},
+    "program.event_reading": {
+        "importlib.metadata.entry_points"
+    },  # the system of a run, for its kinds of events
 }
 """Modules that name another one at run time, and by which means."""
 
