@@ -26,7 +26,6 @@ from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.stanford.executor_run import cell_of
 
 
 @dataclass(slots=True)
@@ -93,7 +92,7 @@ def carry_out(
 def bare(begun: Checkpoint, watching: Watching = NOBODY) -> Bare:
     """Do the work of a run again from where it began, and then its physics alone."""
     runner = Runner(begun, observers=lambda _: watching.observers)
-    tape = Tape(cell_of(runner.system))
+    tape = Tape(runner.arm_cell)
     with tape.recording():
         advance(runner)
     return play(tape, time.process_time)

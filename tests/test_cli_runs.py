@@ -15,7 +15,7 @@ from conftest import Command
 from handeye.program.events import AnyEvent, PanicStopped, RunStarted, StepStarted
 from handeye.runs.checkpoint_file import read_head
 from handeye.runs.folder import open_again
-from handeye.systems.stanford.executor_run import ProgramSystem
+from handeye.systems.stanford.executor_run import RunningPlan
 from handeye.trace.eventlist import effective, read_events
 
 pytestmark = pytest.mark.slow
@@ -552,13 +552,13 @@ def test_of_a_sound_run_nothing_is_said_to_be_lost(command: Command, folder: Pat
 def test_times_are_shown_and_typed_as_since_the_camera_was_calibrated(
     command: Command, planned: Planned, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    begin = ProgramSystem.begin
+    begin = RunningPlan.begin
 
-    def later(system: ProgramSystem) -> Sequence[AnyEvent]:
+    def later(system: RunningPlan) -> Sequence[AnyEvent]:
         system.run.drive.brake(2.0)  # stands for the calibration
         return begin(system)
 
-    monkeypatch.setattr(ProgramSystem, "begin", later)
+    monkeypatch.setattr(RunningPlan, "begin", later)
     assert "  0.0 s  program" in command("run", planned("OPEN 1\n"), "--out", "it")[2]
     events = read_events(Path("it/events.jsonl"))
     end = events[-1].time - events[0].time

@@ -41,7 +41,6 @@ from handeye.runs.operator import Operator, attend, beginnings
 from handeye.runs.setup import plan_of
 from handeye.runs.stops import AfterSteps, AnyStop, AtStage, BrokenOff
 from handeye.runs.undo_orders import stage_began
-from handeye.systems.stanford.executor_run import context_of
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 
@@ -245,7 +244,7 @@ class Run:
         try:
             pause = attend(self._runner, operator, [], self._hands.kept)
         except BaseException:
-            self._runner.rollback()
+            self._runner.undo()
             raise
         return self._stand(reason(pause))
 
@@ -277,7 +276,7 @@ class Run:
     def picture(self) -> NDArray[np.uint8] | None:
         """The last picture that the program took, shape (256, 333), 0 (black) to 15; None if it took none."""
         name = last_picture(self._runner)
-        return None if name is None else context_of(self._runner.system).state.shots[name].picture.copy()
+        return None if name is None else self._runner.system.shots[name].picture.copy()
 
     @property
     def ended(self) -> bool:
@@ -419,7 +418,7 @@ class Run:
 
     def _repr_html_(self) -> str:
         name = last_picture(self._runner)
-        webp = None if name is None else annotated_webp(context_of(self._runner.system), name)
+        webp = None if name is None else annotated_webp(self._runner.system, name)
         return run_page(self.result, self.state, name, webp)
 
 

@@ -10,7 +10,7 @@ from handeye import tasks
 from handeye.api.arguments import given_file
 from handeye.api.plans import FileName, Planned, plan
 from handeye.api.worlds import World
-from handeye.core.diagnostics import quoted
+from handeye.core.entries import require
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.host_time import HostTimer
 from handeye.core.variation import WorldSpec, checked_seed
@@ -157,10 +157,7 @@ def _again(given: FileName, wanted: Wanted) -> Start:
 
 def _check_same(path: Path, begun: Setup, wanted: Wanted) -> None:
     """Raises InvalidInput unless a run carries out a plan, in the world and with the camera that are wanted."""
-    if not isinstance(begun.plan, Plan):
-        raise Refused(
-            f"{path} is of a run of the system {quoted(begun.system)}; from Python only runs of plans are taken up"
-        )
+    require(begun.system, "plans", str(path))
     if wanted.spec is not None and wanted.spec != begun.world:
         raise Refused(f"the run in {path} is in the world of {begun.world}, not of {wanted.spec}")
     if wanted.camera is not None and wanted.camera != begun.camera:

@@ -9,7 +9,6 @@ from handeye.core.plain_text import counted, one_line
 from handeye.core.pose import Array, Pose
 from handeye.core.source import line_name
 from handeye.runs.runner import Runner
-from handeye.systems.stanford.executor_run import context_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -80,12 +79,8 @@ class State:
 
 
 def state_of(runner: Runner, stage: str | None, why: str) -> State:
-    """The state of a run that pauses.
-
-    Raises:
-        InvalidInput: another system than that of plans carries it out.
-    """
-    run, step = context_of(runner.system), runner.next
+    """The state of a run that pauses; raises InvalidInput if its system follows no plan of motions."""
+    run, step = runner.context, runner.next
     drive = run.drive
     return State(
         position=runner.position,
@@ -105,7 +100,7 @@ def state_of(runner: Runner, stage: str | None, why: str) -> State:
 
 
 def _memory(runner: Runner) -> Memory:
-    state = context_of(runner.system).state
+    state = runner.context.state
     return Memory(
         error=None if state.pending is None else state.pending.number,
         saved={name: _kept(difference) for name, difference in sorted(state.saved.items())},

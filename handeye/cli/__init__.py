@@ -12,6 +12,7 @@ from handeye.cli.common import complain, note, notes, screen
 from handeye.cli.panic_button import terminable
 from handeye.cli.streams import let_go_of_streams, prepare_streams
 from handeye.cli.usage import usage_sentence
+from handeye.core.entries import entries
 from handeye.core.errors import HandeyeError
 from handeye.core.versions import HANDEYE
 
@@ -30,6 +31,8 @@ app = App(
     error_console=notes,
 )
 add_commands(app, COMMANDS)
+for entry in entries().values():
+    add_commands(app, entry.commands)
 completion.register(app)
 
 

@@ -51,12 +51,9 @@ trials compare = batches:compare_trials: Compare batches with a first one, world
 trials base = trials:base_vision_trials: Find the base on the belt at many poses: how often, how exactly, and how often wrongly.
 trials gasket = trials:gasket_vision_trials: Check gaskets of every kind by eye: on properly, shifted by .3 in, absent, and one on another.
 trials chaos = chaos:chaos_trials: Draw faults, times, worlds, kills, panics, retries and skips together, and check what must always hold.
-trials pallet = handeye.systems.trig.cli.pallet_trials:pallet_trials: Palletise in many worlds, and take everything back: how often it comes out right, and how far off blocks are.
-trig = handeye.systems.trig.cli.commands:trig: TRIG (MIT, 1982): teach a program by doing, see it as it grows, run it backwards.
 bench: Measure how long things take.
 bench timing = benches:timing: Assemble once and print the timing table beside that of 1973.
 bench insertion = insertion:insertion: Put one pin into one hole, many times: success, peak force, and time from the first contact to seated.
-cache = cache:cache: Show the calibrations of cameras that are kept, or remove them.
 """  # noqa: E501
 """`NAME = MODULE:FUNCTION: SENTENCE` of each command, with the sentence that lists say of it, which is the first one of
 its docstring; a group of commands has no function. Modules are those of this folder, or have their full name."""

@@ -21,7 +21,6 @@ from handeye.debugger.command_table import commands_of
 from handeye.debugger.formatting import MOST
 from handeye.debugger.live import Live
 from handeye.debugger.stepper import Stepper, interact
-from handeye.debugger.views import topics
 from handeye.execution.servo import Halted
 from handeye.judge.finding import all_right
 from handeye.program.events import beginning
@@ -42,8 +41,6 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop
 from handeye.runs.systems import listing_of
-from handeye.systems.trig.run.job import carry_out
-from handeye.systems.trig.run.system import TaughtSystem
 
 if TYPE_CHECKING:
     from handeye.view.moment import Newest
@@ -194,20 +191,15 @@ class _Work:
     # -- carrying out ---------------------------------------------------------------------------------
 
     def _parts(self, runner: Runner) -> Pause:
-        """Assemble, and then undo and assemble as often as is wanted, as long as the referee finds each right.
-
-        A job that was taught knows by itself what comes after what.
-        """
-        if isinstance(runner.system, TaughtSystem):
-            return carry_out(runner, go=lambda _: self._attended(runner))
-        pause = self._attended(runner)
+        """Assemble, and then undo and assemble as often as is wanted, as long as the referee finds each right."""
+        pause = runner.kind.carry_out(runner, lambda: self._attended(runner))
         for part in self.job.then:
             if pause.kind != "end" or not all_right(findings(runner, pause)):
                 break
             words = runner.task.words
             note(words.apart if runner.undone else words.done)
             if part == "dismantle":
-                runner.order_reversal(0, halts=True)
+                runner.have_undone(0, halts=True)
             else:
                 runner.answer("proceed")
             pause = self._attended(runner)
@@ -239,7 +231,7 @@ class _Work:
             return self._stepped_in_browser(stepper, self.job.server, self.newest)
         names = [name for settable in runner.system.settables().values() for name in settable.names]
         commands = (command.name for command in commands_of(runner))
-        words = [*commands, *topics(runner), *runner.listing.labels, *names]
+        words = [*commands, *runner.kind.topics, *runner.listing.labels, *names]
         lines, live = self._lines(words)
         if self.folder is None and self.job.checkpoints is None:
             note("nothing is kept without --out FOLDER; `checkpoint FILE` keeps a state")

@@ -97,10 +97,11 @@ def page_of(run: Path) -> bytes:
     from handeye.report.facts.scene import check_scene
     from handeye.report.page.document import report_page
     from handeye.report.photographs import album
-    from handeye.systems.trig.run.job_folder import kept_job_page
+    from handeye.runs.systems import system_of_files
 
-    if (job := kept_job_page(run)) is not None:
-        return job
+    own = system_of_files(run)
+    if own is not None and (page := own.page(run)) is not None:
+        return page
     recorded = read_recorded(run)
     check_scene(recorded)
     return report_page(recorded, album(recorded), animation(recorded))

@@ -13,7 +13,8 @@ from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.parting import Parting, Turning, parting
 from handeye.comparison.place import Place
 from handeye.comparison.searched import Searches, searches
-from handeye.core.errors import BadFile, Refused
+from handeye.core.entries import require
+from handeye.core.errors import BadFile
 from handeye.program.events import StepStarted
 from handeye.report.facts.outcome import Kind, outcome
 from handeye.report.recorded import Recorded
@@ -105,9 +106,8 @@ def comparison(a: Recorded, b: Recorded) -> Comparison:
 
 def _check(run: Recorded) -> None:
     """Raises InvalidInput if a run carried out no plan, or steps that its plan does not have."""
-    name, system = run.trace.name, run.trace.head.system
-    if system != "program":
-        raise Refused(f"{name} is a run of the system {system}; only runs of plans are compared")
+    name = run.trace.name
+    require(run.trace.head.system, "compare", name)
     steps = len(run.program.steps)
     if any(isinstance(event, StepStarted) and not 0 <= event.step < steps for event in run.trace.events):
         raise BadFile(f"{name} tells of steps that its plan lacks")

@@ -7,7 +7,6 @@ from typing import Final, Literal
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, InvalidInput, Refused
 from handeye.debugger.breakpoints import stage_number
-from handeye.debugger.choices import choices
 from handeye.debugger.formatting import shown_lines
 from handeye.debugger.listing import excerpt, excerpt_lines, numbered_stage
 from handeye.debugger.views import show
@@ -60,7 +59,7 @@ class Ask:
         if word == "show":
             self._say(shown_lines(show(runner, rest)))
             return None
-        choice, given = _CHOICES.get(word[:1]), choices(runner)
+        choice, given = _CHOICES.get(word[:1]), runner.kind.choices(runner)
         if choice is None or rest or not choice.startswith(word) or choice not in (*given, "abort"):
             said = quoted(f"{word} {rest}".strip())
             letters = ", ".join(name[0] for name in given)
@@ -96,7 +95,7 @@ def _question(runner: Runner, sentence: str) -> list[str]:
 def _choices(runner: Runner) -> list[str]:
     """Tell what can be said, and what it does here."""
     return [
-        *(f"{word[0]:10} {does}" for word, does in choices(runner).items()),
+        *(f"{word[0]:10} {does}" for word, does in runner.kind.choices(runner).items()),
         "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",
         "u [STAGE]  unwind: the arm undoes what it did, as far as that, and the program goes on from there",
         "a          abort",

@@ -6,13 +6,12 @@ from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.core.diagnostics import nearest, quoted
-from handeye.core.errors import ERRORS, BadArgument, NoSuchName, Refused
+from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.core.source import line_name
 from handeye.debugger.source_places import Place, named_place
 from handeye.program.stage_names import stage_called, stage_index
 from handeye.runs.stops import AnyStop, AtInstruction, AtLabel, AtLine, AtStage, OnError
 from handeye.runs.system import Listing
-from handeye.systems.trig.run.plan import TaughtListing
 
 _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", re.IGNORECASE)
@@ -32,11 +31,9 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     if not text:
         raise BadArgument("give an error (error:23), a line, a label, an instruction or a stage")
     if error := _ERROR.fullmatch(text):
-        if isinstance(listing, TaughtListing):
-            raise Refused(
-                "steps of a taught program raise no errors; where the arm is stopped, the run stops"
-            )
-        return _on_error(error["number"] or error["any"])
+        if not listing.errors:
+            raise Refused("steps of this program raise no errors; where it is stopped, the run stops")
+        return _on_error(error["number"] or error["any"], listing)
     place = named_place(text, listing)
     if place is not None:
         return _at_line(place, listing)
@@ -91,9 +88,11 @@ def meant(name: str, known: Iterable[str]) -> str:
 # -- one kind each --------------------------------------------------------------------------------------
 
 
-def _on_error(number: str) -> AnyStop:
-    if not _NUMBER.fullmatch(number) or int(number) not in ERRORS:
-        raise NoSuchName(f"there is no error {quoted(number)}; there are {', '.join(map(str, ERRORS))}")
+def _on_error(number: str, listing: Listing) -> AnyStop:
+    if not _NUMBER.fullmatch(number) or int(number) not in listing.errors:
+        raise NoSuchName(
+            f"there is no error {quoted(number)}; there are {', '.join(map(str, listing.errors))}"
+        )
     return OnError(number=int(number))
 
 

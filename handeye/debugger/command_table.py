@@ -11,9 +11,7 @@ from handeye.debugger.breakpoints import meant
 from handeye.debugger.command import Command, check_bare, rows
 from handeye.debugger.reply import CommandResult
 from handeye.debugger.session import DebugSession
-from handeye.debugger.views import topics
 from handeye.runs.runner import Runner
-from handeye.systems.stanford.executor_run import ProgramSystem
 
 StepperCommand = Command[Callable[[DebugSession, str], CommandResult]]
 
@@ -39,22 +37,23 @@ def find(line: str) -> tuple[StepperCommand, str]:
 
 def commands_of(runner: Runner) -> tuple[StepperCommand, ...]:
     """The commands that do something in a run, with what they do there."""
-    if isinstance(runner.system, ProgramSystem):
-        return COMMANDS
-    return tuple(replace(c, help=_TAUGHT.get(c.usage, c.help)) for c in COMMANDS if c.name not in _OF_PLANS)
+    words = runner.kind.words
+    return tuple(
+        replace(c, help=words.commands.get(c.usage, c.help)) for c in COMMANDS if c.name not in words.without
+    )
 
 
 def manual(runner: Runner) -> str:
     """All commands, for people who see them for the first time."""
-    head, places, units = _ABOUT if isinstance(runner.system, ProgramSystem) else _ABOUT_TAUGHT
+    words = runner.kind.words
     return "\n".join(
         [
-            *head,
+            *words.about,
             *rows(commands_of(runner)),
             "",
-            *places,
-            f"    {', '.join(topics(runner))}.",
-            f"Units: {units}. On a terminal an empty line repeats the last step, stage",
+            *words.places,
+            f"    {', '.join(runner.kind.topics)}.",
+            f"Units: {words.units}. On a terminal an empty line repeats the last step, stage",
             "or continue.",
         ]
     )
@@ -66,35 +65,8 @@ def _help(hands: DebugSession, rest: str) -> CommandResult:
     name = find(rest.partition(" ")[0])[0].name
     told = [f"{each.shown}: {each.help}" for each in commands_of(hands.runner) if each.name == name]
     if not told:
-        raise Refused(f"`{name}` has nothing to do in a run of a taught program")
+        raise Refused(f"`{name}` does nothing in a run of {hands.runner.kind.entry.title}")
     return CommandResult(said="\n".join(told))
-
-
-_ABOUT: Final = (
-    (
-        "The script is carried out a step at a time. A step is a line that does something, together with the",
-        "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow stands before the next one.",
-    ),
-    (
-        "PLACE is a line (58; pins.al:3 in a required file), a label (L1), an instruction (AOJ), a",
-        "stage or a piece of its name, or an error (error:23). WHAT is one of",
-    ),
-    "inches, degrees, ounces",
-)
-"""On steps, on places, and the units."""
-_ABOUT_TAUGHT: Final = (
-    ("The program is carried out a step at a time, as it was taught; the arrow stands before the next one.",),
-    ("PLACE is a line (8), the name of a step, or what steps do (LOOP, GRASP). WHAT is one of",),
-    "millimetres, degrees, newtons",
-)
-_OF_PLANS: Final = ("picture", "set")
-"""Commands that do something in a plan of motions alone."""
-_TAUGHT: Final = {
-    "proceed": "have the step done again, or undone again, that called",
-    "retry": "the same as `proceed`",
-    "skip": "end the program here; on the way back no step is skipped",
-}
-"""What commands do in the run of a taught program, where that is something else."""
 
 
 _GOING, _BACK, _BREAKS, _LOOKING = "Continuing", "Going back in time", "Breakpoints", "Inspecting"

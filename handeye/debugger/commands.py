@@ -107,6 +107,7 @@ def back(hands: DebugSession, rest: str) -> CommandResult:
 
 def undo(hands: DebugSession, rest: str) -> CommandResult:
     """Have the arm undo a step, some steps, or what it did since a stage began."""
+    hands.runner.require("undo")
     done = hands.runner.system.executed
     if rest.casefold() == "stage":
         left = next((n for n in reversed(range(len(done))) if done[n].enters), 0)

@@ -105,7 +105,7 @@ class LiveText(Observer):
 
     def _tell(self, events: list[AnyEvent]) -> None:
         """Tell whole steps."""
-        for summary in step_summaries(events, self.runner.listing):
+        for summary in step_summaries(events, self.runner.listing, self.runner.task.measures):
             row = told_row(summary)
             outcome = row.removeprefix(self._open)
             if self._open and len(row) <= self.width:

@@ -7,7 +7,6 @@ from typing import Final, Literal
 
 from handeye.core.errors import Refused
 from handeye.debugger.breakpoints import breakpoint
-from handeye.debugger.choices import choices
 from handeye.debugger.listing import SourceLine, excerpt
 from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Break
@@ -116,7 +115,7 @@ class DebugSession:
         """
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")
-        self.runner.order_reversal(left, halts=halts)
+        self.runner.have_undone(left, halts=halts)
         return self._go([Undone()], None)
 
     def _go(self, stops: Sequence[AnyStop], steps: int | None) -> Pause:
@@ -125,10 +124,10 @@ class DebugSession:
             with self._attended("on", self.pace, self.face, self.ear):
                 pause = advance(self.runner, wanted, steps, lambda: self._pause_asked)
         except BaseException:  # whatever broke it off: Ctrl-C, or code of a caller
-            self.runner.rollback()
+            self.runner.undo()
             raise
         if pause.kind == "panic":
-            self.runner.rollback()
+            self.runner.undo()
         return pause
 
     def ask_pause(self) -> None:
@@ -170,7 +169,7 @@ class DebugSession:
         if runner.trouble is not None:
             return f"the run cannot continue from here, only go back: {runner.trouble}"
         if runner.call is not None:
-            given = ", ".join(f"`{word}`" for word in choices(runner))
+            given = ", ".join(f"`{word}`" for word in runner.kind.choices(runner))
             return f"the operator is called: answer {given} or `abort`, go back, or `undo`"
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
@@ -185,7 +184,7 @@ class DebugSession:
             with self._attended("back", self.ear):
                 self.runner.back_to(position, self.kept)
         except Halted:
-            self.runner.rollback()
+            self.runner.undo()
             done = self.runner.position
             raise Refused(
                 f"stopped by the panic button on the way back to {position} steps done; {done} are done"

@@ -5,11 +5,10 @@ from typing import Final
 
 from handeye.core.plain_text import one_line
 from handeye.core.record import Record
-from handeye.core.units import INCHES, MILLIMETRES
+from handeye.core.units import Measures
 from handeye.program import events as happened
 from handeye.program.events import AnyEvent
 from handeye.runs.system import Listing
-from handeye.systems.trig.run.plan import HANDS, TaughtListing
 from handeye.trace.sentences import sentence
 
 _BETWEEN: Final = (
@@ -34,7 +33,9 @@ class StepSummary(Record, frozen=True, kw_only=True):
     outcome: str
 
 
-def step_summaries(events: Iterable[AnyEvent], program: Listing) -> tuple[StepSummary, ...]:
+def step_summaries(
+    events: Iterable[AnyEvent], program: Listing, measures: Measures
+) -> tuple[StepSummary, ...]:
     """Summarize some events, whole steps."""
     groups: list[list[AnyEvent]] = [[]]
     for event in events:
@@ -42,20 +43,22 @@ def step_summaries(events: Iterable[AnyEvent], program: Listing) -> tuple[StepSu
             groups.append([event])
         elif not isinstance(event, (happened.StageFinished, happened.UndoEnded)):
             groups[-1].append(event)
-    return tuple(_summary(group, program) for group in groups[1:])
+    return tuple(_summary(group, program, measures) for group in groups[1:])
 
 
-def _summary(group: Sequence[AnyEvent], program: Listing) -> StepSummary:
+def _summary(group: Sequence[AnyEvent], program: Listing, measures: Measures) -> StepSummary:
     first = group[0]
     if isinstance(first, happened.StepStarted):
-        outcome, text = _outcome(group, first, program), one_line(first.text)
+        outcome, text = _outcome(group, first, program, measures), one_line(first.text)
         if isinstance(first, happened.UndoStarted):
             text = f"undo {text}"
         return StepSummary(line=first.line, file=first.file, text=text, outcome=outcome)
     return StepSummary(line=None, text=sentence(first), outcome="")
 
 
-def _outcome(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing) -> str:
+def _outcome(
+    group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures
+) -> str:
     """Tell what came of a step."""
     said = []
     for event in group:
@@ -68,7 +71,7 @@ def _outcome(group: Sequence[AnyEvent], step: happened.StepStarted, program: Lis
     busy = sum(event.seconds for event in group if isinstance(event, happened.CameraBusy))
     if busy:
         said.append(f"the camera took {busy:.1f} s")
-    return "; ".join(said) or _end(group, step, program)
+    return "; ".join(said) or _end(group, step, program, measures)
 
 
 def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Listing) -> str:
@@ -78,13 +81,11 @@ def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Li
     return "to the end" if onward is None else f"continue at line {program.steps[onward].place}"
 
 
-def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing) -> str:
+def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures) -> str:
     """End of a step without other events; empty for one that took no time."""
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:
         return ""
-    measures = MILLIMETRES if isinstance(program, TaughtListing) else INCHES
-    facts = program.steps[step.step]
-    if (facts.needs == "hand" or facts.word in HANDS) and last.gap is not None:
+    if program.steps[step.step].needs == "hand" and last.gap is not None:
         return f"gap {measures.distance(last.gap)}"
     return "" if last.hand is None else f"hand at {measures.place(last.hand)}"

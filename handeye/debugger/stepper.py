@@ -113,7 +113,7 @@ class Stepper:
             script="" if step is None else step.file,
             line=None if step is None else step.line,
             text=None if step is None else step.text,
-            did=step_summaries(events, hands.program),
+            did=step_summaries(events, hands.program, hands.runner.task.measures),
             events=tuple(events),
             error=error,
             **{name: getattr(told, name) for name in CommandResult.__struct_fields__},

@@ -4,8 +4,11 @@ This is the first waist of the system: every arm language ends here, and the pla
 operations, joined by planned motions, make the plan.
 """
 
+from collections.abc import Collection
+
 from msgspec import field
 
+from handeye.core.errors import ERRORS
 from handeye.core.obb import Box
 from handeye.core.record import Record
 from handeye.core.source import Source, line_name
@@ -65,6 +68,11 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
     def place(self) -> str:
         """Its line, as people are told: `12`, or `pins.al:12`."""
         return line_name(self.line, self.file)
+
+    @property
+    def examines(self) -> str | None:
+        """The picture that its operation looks at, if it looks at one."""
+        return self.operation.examines
 
     @property
     def word(self) -> str:
@@ -153,6 +161,11 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
             for label in step.labels:
                 found.setdefault(label, []).append(number)
         return found
+
+    @property
+    def errors(self) -> Collection[int]:
+        """Numbers of the errors that steps may raise."""
+        return ERRORS
 
     @property
     def feels(self) -> bool:

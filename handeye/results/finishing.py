@@ -9,8 +9,6 @@ from handeye.runs.advance import Pause
 from handeye.runs.folder import PICTURES, RESULT, RunFolder
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
-from handeye.systems.trig.run.job import account, ends_job, system_of
-from handeye.systems.trig.run.job_folder import write_job
 
 
 def finished(
@@ -40,7 +38,7 @@ def finished(
     if folder is not None:
         folder.close()
         keep_pictures(folder.path / PICTURES, runner)
-        if ends_job(runner, result):
-            write_job(folder.path, account(runner, pause, result), system_of(runner).job.session.program)
+        for name, data in runner.kind.files(runner, pause, result).items():
+            write_whole(folder.path / name, data)
         write_whole(folder.path / RESULT, to_json(result))
     return result

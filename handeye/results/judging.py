@@ -9,7 +9,6 @@ from handeye.core.errors import BadArgument, NoSuchName
 from handeye.judge.finding import Finding, Findings
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
-from handeye.systems.trig.run.system import TaughtSystem
 
 Referee = Callable[[Truth], Findings]
 """Judges the truth of a cell; the cell is not touched."""
@@ -18,32 +17,20 @@ Limits = Mapping[str, float]
 
 
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
-    """Ask a referee, by default that of the task, its limits those of the run; nothing of a program without an end.
+    """Ask a referee, by default that of the task, its limits those of the run.
 
+    There are no findings on a program that has not come to its end, and none of a system without a cell.
     Where the arm has undone all it did, it is asked whether everything lies where it was found, and is remembered as
     it was taught.
     """
-    if pause.kind != "end":
+    if pause.kind != "end" or runner.system.cell is None:
         return {}
     truth = runner.cell.truth
     if runner.undone:
-        return {} if runner.system.executed else {**runner.task.judge_apart(truth), **_remembered(runner)}
+        return (
+            {} if runner.system.executed else {**runner.task.judge_apart(truth), **runner.system.remembered()}
+        )
     return limited(runner.task.judge(truth), runner.setup.limits) if referee is None else referee(truth)
-
-
-def _remembered(runner: Runner) -> Findings:
-    """Findings on what a taught program remembers where all it did is undone."""
-    system = runner.system
-    return system.job.remembered() if isinstance(system, TaughtSystem) else {}
-
-
-def findings_built(runner: Runner) -> Findings:
-    """Findings on what a job has built, whose program had come to its end before the arm undid it; else none."""
-    system = runner.system
-    if not isinstance(system, TaughtSystem) or not runner.undone:
-        return {}
-    turn = system.state.turn
-    return system.job.built() if turn is not None and turn.ended else {}
 
 
 def findings_so_far(runner: Runner) -> Findings:

@@ -9,7 +9,6 @@ from msgspec import UNSET
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.files import read_whole
-from handeye.execution.state import ExecutionState
 from handeye.planfile.store import written_digest
 from handeye.program.cause_text import call_sentence
 from handeye.program.events import (
@@ -31,7 +30,7 @@ from handeye.runs.host_seconds import HostSeconds, read_host_seconds
 from handeye.runs.parts import deciding
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.system import Listing
-from handeye.runs.systems import system_kind
+from handeye.runs.systems import system_named
 from handeye.trace.eventlist import effective, read_events
 
 
@@ -117,7 +116,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
     host, unread = _host(path)
     checkpoint, damaged = CheckpointStore(path / CHECKPOINTS).newest()
     state = None if checkpoint is None or checkpoint.snapshot is None else checkpoint.snapshot.state
-    calibration = state.calibration if isinstance(state, ExecutionState) else None
+    calibration = None if state is None else system_named(begun.system).calibration(state)
     call = _call(events)
     result = Result(
         assembled=None,
@@ -149,7 +148,7 @@ def _listing(path: Path, begun: RunStarted) -> Listing:
     Raises:
         InvalidInput: it is not sound, or not the one that is carried out.
     """
-    kind, data = system_kind(begun.system), read_whole(path / PLAN)
+    kind, data = system_named(begun.system), read_whole(path / PLAN)
     plan = kind.decode(data, str(path / PLAN))
     if written_digest(kind.encode(plan)) != begun.plan:
         raise BadFile(f"{path / PLAN} is not the plan that was carried out")

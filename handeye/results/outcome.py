@@ -3,7 +3,7 @@
 import msgspec
 from msgspec import UNSET
 
-from handeye.results.judging import Referee, findings, findings_built
+from handeye.results.judging import Referee, findings
 from handeye.results.result import Result
 from handeye.results.summary import summary
 from handeye.runs.advance import Pause
@@ -24,7 +24,7 @@ def outcome(
     """
     asked = judged and pause.kind != "break"
     found = findings(runner, pause, referee) if asked else None
-    built = findings_built(runner) if asked else {}
+    built = runner.system.built() if asked and runner.undone else {}
     result = summary(runner, pause, findings=found, built=built, host=meter.seconds(runner))
     others = deciding(runner.setup.replaced) | ({} if referee is None else {"referee": name_of(referee)})
     limits = runner.setup.limits if found is not None and referee is None else None

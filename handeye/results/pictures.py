@@ -11,11 +11,9 @@ from handeye.cell.photograph import photograph_png
 from handeye.cell.posed import as_it_stands
 from handeye.core.errors import BadFile, CannotWrite
 from handeye.core.files import write_whole
-from handeye.execution.context import ExecutionContext
-from handeye.execution.state import Found
 from handeye.runs.runner import Runner
+from handeye.runs.system import RunningSystem
 from handeye.runs.systems import written
-from handeye.systems.stanford.executor_run import ProgramSystem, context_of
 from handeye.vision.drawing import annotate
 
 _WIDE: Final = 480
@@ -23,24 +21,24 @@ _WIDE: Final = 480
 _QUALITY: Final = 70
 
 
-def annotated_png(run: ExecutionContext, name: str) -> bytes:
+def annotated_png(system: RunningSystem, name: str) -> bytes:
     """A picture the program took, with what it found in it, as a PNG file.
 
     Raises:
         InvalidInput: what it found is so far outside that it cannot be drawn.
     """
-    done, data = cv2.imencode(".png", _annotated(run, name))
+    done, data = cv2.imencode(".png", _annotated(system, name))
     assert done
     return data.tobytes()
 
 
-def annotated_webp(run: ExecutionContext, name: str) -> bytes:
+def annotated_webp(system: RunningSystem, name: str) -> bytes:
     """The same as a small WebP file, for pages.
 
     Raises:
         InvalidInput: as `annotated_png`.
     """
-    image = _annotated(run, name)
+    image = _annotated(system, name)
     high = round(_WIDE * image.shape[0] / image.shape[1])
     small = cv2.resize(image, (_WIDE, high), interpolation=cv2.INTER_AREA)
     done, data = cv2.imencode(".webp", small, [cv2.IMWRITE_WEBP_QUALITY, _QUALITY])
@@ -48,10 +46,9 @@ def annotated_webp(run: ExecutionContext, name: str) -> bytes:
     return data.tobytes()
 
 
-def _annotated(run: ExecutionContext, name: str) -> NDArray[np.uint8]:
-    found = run.state.found.get(name, Found())
+def _annotated(system: RunningSystem, name: str) -> NDArray[np.uint8]:
     try:
-        return annotate(run.state.shots[name].picture, found.marks())
+        return annotate(system.shots[name].picture, list(system.marks(name)))
     except ValueError:
         raise BadFile(f"the findings in picture {name} cannot be drawn") from None
 
@@ -66,8 +63,10 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
     except OSError as error:
         raise CannotWrite(f"{folder} cannot be made: {error.strerror}") from None
-    for name in runner.system.state.shots if isinstance(runner.system, ProgramSystem) else ():
-        write_whole(folder / f"{name.lower()}.png", annotated_png(context_of(runner.system), name))
+    for name in runner.system.shots:
+        write_whole(folder / f"{name.lower()}.png", annotated_png(runner.system, name))
+    if runner.system.cell is None:
+        return
     if runner.cell.renderer.method == "opengl" and runner.task.photographs:
         posed = as_it_stands(
             runner.task.recorded_scene(runner.setup.world, written(runner.setup)), runner.cell.truth

@@ -30,7 +30,6 @@ from handeye.results.result import CameraReport, Check, Result, Stage, Status, T
 from handeye.runs.advance import Pause
 from handeye.runs.host_seconds import HostSeconds
 from handeye.runs.runner import Runner
-from handeye.systems.stanford.executor_run import ProgramSystem
 from handeye.trace.sentences import renderer_name, sentence
 from handeye.vision.calibration import Calibration
 
@@ -164,9 +163,9 @@ def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
 
 
 def _camera(runner: Runner) -> CameraReport:
-    if not isinstance(runner.system, ProgramSystem):
-        return camera_report(Renderer(method="none"), None)
-    return camera_report(runner.cell.renderer, runner.system.state.calibration)
+    cell = runner.system.cell
+    renderer = Renderer(method="none") if cell is None else cell.renderer
+    return camera_report(renderer, runner.kind.calibration(runner.system.state))
 
 
 def camera_report(renderer: Renderer, calibration: Calibration | None) -> CameraReport:

@@ -20,13 +20,12 @@ from handeye.core.packed import decoded, encoded, packed, sealed, unpacked
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.core.versions import versions
-from handeye.program.event_reading import read_packed
 from handeye.program.events import AnyEvent, RunStarted, StageFinished, StageStarted
 from handeye.program.senses import Sense
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint, Snapshot
-from handeye.runs.system import SystemKind
-from handeye.runs.systems import digest_of, kind_of, listing_of, system_kind, written
+from handeye.runs.system import System
+from handeye.runs.systems import digest_of, listing_of, system_named, system_of, written
 
 MAGIC: Final = "handeye-checkpoint"
 VERSION: Final = 4
@@ -83,13 +82,13 @@ class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):
 class _Body(Record, frozen=True, kw_only=True):
     plan: str
     snapshot: _Snapshot | None
-    events: msgspec.Raw
+    events: tuple[AnyEvent, ...]
 
 
 def head_of(checkpoint: Checkpoint) -> Head:
     """Summarize a checkpoint in a line."""
     setup, snapshot = checkpoint.setup, checkpoint.snapshot
-    arm, arm_digest = kind_of(setup).machine(setup.plan)
+    arm, arm_digest = system_of(setup).machine(setup.plan)
     return Head(
         system=setup.system,
         program=listing_of(setup).name,
@@ -118,7 +117,7 @@ def encode(checkpoint: Checkpoint) -> bytes:
     body = _Body(
         plan=written(setup).decode(),
         snapshot=None if snapshot is None else _on_disk(snapshot),
-        events=msgspec.Raw(encoded(checkpoint.events)),
+        events=checkpoint.events,
     )
     head = msgspec.json.encode(head_of(checkpoint))
     return sealed(MAGIC, VERSION, head + b"\n" + packed(body))
@@ -134,8 +133,8 @@ def decode(data: bytes, name: str) -> Checkpoint:
     try:
         body = unpacked(rest, _Body, LARGEST)
     except ValueError as error:
-        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None
-    kind = system_kind(head.system)
+        raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
+    kind = system_named(head.system)
     plan = kind.decode(body.plan.encode(), f"the plan in {name}")
     setup = Setup(
         system=kind.name,
@@ -151,21 +150,18 @@ def decode(data: bytes, name: str) -> Checkpoint:
         kind.check(setup)
     except InvalidInput as error:
         raise BadFile(f"{name} cannot be used: {error}") from None
-    try:
-        events = read_packed(body.events, kind.name)
-    except ValueError as error:
-        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None
     if body.snapshot is not None and (
-        body.snapshot.happened != len(events) or not isinstance(next(iter(events), None), RunStarted)
+        body.snapshot.happened != len(body.events)
+        or not isinstance(next(iter(body.events), None), RunStarted)
     ):
         raise BadFile(f"{name} is not a sound checkpoint: it does not hold all that has happened")
     checkpoint = Checkpoint(
         setup=setup,
         snapshot=None if body.snapshot is None else _in_memory(body.snapshot, kind, name),
-        events=events,
+        events=body.events,
     )
     listing = kind.listing(plan)
-    begun = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}
+    begun = {event.stage for event in body.events if isinstance(event, StageStarted | StageFinished)}
     if not begun <= set(listing.stages):
         raise BadFile(f"{name} is not a sound checkpoint: it has stages that its plan lacks")
     told = (head.task, head.program, head.plan, head.position, head.touched)
@@ -183,7 +179,7 @@ def _on_disk(snapshot: Snapshot) -> _Snapshot:
     )
 
 
-def _in_memory(kept: _Snapshot, kind: SystemKind, name: str) -> Snapshot:
+def _in_memory(kept: _Snapshot, kind: System, name: str) -> Snapshot:
     """The snapshot, its state decoded by the type of its system.
 
     Raises:

@@ -12,10 +12,10 @@ from typing import Final
 import msgspec
 
 from handeye.core.diagnostics import quoted
+from handeye.core.entries import entries
 from handeye.core.errors import BadFile, CannotWrite, InvalidInput
 from handeye.core.files import read_whole, write_whole
 from handeye.execution.servo_period import ServoPeriod
-from handeye.execution.vision_actions import just_found
 from handeye.ports.camera import Picture
 from handeye.program.events import AnyEvent, RunFinished
 from handeye.runs.checkpoint_store import CheckpointStore
@@ -25,8 +25,7 @@ from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.systems import digest_of, kind_of, written
-from handeye.systems.stanford.executor_run import context_of
+from handeye.runs.systems import digest_of, system_of, written
 from handeye.trace.frames import Frames, NoFrames
 from handeye.trace.recorder import Looks, Recorder
 from handeye.vision.marks import Mark
@@ -40,11 +39,11 @@ PICTURES: Final = "pictures"
 HOST: Final = "host.json"
 REPORT: Final = "report.html"
 VIDEO: Final = "video.webp"
-JOB: Final = "job.json"
-TAUGHT: Final = "program.trig.json"
-"""Of a taught job: what came of it, and its program."""
-_OUTCOMES: Final = (RESULT, REPORT, VIDEO, JOB, TAUGHT)
-"""What tells of how a run has ended."""
+
+
+def _outcomes() -> list[str]:
+    """Names of the files that tell how a run has ended, whichever system carried it out."""
+    return [RESULT, REPORT, VIDEO, *(name for entry in entries().values() for name in entry.files)]
 
 
 class HoldsRun(CannotWrite):
@@ -114,7 +113,7 @@ class RunFolder(Observer):
             InvalidInput: the folder cannot be written to.
         """
         self.kept.drop_after(-1)
-        left = [self.path / name for name in (TRACE, f"{TRACE}.part", HOST, *_OUTCOMES)]
+        left = [self.path / name for name in (TRACE, f"{TRACE}.part", HOST, *_outcomes())]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
             file.unlink(missing_ok=True)
         write_whole(self.path / PLAN, written(start.setup))
@@ -131,11 +130,11 @@ class RunFolder(Observer):
 
     def _picture(self, name: str) -> Picture:
         assert self._runner is not None
-        return context_of(self._runner.system).state.shots[name].picture
+        return self._runner.system.shots[name].picture
 
-    def _found(self) -> tuple[str, list[Mark]]:
+    def _found(self) -> tuple[str, Sequence[Mark]]:
         assert self._runner is not None
-        return just_found(context_of(self._runner.system))
+        return self._runner.system.just_found
 
     # -- looking on -----------------------------------------------------------------------------------
 
@@ -165,7 +164,7 @@ class RunFolder(Observer):
 
     def _goes_on(self) -> None:
         """What the run came to before is no longer its result."""
-        for name in _OUTCOMES:
+        for name in _outcomes():
             (self.path / name).unlink(missing_ok=True)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
@@ -271,7 +270,7 @@ def _check_plan(path: Path, setup: Setup) -> None:
 
 def _digest(beside: Path, setup: Setup) -> str:
     """The digest of the plan in a file, brought to the present format."""
-    kind = kind_of(setup)
+    kind = system_of(setup)
     return digest_of(msgspec.structs.replace(setup, plan=kind.decode(read_whole(beside), str(beside))))
 
 
@@ -289,7 +288,7 @@ def _refuse_run(path: Path) -> None:
 
 def _refuse_others(path: Path) -> None:
     """Raises InvalidInput if a folder holds what no run has left."""
-    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", CHECKPOINTS, PICTURES, HOST, *_OUTCOMES}
+    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", CHECKPOINTS, PICTURES, HOST, *_outcomes()}
     if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
         ours.remove(PICTURES)
     others = (

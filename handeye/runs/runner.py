@@ -9,10 +9,12 @@ from collections.abc import Callable, Sequence
 from typing import Final
 
 from handeye.cell.kept import KeptCell
-from handeye.cell.simulated import SimulationError
+from handeye.cell.simulated import SimulatedCell, SimulationError
+from handeye.core.entries import Capability, refusal, require
 from handeye.core.errors import BadArgument, BadFile, Refused
 from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
+from handeye.execution.context import ExecutionContext
 from handeye.execution.servo import Halted
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
@@ -22,7 +24,6 @@ from handeye.program.events import (
     AskedBy,
     Choice,
     ExperimentMade,
-    LineTyped,
     OperatorAnswered,
     OperatorCalled,
     PanicStopped,
@@ -33,12 +34,11 @@ from handeye.program.events import (
     UndoOrdered,
     beginning,
 )
-from handeye.program.system_state import TaskPlace
 from handeye.runs.observer import Observer
 from handeye.runs.parts import OWN, Parts
 from handeye.runs.snapshot import Checkpoint, Snapshot, interfered
-from handeye.runs.system import StepFacts, Surroundings, System
-from handeye.runs.systems import kind_of, listing_of
+from handeye.runs.system import RunningSystem, StepFacts, Surroundings
+from handeye.runs.systems import listing_of, system_of
 from handeye.tasks import any_task
 from handeye.tasks.interface import AnyTask
 
@@ -85,7 +85,9 @@ class Runner:
         """Stages and steps of what is carried out."""
         self.vision = Stopwatch(time.process_time)
         """Processor time that vision has taken since this object took the run up, undone steps included."""
-        self.system: System = kind_of(start.setup).build(
+        self.kind = system_of(start.setup)
+        """The system that carries it out, as a value."""
+        self.system: RunningSystem = self.kind.build(
             start.setup,
             Surroundings(
                 emit=self._emit,
@@ -144,6 +146,24 @@ class Runner:
         """Task that is done in its cell."""
         return any_task(self.setup.task)
 
+    def require(self, capability: Capability) -> None:
+        """See that the system can do something; raises InvalidInput, by its name, if it cannot."""
+        require(self.setup.system, capability)
+
+    @property
+    def context(self) -> ExecutionContext:
+        """What a plan of motions is carried out with; raises InvalidInput if the system follows none."""
+        if self.system.context is None:
+            raise refusal(self.setup.system, "plans")
+        return self.system.context
+
+    @property
+    def arm_cell(self) -> SimulatedCell:
+        """The cell in which a plan of motions is carried out; raises InvalidInput if the system follows none."""
+        if self.system.arm_cell is None:
+            raise refusal(self.setup.system, "plans")
+        return self.system.arm_cell
+
     @property
     def cell(self) -> KeptCell:
         """The simulated cell.
@@ -169,11 +189,6 @@ class Runner:
     def at(self) -> int | None:
         """The number of the step to be done next; None if the run cannot go on by itself."""
         return self.system.state.at
-
-    @property
-    def places(self) -> tuple[TaskPlace, ...]:
-        """Where each task that has not ended stands; that of `at` goes on next."""
-        return self.system.state.places
 
     @property
     def next(self) -> StepFacts | None:
@@ -208,7 +223,7 @@ class Runner:
 
     @property
     def touched(self) -> bool:
-        """People have interfered: an experiment, a typed line, an answer of the operator, or an order to undo."""
+        """Somebody has interfered: an experiment, an answer of the operator, or an order to undo."""
         return interfered(self.events)
 
     def checkpoint(self, snapshot: Snapshot | None = None) -> Checkpoint:
@@ -226,7 +241,7 @@ class Runner:
         """Do the next step.
 
         Raises:
-            Halted: the panic button was hit; the step is not done, and `rollback` takes back what it has done.
+            Halted: the panic button was hit; the step is not done, and `undo` takes back what it has done.
         """
         assert not self.ended
         try:
@@ -245,7 +260,7 @@ class Runner:
         self.system.answer(choice)
         self._settle()
 
-    def order_reversal(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
+    def have_undone(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
         """From now on each step has the arm undo one that was executed, until so many are left.
 
         Args:
@@ -255,7 +270,8 @@ class Runner:
         Raises:
             InvalidInput: so much was not executed, or the system cannot undo anything.
         """
-        self.system.reverse(Undoing(left=left, halts=halts, asked_by=asked_by))
+        self.require("undo")
+        self.system.undo(Undoing(left=left, halts=halts, asked_by=asked_by))
         self._settle()
 
     def finish(self) -> bool:
@@ -273,9 +289,7 @@ class Runner:
             if isinstance(then, OperatorAnswered) and (self.call is not None or self.undone):
                 self.answer(then.choice)
             elif isinstance(then, UndoOrdered):
-                self.order_reversal(then.left, halts=then.halts, asked_by=then.asked_by)
-            elif isinstance(then, LineTyped):
-                self.type_line(then.text, then.task)
+                self.have_undone(then.left, halts=then.halts, asked_by=then.asked_by)
             elif isinstance(then, ExperimentMade):
                 self.experiment(then.what, then.name, then.value)
             elif self.ended:
@@ -286,8 +300,8 @@ class Runner:
 
     # -- going back -----------------------------------------------------------------------------------
 
-    def rollback(self) -> None:
-        """Return the simulation to where the last step ended, whatever a step that was broken off has done."""
+    def undo(self) -> None:
+        """Be again where the last step ended, whatever a step that was broken off has done."""
         self._return_to(self.history[-1])
 
     def back_to(self, position: int, kept: Callable[[int], Checkpoint | None] = lambda _: None) -> None:
@@ -346,15 +360,6 @@ class Runner:
         """
         self.system.set_value(what, name, value)
         self._emit(ExperimentMade(time=self.time, what=what, name=name, value=value))
-        self._settle()
-
-    def type_line(self, text: str, task: str = "") -> None:
-        """Type a line at the console of the system, for one of its tasks.
-
-        Raises:
-            InvalidInput: the system has no console, or no such task.
-        """
-        self.system.type_line(text, task)
         self._settle()
 
     # -- inside ---------------------------------------------------------------------------------------

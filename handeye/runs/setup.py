@@ -2,7 +2,7 @@
 
 import msgspec
 
-from handeye.core.errors import Refused
+from handeye.core.entries import PLANNED, refusal
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
@@ -13,10 +13,10 @@ from handeye.tasks import DEFAULT
 class Setup(Record, frozen=True, kw_only=True):
     """Everything that decides a run, as long as nobody interferes."""
 
-    system: str = "program"
-    """The kind of system that carries it out."""
+    system: str = PLANNED
+    """Name of the system that carries it out."""
     plan: Record
-    """Plan that is carried out: a `Plan` for the executor of programs."""
+    """Plan that is carried out: a `Plan` where it is one of motions."""
     world: WorldSpec
     camera: str
     """How to make pictures: `auto`, `gl` or `ray`."""
@@ -36,11 +36,7 @@ class Setup(Record, frozen=True, kw_only=True):
 
 
 def plan_of(setup: Setup) -> Plan:
-    """The plan of a run of the executor of programs.
-
-    Raises:
-        InvalidInput: another system carries the run out.
-    """
+    """The plan of motions of a run; raises InvalidInput if its system follows none."""
     if not isinstance(setup.plan, Plan):
-        raise Refused(f"this is a run of the system {setup.system}, which has no plan of motions")
+        raise refusal(setup.system, "plans")
     return setup.plan

@@ -1,26 +1,39 @@
-"""System: a machine that a run drives. It can step, give its state as one record and take it back; facts tell of it.
+"""System: what a folder of `handeye/systems` offers; and RunningSystem: what a run drives, steps, keeps and puts back.
 
-The executor of programs (`systems/stanford/executor_run.py`) is the first.
+A system is found by its entry (`handeye/core/entries.py`), and is loaded when a run of it is.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 import msgspec
 import numpy as np
 
 from handeye.cell.kept import KeptCell
-from handeye.core.errors import Refused
+from handeye.cell.simulated import SimulatedCell
+from handeye.core.entries import Entry, entry_named, refusal
+from handeye.core.errors import BadFile
 from handeye.core.record import Record
+from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.state import Shot
 from handeye.execution.stopwatch import Stopwatch
 from handeye.execution.undo.done import Undoing
-from handeye.program.events import AnyEvent, Choice, SystemEvent
+from handeye.judge.finding import Findings
+from handeye.program.events import AnyEvent, Choice
 from handeye.program.operation import Device
 from handeye.program.system_state import SystemState
 from handeye.runs.parts import OWN, Parts
 from handeye.runs.setup import Setup
+from handeye.vision.calibration import Calibration
+from handeye.vision.marks import Mark
+
+if TYPE_CHECKING:
+    from handeye.runs.advance import Pause
+    from handeye.runs.runner import Runner
 
 
 class StepFacts(Protocol):
@@ -62,6 +75,10 @@ class StepFacts(Protocol):
     def place(self) -> str:
         """Its line, as people are told: `12`, or `pins.al:12`."""
 
+    @property
+    def examines(self) -> str | None:
+        """Name of the picture that it looks at, if it looks at one."""
+
 
 class ExecutedStep(Protocol):
     """A step that was executed and that the arm has not undone."""
@@ -102,6 +119,10 @@ class Listing(Protocol):
     def steps(self) -> Sequence[StepFacts]:
         """The steps; they are numbered by their place."""
 
+    @property
+    def errors(self) -> Collection[int]:
+        """Numbers of the errors that steps may raise; none where steps raise none."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settable:
@@ -119,7 +140,7 @@ class Settable:
     """The values of a name as they are, SI."""
 
 
-class System(Protocol):
+class RunningSystem(Protocol):
     """A machine that can be stepped, kept and put back."""
 
     @property
@@ -176,16 +197,43 @@ class System(Protocol):
         """Steps that were executed and that the arm has not undone, in order; none of a system that cannot undo."""
         return ()
 
-    def reverse(self, undoing: Undoing) -> None:
-        """From now on each step undoes one that was executed, the last first.
-
-        Raises:
-            InvalidInput: so much was not executed, or this system cannot undo anything.
-        """
-        raise Refused("this system cannot undo what it did")
+    def undo(self, undoing: Undoing) -> None:
+        """From now on each step undoes one that was executed, the last first; raises InvalidInput without any."""
 
     def finish(self) -> bool:
         """Close the account of the run; True when the program came to its end."""
+
+    @property
+    def context(self) -> ExecutionContext | None:
+        """What a plan of motions is carried out with; None: it follows none."""
+        return None
+
+    @property
+    def arm_cell(self) -> SimulatedCell | None:
+        """The cell in which a plan of motions is carried out."""
+        return None
+
+    @property
+    def shots(self) -> Mapping[str, Shot]:
+        """Pictures that its program took and still has, by name."""
+        return {}
+
+    def marks(self, picture: str) -> Sequence[Mark]:
+        """Marks of what was found in a picture."""
+        return ()
+
+    @property
+    def just_found(self) -> tuple[str, Sequence[Mark]]:
+        """The picture in which the step under way has found something, and the marks of that alone."""
+        return "", ()
+
+    def built(self) -> Findings:
+        """The referee's findings on finished work that was undone since; none if none was, or nobody looked."""
+        return {}
+
+    def remembered(self) -> Findings:
+        """Findings on what the program remembers, when all it did is undone."""
+        return {}
 
     def restore(self, state: SystemState) -> None:
         """Go on from a copy of a state; its cell is as it was then.
@@ -199,14 +247,6 @@ class System(Protocol):
         """Its state, for people who look at it."""
         shown: dict[str, Any] = msgspec.to_builtins(self.state, enc_hook=np.ndarray.tolist)
         return shown
-
-    def type_line(self, text: str, task: str) -> None:
-        """Give a task a line typed at the console, and emit `LineTyped` before all that comes of it.
-
-        Raises:
-            InvalidInput: this system has no console, or no such task; nothing has happened then.
-        """
-        raise Refused("this system has no console to type at")
 
     def settables(self) -> Mapping[str, Settable]:
         """Things that a person can set, by kind."""
@@ -238,27 +278,113 @@ class Surroundings:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SystemKind:
-    """A kind of system: how its plans are written and read, what its state is, how it is built."""
+class StepperWords:
+    """How the stepper's manual speaks of the runs of a system."""
+
+    about: tuple[str, ...] = (
+        "The program is carried out a step at a time; the arrow stands before the next one.",
+    )
+    """Lines on what a step is."""
+    places: tuple[str, ...] = (
+        "PLACE is a line, a label, the first word of a step, or a stage. WHAT is one of",
+    )
+    """Lines on what can be said for PLACE and WHAT; the topics follow."""
+    units: str = "those of the system"
+    commands: Mapping[str, str] = field(default_factory=dict)
+    """Help on commands that do something of their own, by usage."""
+    without: tuple[str, ...] = ("picture", "set")
+    """Names of commands that do nothing."""
+
+
+Topics = Mapping[str, tuple[str, Callable[["Runner"], Any]]]
+"""What of a paused run can be shown: by topic the field of the answer, and how to look."""
+PLAIN: Final[Topics] = {
+    "time": ("time_s", lambda runner: runner.elapsed),
+    "state": ("state", lambda runner: runner.system.shown),
+}
+"""Topics of any system."""
+
+
+class System(ABC):
+    """What a system offers: how its plans are written and read, what its state is, how it is built and spoken of."""
 
     name: str
-    """Checkpoints and traces name it."""
+    """That of its entry."""
     plan: type[Record]
     state: type[SystemState]
-    encode: Callable[[Any], bytes]
-    """A plan as bytes; their digest stands for it."""
-    decode: Callable[[bytes, str], Any]
-    """The plan in some bytes, found sound; the name is for messages. Raises InvalidInput."""
-    listing: Callable[[Any], Listing]
-    machine: Callable[[Any], tuple[str, str]]
-    """Name and digest of the machine that a plan is for; empty if it is for none."""
-    check: Callable[[Setup], None]
-    """Raises InvalidInput unless that machine is that of the task."""
-    build: Callable[[Setup, Surroundings], System]
-    """Raises InvalidInput if it cannot be built here."""
-    events: tuple[type[SystemEvent], ...] = ()
-    """Kinds of events that it adds to those of all systems."""
-    executed: Callable[[Any, Any], Sequence[ExecutedStep]] = lambda plan, state: ()
-    """Steps of a plan that were executed and not undone, by a state: what its `System.executed` would say."""
-    order: Callable[[Any, Any, Undoing], None] = lambda plan, state, undoing: None
-    """Let a state be one in which the arm undoes what it did; raises InvalidInput if there is nothing to undo."""
+    words: StepperWords = StepperWords()
+
+    @property
+    def entry(self) -> Entry:
+        """What it says of itself."""
+        return entry_named(self.name)
+
+    @abstractmethod
+    def encode(self, plan: Any) -> bytes:
+        """A plan as bytes; their digest stands for it."""
+
+    @abstractmethod
+    def decode(self, data: bytes, name: str) -> Any:
+        """The plan in some bytes, found sound; `name` is for messages. Raises InvalidInput."""
+
+    @abstractmethod
+    def listing(self, plan: Any) -> Listing:
+        """Stages and steps of a plan."""
+
+    @abstractmethod
+    def build(self, setup: Setup, around: Surroundings) -> RunningSystem:
+        """A run's machine, before its first step; raises InvalidInput if it cannot be built here."""
+
+    def machine(self, plan: Any) -> tuple[str, str]:
+        """Name and digest of the machine that a plan is for; empty if it is for none."""
+        return "", ""
+
+    def check(self, setup: Setup) -> None:
+        """Raises InvalidInput unless plan, task and world of a run go together."""
+        if not isinstance(setup.plan, self.plan):
+            raise BadFile(f"this is no plan of {self.entry.title}")
+
+    def executed(self, plan: Any, state: Any) -> Sequence[ExecutedStep]:
+        """Steps of a plan that were executed and not undone, by a state."""
+        return ()
+
+    def order(self, plan: Any, state: Any, undoing: Undoing) -> None:
+        """Let a state be one in which the arm undoes what it did; raises InvalidInput if there is nothing to undo."""
+        raise refusal(self.name, "undo")
+
+    def calibration(self, state: Any) -> Calibration | None:
+        """The calibration of the camera in a state, if it has one."""
+        return None
+
+    # -- what people see ------------------------------------------------------------------------------
+
+    @property
+    def topics(self) -> Topics:
+        """What of a paused run can be shown."""
+        return PLAIN
+
+    def choices(self, runner: "Runner") -> Mapping[Choice, str]:
+        """The answers to the call of the operator that a run stands at, and what each does."""
+        return {
+            "proceed": "proceed: continue after the step that called",
+            "retry": "retry what was to be done",
+            "skip": "skip it",
+        }
+
+    # -- the way of a run -----------------------------------------------------------------------------
+
+    def carry_out(self, runner: "Runner", go: Callable[[], "Pause"]) -> "Pause":
+        """Carry out a run from where it stands; `go` lets it run until it pauses."""
+        return go()
+
+    def files(self, runner: "Runner", pause: "Pause", result: Any) -> Mapping[str, bytes]:
+        """Files that a run leaves in its folder beside those of every run, by the names that its entry has.
+
+        Args:
+            result: the run's `handeye.results.result.Result`.
+        """
+        return {}
+
+    def page(self, folder: Path) -> bytes | None:
+        """The report of the finished run in a folder that has those files; None: it is made as for every run."""
+        return None

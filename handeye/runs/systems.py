@@ -1,50 +1,35 @@
-"""The kinds of systems there are, by name."""
+"""Systems by name: each is loaded from its entry when it is asked for."""
 
 from functools import lru_cache
-from typing import Final
+from pathlib import Path
 
-from handeye.core.diagnostics import quoted
-from handeye.core.errors import NoSuchName
+from handeye.core.entries import entries, entry_named, loaded
 from handeye.core.record import Record
 from handeye.planfile.store import written_digest
-from handeye.program.event_reading import declare_events
 from handeye.runs.setup import Setup
-from handeye.runs.system import Listing, SystemKind
-from handeye.systems.stanford.executor_run import PROGRAM
-from handeye.systems.trig.run.system import TAUGHT
-
-_KINDS: Final[dict[str, SystemKind]] = {}
+from handeye.runs.system import Listing, System
 
 
-def register(kind: SystemKind) -> None:
-    """Let runs be driven by another kind of system, and its events be read."""
-    declare_events(kind.name, kind.events)
-    _KINDS[kind.name] = kind
+def system_named(name: str) -> System:
+    """The system of a name; raises InvalidInput if there is none."""
+    found: System = loaded(entry_named(name).system)
+    return found
 
 
-for _kind in (PROGRAM, TAUGHT):
-    register(_kind)
+def system_of(setup: Setup) -> System:
+    """The system that carries a run out."""
+    return system_named(setup.system)
 
 
-def system_kind(name: str) -> SystemKind:
-    """The kind of a name.
-
-    Raises:
-        InvalidInput: there is none.
-    """
-    if name not in _KINDS:
-        raise NoSuchName(f"there is no system {quoted(name)} here; there are {', '.join(_KINDS)}")
-    return _KINDS[name]
-
-
-def kind_of(setup: Setup) -> SystemKind:
-    """The kind of system that carries a run out."""
-    return system_kind(setup.system)
+def system_of_files(folder: Path) -> System | None:
+    """The system that has left files of its own in the folder of a run; None: there are none."""
+    found = (e for e in entries().values() if any((folder / name).is_file() for name in e.files))
+    return next((system_named(entry.name) for entry in found), None)
 
 
 def listing_of(setup: Setup) -> Listing:
     """Stages and steps of a run."""
-    return kind_of(setup).listing(setup.plan)
+    return system_of(setup).listing(setup.plan)
 
 
 def written(setup: Setup) -> bytes:
@@ -72,4 +57,4 @@ class _Identical:
 
 @lru_cache(maxsize=2)
 def _written(what: _Identical) -> bytes:
-    return system_kind(what.system).encode(what.plan)
+    return system_named(what.system).encode(what.plan)

@@ -5,13 +5,14 @@ from collections.abc import Sequence
 from msgspec.structs import replace
 
 from handeye.core.diagnostics import quoted
+from handeye.core.entries import require
 from handeye.core.errors import Refused
 from handeye.core.mutable_records import copied
 from handeye.execution.undo.done import Undoing
 from handeye.program.events import StepStarted, UndoEnded, UndoOrdered
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.system import ExecutedStep, Listing
-from handeye.runs.systems import kind_of, listing_of
+from handeye.runs.systems import listing_of, system_of
 
 
 def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) -> int:
@@ -37,7 +38,8 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
     Raises:
         InvalidInput: the run has left nothing to undo, or not all of it.
     """
-    snapshot, kind, plan = checkpoint.snapshot, kind_of(checkpoint.setup), checkpoint.setup.plan
+    require(checkpoint.setup.system, "undo", name)
+    snapshot, kind, plan = checkpoint.snapshot, system_of(checkpoint.setup), checkpoint.setup.plan
     if snapshot is None:
         raise Refused(f"{name} is no run of a program that has begun: there is nothing to undo")
     state = copied(snapshot.state)

@@ -14,7 +14,7 @@ from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.systems import system_kind
+from handeye.runs.systems import system_named
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import Trace, read_trace
 
@@ -26,7 +26,7 @@ def setup_of(trace: Trace) -> Setup:
         InvalidInput: there is no such system here, or its plan is not sound.
     """
     begun = trace.head
-    plan = system_kind(begun.system).decode(trace.plan, f"the plan in {trace.name}")
+    plan = system_named(begun.system).decode(trace.plan, f"the plan in {trace.name}")
     camera = "gl" if begun.camera.method == "opengl" else "ray"
     return Setup(
         system=begun.system,

@@ -1,1 +1,1 @@
-"""Systems of the period, a folder each: language, machines, runs, words and commands."""
+"""Systems of the period, a folder each: its `ENTRY` says what it offers, and where that is found."""

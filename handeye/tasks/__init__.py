@@ -15,6 +15,7 @@ import numpy as np
 
 from handeye.arm import robots
 from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.entries import entries
 from handeye.core.errors import BadArgument, InvalidInput, NoSuchName, Refused
 from handeye.tasks.interface import AnyTask, Task
 
@@ -28,12 +29,6 @@ _BUILT_IN: Final = {
     "water_pump": "handeye.tasks.water_pump.task:WATER_PUMP",
     "insertion": "handeye.tasks.insertion.task:INSERTION",
 }
-_OF_SYSTEMS: Final = {
-    "palletise": "handeye.systems.trig.jobs.task:PALLET",
-    "bucket": "handeye.systems.trig.jobs.task:BUCKET_TASK",
-}
-"""Tasks that no planned program does."""
-_OURS: Final = _BUILT_IN | _OF_SYSTEMS
 _HINT: Final = (
     " (one of your own is given as `--task MODULE:NAME`, comes by an entry point of the group `handeye.tasks`, or is "
     "known to the Python program that calls `handeye.tasks.register`)"
@@ -53,7 +48,7 @@ def register(task: AnyTask) -> None:
     name = getattr(task, "name", None)
     if not isinstance(name, str) or not name.strip():
         raise BadArgument(f"a task needs a name, which is a text; {name!r} is none")
-    if name in _OURS or _REGISTERED.get(name, task) is not task:
+    if name in _ours() or _REGISTERED.get(name, task) is not task:
         raise BadArgument(f"there is a task called {quoted(name)} already")
     if isinstance(task, Task):
         joints = len(task.arm.joints)
@@ -91,7 +86,7 @@ def any_task(name: str) -> AnyTask:
         raise BadArgument(f"a task is given by its name, not {name!r}")
     found = known_any(name)
     if found is None:
-        names = {*_OURS, *_REGISTERED, *_entry_points()}
+        names = {*_ours(), *_REGISTERED, *_entry_points()}
         near = suggestion(name, names) or f"there are {', '.join(map(quoted, sorted(names)))}"
         raise NoSuchName(f"no task is called {quoted(name)}; {near}{_HINT}")
     return found
@@ -119,8 +114,8 @@ def known_any(name: str) -> AnyTask | None:
     Raises:
         InvalidInput: it is known where it is, and cannot be imported.
     """
-    if name in _OURS:
-        return _loaded(_OURS[name])
+    if name in (ours := _ours()):
+        return _loaded(ours[name])
     if name not in _REGISTERED and name in _entry_points():
         found = _loaded(_entry_points()[name])
         if found.name != name:
@@ -146,6 +141,11 @@ def of_plans(*, others: bool) -> Iterator[Task]:
             continue
         if found is not None:
             yield found
+
+
+def _ours() -> dict[str, str]:
+    """Where the tasks of handeye and those of systems are found, by name."""
+    return _BUILT_IN | {name: place for entry in entries().values() for name, place in entry.tasks.items()}
 
 
 @cache

@@ -31,7 +31,7 @@ def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> A
 def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
     """Tell what was done after the first `happened` events of the plan under way."""
     runner = workplace.runner
-    told = step_summaries(runner.events[happened:], runner.listing)
+    told = step_summaries(runner.events[happened:], runner.listing, runner.task.measures)
     did = tuple(step for step in told if step.line is not None)
     return LineResult(did=did, pause=pause, said=UNSET if did else pause_sentence(pause))
 

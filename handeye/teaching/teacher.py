@@ -27,7 +27,6 @@ from handeye.program.motion_operations import Change
 from handeye.program.program import Position
 from handeye.program.taught import Taught
 from handeye.program.taught_text import with_position
-from handeye.systems.stanford.executor_run import cell_of
 from handeye.teaching.answers import Answer
 from handeye.teaching.functions import TYPED
 from handeye.teaching.plan_and_run import carry_out
@@ -129,7 +128,7 @@ class Teacher:
         self._let(lambda: self._pushed(force, seconds))
 
     def _pushed(self, force: Vector3, seconds: float) -> None:
-        with pushed(cell_of(self.workplace.runner.system), force):
+        with pushed(self.workplace.runner.arm_cell, force):
             self._float(seconds)
         self._float(REST)
 

@@ -23,7 +23,6 @@ from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup, plan_of
 from handeye.runs.snapshot import Checkpoint, Snapshot
-from handeye.systems.stanford.executor_run import context_of
 from handeye.tasks import DEFAULT
 from handeye.tasks import task as known_task
 from handeye.tasks.interface import Task
@@ -108,7 +107,7 @@ class Workplace:
     @property
     def run(self) -> ExecutionContext:
         """What the executor of programs works with, now."""
-        return context_of(self.runner.system)
+        return self.runner.context
 
     @property
     def elapsed(self) -> float:
@@ -194,7 +193,7 @@ class Workplace:
     def _go(self) -> Pause:
         pause = advance(self.runner)
         if pause.kind == "panic":
-            self.runner.rollback()
+            self.runner.undo()
         return pause
 
     def mark(self) -> None:

@@ -19,7 +19,6 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
-from handeye.systems.stanford.executor_run import cell_of
 from handeye.tasks import task
 from handeye.tasks.interface import Disturbance
 from handeye.trials.brakes import brakes_hold
@@ -91,9 +90,9 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturbed
     runner = Runner(Checkpoint(setup=Setup(plan=plan, world=world, camera=camera, judged=True)))
     if not _built(runner, plan, change):
         return Disturbed(name=name, built=False)
-    change.make(cell_of(runner.system))
+    change.make(runner.arm_cell)
     begun, moved, part = len(runner.events), 0.0, ""
-    runner.order_reversal(0, halts=True)
+    runner.have_undone(0, halts=True)
     while not runner.ended:
         moved, part = max((moved, part), _moved(runner))
     result = finished(runner, advance(runner), Meter(), judged=True)
@@ -101,7 +100,7 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturbed
     return Disturbed(
         name=name,
         built=True,
-        stopped=runner.call is not None and brakes_hold(cell_of(runner.system)),
+        stopped=runner.call is not None and brakes_hold(runner.arm_cell),
         at=undone[-1].text if undone else "",
         line=undone[-1].place if undone else "",
         message=result.message if runner.call is not None else _wrong(result),

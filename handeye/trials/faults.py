@@ -13,7 +13,6 @@ from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.program.events import AnyEvent, StepStarted
 from handeye.results.result import Result
-from handeye.systems.stanford.executor_run import cell_of
 from handeye.tasks import task
 from handeye.trials.assembly import run_plan
 from handeye.trials.brakes import brakes_hold
@@ -108,7 +107,7 @@ def _tried(plan: Plan, camera: str, world: WorldSpec) -> FaultTrial:
         done = run_plan(plan, world=sound, camera=camera, halt=button.down, observers=button.watching)
     else:
         done = run_plan(plan, world=world, camera=camera)
-    braked = brakes_hold(cell_of(done.runner.system))
+    braked = brakes_hold(done.runner.arm_cell)
     return trial_of(fault, catalogue, done.result, done.runner.events, braked=braked)
 
 

@@ -31,7 +31,6 @@ from handeye.runs.runner import Runner
 from handeye.runs.scripts import taught_beside
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.stanford.executor_run import cell_of
 from handeye.tasks import task
 from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD, Inserting
 from handeye.trials.seeds import in_processes
@@ -188,7 +187,7 @@ def tried(
 
 def _seen(trial: InsertionTrial, runner: Runner) -> InsertionTrial:
     """What the witness says of a run that has ended, beside what the program says."""
-    seen, done = bench().witnessed(cell_of(runner.system)), runner.call is None and runner.trouble is None
+    seen, done = bench().witnessed(runner.arm_cell), runner.call is None and runner.trouble is None
     return replace(
         trial,
         outcome=("seated" if seen.right else "silent") if done else "told",

@@ -6,13 +6,11 @@ from functools import cached_property
 
 import msgspec
 
-from handeye.execution.state import ExecutionState, Found
 from handeye.program.events import AnyEvent, ErrorRaised, PartInspected, PartMatched, PartSeen, PictureTaken
-from handeye.program.program import Program
 from handeye.report.facts.seen import Finding, SeenPicture
 from handeye.report.page.seen import figure
 from handeye.runs.runner import Runner
-from handeye.systems.stanford.executor_run import ProgramSystem
+from handeye.runs.system import Listing, RunningSystem
 from handeye.trace.steps import DoneStep, done_steps
 
 NEWS = PictureTaken | PartSeen | PartInspected | PartMatched | ErrorRaised
@@ -40,31 +38,27 @@ class Television:
 
 def television(runner: Runner) -> Television:
     """What the television shows of a run."""
-    system = runner.system
-    if not isinstance(system, ProgramSystem):
-        return Television()
-    return shown(runner.events, system.plan.program, system.state)
+    return shown(runner.events, runner.listing, runner.system)
 
 
-def shown(events: Sequence[AnyEvent], program: Program, state: ExecutionState) -> Television:
+def shown(events: Sequence[AnyEvent], listing: Listing, system: RunningSystem) -> Television:
     """What the television shows after some events, copied from what the program remembers."""
-    taken, findings = _last(events, program)
-    if taken is None or taken.picture not in state.shots:
+    taken, findings = _last(events, listing) if system.shots else (None, ())
+    if taken is None or taken.picture not in system.shots:
         return Television()
-    found = state.found.get(taken.picture, Found())
     return Television(
         SeenPicture(
             time=taken.time,
             name=taken.picture,
             lens=taken.lens,
-            picture=state.shots[taken.picture].picture.copy(),
-            marks=tuple(found.marks()),
+            picture=system.shots[taken.picture].picture.copy(),
+            marks=tuple(system.marks(taken.picture)),
             findings=tuple(findings),
         )
     )
 
 
-def _last(events: Sequence[AnyEvent], program: Program) -> tuple[PictureTaken | None, Sequence[Finding]]:
+def _last(events: Sequence[AnyEvent], listing: Listing) -> tuple[PictureTaken | None, Sequence[Finding]]:
     """The picture that was taken or looked at last, and what was found in it."""
     taken: dict[str, PictureTaken] = {}
     findings: dict[str, list[Finding]] = {}
@@ -73,12 +67,12 @@ def _last(events: Sequence[AnyEvent], program: Program) -> tuple[PictureTaken | 
         for event in step.events:
             if isinstance(event, PictureTaken):
                 taken[event.picture], findings[event.picture], last = event, [], event.picture
-        examined = _examined(step, program)
+        examined = _examined(step, listing)
         if examined in taken:
             findings[examined] += [event for event in step.events if isinstance(event, Finding)]
             last = examined
     return (None, ()) if last is None else (taken[last], findings[last])
 
 
-def _examined(step: DoneStep, program: Program) -> str | None:
-    return program.steps[step.started.step].operation.examines
+def _examined(step: DoneStep, listing: Listing) -> str | None:
+    return listing.steps[step.started.step].examines

@@ -10,7 +10,6 @@ import pytest
 import handeye
 from handeye.core.errors import InvalidInput
 from handeye.program.events import RunFinished, StepFinished
-from handeye.systems.stanford.executor_run import context_of
 
 pytestmark = pytest.mark.slow
 
@@ -184,7 +183,7 @@ def test_a_step_that_is_broken_off_is_not_done(run: handeye.Run, monkeypatch: py
 
     begun, gap = len(run.events), run.state.gap
     with monkeypatch.context() as broken:
-        broken.setattr(context_of(run._runner.system).drive, "watch", interrupt)
+        broken.setattr(run._runner.context.drive, "watch", interrupt)
         with pytest.raises(KeyboardInterrupt):
             run.step()
     assert (run.state.position, len(run.events), run.state.gap) == (0, begun, gap)

@@ -91,7 +91,7 @@ def test_what_is_no_run_is_refused_in_a_sentence(
 def test_a_run_of_another_system_is_refused(tmp_path: Path) -> None:
     run = recorded(tmp_path / "a.mcap")
     other = replace(run, trace=replace(run.trace, head=msgspec.structs.replace(run.trace.head, system="toy")))
-    with pytest.raises(InvalidInput, match=r"is a run of the system toy; only runs of plans are compared$"):
+    with pytest.raises(InvalidInput, match=r"a\.mcap: the counter machine cannot compare two of its runs$"):
         comparison(run, other)
 
 

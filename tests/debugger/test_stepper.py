@@ -22,7 +22,6 @@ from handeye.debugger.live import Ear
 from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper, interact
-from handeye.debugger.views import TOPICS
 from handeye.execution.state import Found, Shot
 from handeye.program.events import (
     AnyEvent,
@@ -41,7 +40,7 @@ from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AtLabel, ByHand
-from handeye.systems.stanford.executor_run import context_of
+from handeye.systems.stanford.topics import TOPICS
 from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.vision.base import GeneralLocation
 from handeye.vision.blob import BoundingBox
@@ -259,9 +258,9 @@ def test_an_error_that_the_next_step_tests_is_shown(say: Say) -> None:
 
 
 def test_measured_parts_are_shown_beside_their_plan(say: Say, runner: Runner) -> None:
-    X_WP = context_of(runner.system).world.part("BASE").copy()
+    X_WP = runner.context.world.part("BASE").copy()
     X_WP[0, 3] += 0.1 * INCH
-    context_of(runner.system).world.measure("BASE", X_WP)
+    runner.context.world.measure("BASE", X_WP)
     part = say("show parts")[0].show.parts["BASE"]
     assert part.difference.at_in == pytest.approx((0.1, 0, 0))
     assert part.measured.at_in[0] == pytest.approx(part.planned.at_in[0] + 0.1)
@@ -276,7 +275,7 @@ def test_force_is_shown_where_a_guard_has_just_stopped_the_hand_and_nowhere_else
     assert (
         as_text(shown).splitlines()[-1] == "force     not estimated here: no guard has just stopped the hand"
     )
-    context_of(runner.system).state.drive.wrench = np.array((0, 0, -8.0, 0, 0, 0))
+    runner.context.state.drive.wrench = np.array((0, 0, -8.0, 0, 0, 0))
     runner.events.append(GuardTripped(time=runner.time, guard=GuardKind.FORCE, value=8.0, limit=7.0))
     assert say("show force")[0].show.force_oz == pytest.approx((0, 0, 8 / OUNCE_FORCE), abs=1e-3)
     assert say("s", "show force")[-1].show.force_oz is not None
@@ -285,9 +284,7 @@ def test_force_is_shown_where_a_guard_has_just_stopped_the_hand_and_nowhere_else
 
 def test_the_last_picture_is_written_to_a_file_that_is_told(say: Say, runner: Runner, tmp_path: Path) -> None:
     picture = np.full((256, 333), 7, np.uint8)
-    context_of(runner.system).state.shots["CLOSE_UP"] = Shot(
-        picture=picture, view=DRAWING.view(0.05, 0.0, 0.0)
-    )
+    runner.context.state.shots["CLOSE_UP"] = Shot(picture=picture, view=DRAWING.view(0.05, 0.0, 0.0))
     runner.events.append(PictureTaken(time=0.0, picture="CLOSE_UP", lens=0.05))
     shown = say("show picture")[0].show.picture
     assert (shown.name, shown.file) == ("CLOSE_UP", str(tmp_path / "pictures" / "close_up.png"))
@@ -299,9 +296,7 @@ def test_without_a_folder_a_picture_is_named_and_written_only_where_somebody_say
 ) -> None:
     monkeypatch.chdir(tmp_path)
     picture = np.full((256, 333), 7, np.uint8)
-    context_of(runner.system).state.shots["CLOSE_UP"] = Shot(
-        picture=picture, view=DRAWING.view(0.05, 0.0, 0.0)
-    )
+    runner.context.state.shots["CLOSE_UP"] = Shot(picture=picture, view=DRAWING.view(0.05, 0.0, 0.0))
     runner.events.append(PictureTaken(time=0.0, picture="CLOSE_UP", lens=0.05))
     stepper = Stepper(runner)
     assert as_text(stepper.do("show picture")).splitlines()[1:] == ["picture   CLOSE_UP"]
@@ -501,12 +496,12 @@ def test_the_panic_button_is_told_and_the_step_can_be_done_again(tmp_path: Path,
 
 
 def test_findings_that_no_picture_can_hold_are_refused_in_a_sentence(runner: Runner, tmp_path: Path) -> None:
-    context_of(runner.system).state.shots["WIDE"] = Shot(
+    runner.context.state.shots["WIDE"] = Shot(
         picture=np.zeros((256, 333), np.uint8), view=DRAWING.view(0.025, 0.0, 0.0)
     )
     box = BoundingBox(10**9, 0, 10**9, 1)
     far = GeneralLocation(box=box, x=0.0, y=0.0, corners=(), beams=0, points=0)
-    context_of(runner.system).state.found["WIDE"] = Found(general=far)
+    runner.context.state.found["WIDE"] = Found(general=far)
     runner.events.append(PictureTaken(time=0.0, picture="WIDE", lens=0.025))
     refused = Stepper(runner).do(f"picture {tmp_path / 'wide.png'}")
     assert refused.error == "the findings in picture WIDE cannot be drawn"

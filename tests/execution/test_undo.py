@@ -18,7 +18,6 @@ from handeye.program.events import OperatorCalled, StageUndone, UndoEnded, UndoF
 from handeye.program.guards import GuardKind
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.stanford.executor_run import context_of
 from handeye.touch.guards import Reading, Trip
 from handeye.touch.hold import SKEW
 
@@ -110,8 +109,8 @@ def undone(start: Checkpoint, left: int = 0, meddle: Callable[[Runner], None] = 
     """The run, undone until so many steps are left."""
     runner = Runner(start)
     meddle(runner)
-    runner.order_reversal(left)
-    while not runner.ended and context_of(runner.system).state.undoing is not None:
+    runner.have_undone(left)
+    while not runner.ended and runner.context.state.undoing is not None:
         runner.step()
     return runner
 
@@ -140,7 +139,7 @@ def test_a_pin_that_was_taken_out_goes_back_into_its_holder() -> None:
 
 
 def test_the_program_can_go_on_from_its_beginning_with_nothing_remembered() -> None:
-    state = context_of(back().system).state
+    state = back().context.state
     assert (state.at, state.saved, state.counters, state.grasping, state.done) == (0, {}, {}, False, [])
     again = Runner(back().checkpoint())
     while not again.ended:
@@ -163,7 +162,7 @@ def test_a_pin_that_a_loop_took_in_its_second_round_goes_back_too() -> None:
 
 def test_fingers_that_closed_on_nothing_must_hold_nothing() -> None:
     def closed_on_nothing(runner: Runner) -> None:
-        done = context_of(runner.system).state.done
+        done = runner.context.state.done
         done[CLOSED] = replace(done[CLOSED], gap=(done[CLOSED].gap[0], 0.0))
 
     cause = stopped_by(undone(done(), left=CLOSED, meddle=closed_on_nothing)).cause
@@ -192,12 +191,12 @@ def test_a_thing_that_is_no_longer_where_it_was_put_down_stops_the_arm_by_the_ga
     assert cause.holding
     assert cause.gap < cause.kept - 1e-3
     assert run.ended
-    assert context_of(run.system).drive.sensed.braked
+    assert run.context.drive.sensed.braked
 
 
 def test_what_came_to_lie_straighter_while_it_was_carried_is_let_go_all_the_same() -> None:
     def grasped_skew(runner: Runner) -> None:
-        done = context_of(runner.system).state.done
+        done = runner.context.state.done
         before, after = done[CLOSED].gap
         done[CLOSED] = replace(done[CLOSED], gap=(before, after + 1.3 * SKEW))
 
@@ -287,7 +286,7 @@ def test_a_thing_that_was_hardly_moved_is_taken_again() -> None:
 
 def test_a_way_that_cannot_be_used_stops_the_arm_and_breaks_nothing() -> None:
     def spoil(runner: Runner) -> None:
-        state = context_of(runner.system).state
+        state = runner.context.state
         state.done[:] = [replace(done, way=b"spoilt" if done.way else b"") for done in state.done]
 
     assert isinstance(stopped_by(undone(done(), meddle=spoil)).cause, UndoUnknown)
@@ -295,17 +294,17 @@ def test_a_way_that_cannot_be_used_stops_the_arm_and_breaks_nothing() -> None:
 
 def test_a_memory_that_cannot_be_the_programs_stops_the_arm_before_it_moves() -> None:
     def spoil(runner: Runner) -> None:
-        state = context_of(runner.system).state
+        state = runner.context.state
         state.done[-1] = replace(state.done[-1], remembered={"saved": encoded({"C1": np.zeros(5)})})
 
     run = undone(done(), meddle=spoil)
     assert isinstance(stopped_by(run).cause, UndoUnknown)
-    assert context_of(run.system).state.saved["C1"].shape == (3,)
+    assert run.context.state.saved["C1"].shape == (3,)
 
 
 def test_a_lift_that_was_stopped_goes_on_as_a_lift(monkeypatch: pytest.MonkeyPatch) -> None:
     run = Runner(done(SEARCH))
-    run.order_reversal(0)
+    run.have_undone(0)
 
     def lifts() -> list[int]:
         return [event.steps for event in run.events if isinstance(event, UndoStarted) and event.steps > 1]
@@ -325,20 +324,20 @@ def test_a_lift_that_was_stopped_goes_on_as_a_lift(monkeypatch: pytest.MonkeyPat
 
 def test_an_undo_that_was_stopped_goes_on_from_where_the_arm_is() -> None:
     run = undone(done(DROP))
-    left = len(context_of(run.system).state.done)
+    left = len(run.context.state.done)
     run.answer("proceed")
     run.step()
     assert isinstance(stopped_by(run).cause, HoldOff)
-    assert len(context_of(run.system).state.done) == left
+    assert len(run.context.state.done) == left
 
 
 def test_undoing_is_the_same_to_the_byte_when_it_is_taken_up_again() -> None:
     run = Runner(done())
-    run.order_reversal(0)
+    run.have_undone(0)
     for _ in range(6):
         run.step()
     again = Runner(run.checkpoint())
-    while context_of(again.system).state.undoing is not None:
+    while again.context.state.undoing is not None:
         again.step()
     assert again.events == back().events
 
@@ -353,8 +352,8 @@ def test_one_can_go_back_in_time_through_what_was_undone() -> None:
     run = undone(done())
     ends = run.position
     run.back_to(ends - 3)
-    assert context_of(run.system).state.undoing is not None
-    while context_of(run.system).state.undoing is not None:
+    assert run.context.state.undoing is not None
+    while run.context.state.undoing is not None:
         run.step()
     assert run.events == back().events
 
@@ -362,4 +361,4 @@ def test_one_can_go_back_in_time_through_what_was_undone() -> None:
 def test_no_more_can_be_undone_than_was_done() -> None:
     run = Runner(begin(TAKE))
     with pytest.raises(InvalidInput, match=r"^there is nothing to undo$"):
-        run.order_reversal(0)
+        run.have_undone(0)

@@ -29,7 +29,6 @@ from handeye.runs.checkpoint_file import decode, encode
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.stanford.executor_run import context_of
 from handeye.tasks import task
 from handeye.trials.assembly import run_plan
 
@@ -87,9 +86,9 @@ def test_without_centring_the_hand_does_not_give_way() -> None:
     for without in ((), ("centring",)):
         runner = begun(GRASP, *without, world=ASIDE)
         for _ in range(3):  # OPEN, MOVE, CENTER
-            before = context_of(runner.system).state.drive.q.copy()
+            before = runner.context.state.drive.q.copy()
             runner.step()
-        hands = (forward(STANFORD, q)[:3, 3] for q in (before, context_of(runner.system).state.drive.q))
+        hands = (forward(STANFORD, q)[:3, 3] for q in (before, runner.context.state.drive.q))
         moved.append(np.linalg.norm(np.subtract(*hands)))
     assert moved[0] > 0.002
     assert moved[1] < 1e-6

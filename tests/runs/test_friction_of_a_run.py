@@ -11,7 +11,6 @@ from handeye.runs.host_seconds import HostSeconds
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.stanford.executor_run import context_of
 from handeye.trials.brakes import brakes_hold
 
 pytestmark = pytest.mark.slow
@@ -58,7 +57,7 @@ def test_friction_is_measured_before_the_first_instruction(felt: Runner) -> None
 def test_the_record_tells_how_heavy_the_arm_has_found_its_links(felt: Runner) -> None:
     _, measured, *_ = felt.events
     assert isinstance(measured, FrictionMeasured)
-    known = context_of(felt.system).state.drive.links
+    known = felt.context.state.drive.links
     assert known is not None
     assert measured.links == pytest.approx(known, abs=1e-6)
     assert measured.links != pytest.approx([1.0] * 6, abs=0.001)
@@ -88,8 +87,8 @@ def test_a_stop_clear_of_the_friction_measured_is_not_told() -> None:
 
 def test_what_friction_was_and_what_was_told_belong_to_the_state(felt: Runner) -> None:
     again = Runner(felt.checkpoint())
-    state = context_of(again.system).state
-    before = context_of(felt.system).state.drive
+    state = again.context.state
+    before = felt.context.state.drive
     assert state.drive.friction.tolist() == before.friction.tolist() != [0.0] * 6
     assert before.links is not None
     assert state.drive.links is not None

@@ -15,7 +15,6 @@ from handeye.core.variation import Overrides, WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.runs.runner import Runner
 from handeye.systems.stanford.conditions import Conditions
-from handeye.systems.stanford.executor_run import context_of
 from handeye.systems.stanford.kept_calibrations import LARGEST, MAGIC, VERSION, KeptCalibrations
 from handeye.systems.stanford.preparation import Preparation, preparation_of
 
@@ -46,7 +45,7 @@ ELSEWHERE: dict[str, Any] = {
 @pytest.fixture(scope="module")
 def prepared() -> Preparation:
     runner = Runner(begin("OPEN 1"))
-    return preparation_of(context_of(runner.system), runner.cell, 3.3)
+    return preparation_of(runner.context, runner.cell, 3.3)
 
 
 @pytest.fixture

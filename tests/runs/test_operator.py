@@ -8,7 +8,6 @@ from stepper_bench import AIR, reset
 from handeye.core.errors import InvalidInput
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
-from handeye.debugger.choices import choices
 from handeye.program.events import (
     OperatorAnswered,
     OperatorCalled,
@@ -25,7 +24,6 @@ from handeye.runs.operator import Abort, Back, Retry, UnwindOnce, attend, beginn
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
-from handeye.systems.stanford.executor_run import context_of
 
 SEARCHED = AfterStage(stage=1, name="search in the air")
 
@@ -142,23 +140,23 @@ def test_retry_does_the_stage_again_so_many_times_and_gives_up(runner: Runner, t
 
 def test_what_a_step_leaves_for_undoing_it_tells_that_it_called_the_operator(runner: Runner) -> None:
     attend(runner, Abort())
-    called = [done.called for done in context_of(runner.system).state.done]
+    called = [done.called for done in runner.context.state.done]
     assert called == [*(len(called) - 1) * [False], True]
 
 
 def test_where_the_arm_cannot_undo_something_nothing_is_retried(runner: Runner) -> None:
     attend(runner, Abort())
-    state = context_of(runner.system).state
+    state = runner.context.state
     state.done[-1] = replace(state.done[-1], way=b"no way")
-    runner.order_reversal(0, halts=True)
+    runner.have_undone(0, halts=True)
     assert attend(runner, Retry(3)).kind == "operator"
     assert answers(runner) == []
-    assert choices(runner)["proceed"] == "proceed: go on undoing"
+    assert runner.kind.choices(runner)["proceed"] == "proceed: go on undoing"
 
 
 def test_a_part_that_begins_when_all_is_undone_is_retried_on_its_own_account(runner: Runner) -> None:
     attend(runner, Retry(1))
-    runner.order_reversal(0, halts=True)
+    runner.have_undone(0, halts=True)
     attend(runner, Retry(1))
     runner.answer("proceed")  # built again
     attend(runner, Retry(1))

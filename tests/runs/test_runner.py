@@ -8,7 +8,6 @@ from handeye.core.errors import InvalidInput
 from handeye.execution.servo import Halted
 from handeye.program.events import ExperimentMade, OperatorCalled, PanicStopped, Restored
 from handeye.runs.runner import Runner
-from handeye.systems.stanford.executor_run import context_of
 
 pytestmark = pytest.mark.slow
 
@@ -102,15 +101,13 @@ def test_the_panic_button_sets_the_brakes_at_the_next_tick_and_the_step_can_be_d
     pressed: list[bool] = []
     runner = Runner(begin(), halt=lambda: len(ticks) == 150 and not pressed)
     braked: list[tuple[float, bool]] = []
-    watch = context_of(runner.system).drive.watch
+    watch = runner.context.drive.watch
 
     def look(_: object) -> None:
-        ticks.append(context_of(runner.system).drive.sensed.time)
-        braked.append(
-            (context_of(runner.system).drive.sensed.time, context_of(runner.system).drive.sensed.braked)
-        )
+        ticks.append(runner.context.drive.sensed.time)
+        braked.append((runner.context.drive.sensed.time, runner.context.drive.sensed.braked))
 
-    context_of(runner.system).drive.watch = look
+    runner.context.drive.watch = look
     with pytest.raises(Halted):
         through(runner)
     pressed.append(True)
@@ -118,8 +115,8 @@ def test_the_panic_button_sets_the_brakes_at_the_next_tick_and_the_step_can_be_d
     stopped = runner.events[-1]
     assert isinstance(stopped, PanicStopped)
     assert stopped.time == pytest.approx(braked[-1][0], abs=1e-5)
-    context_of(runner.system).drive.watch = watch
-    runner.rollback()
+    runner.context.drive.watch = watch
+    runner.undo()
     assert history(through(runner).events) == history(whole.events)
 
 
@@ -139,9 +136,9 @@ def test_an_experiment_with_a_position_moves_the_hand_there() -> None:
     position = runner.setup.plan.program.positions["P1"]
     x, *rest = position.at
     runner.experiment("position", "P1", (x + 0.02, *rest))
-    planned = context_of(runner.system).world.planned_position("P1")[:3, 3]
+    planned = runner.context.world.planned_position("P1")[:3, 3]
     through(runner)
-    assert context_of(runner.system).drive.hand()[:3, 3] - planned == pytest.approx([0.02, 0, 0], abs=1e-3)
+    assert runner.context.drive.hand()[:3, 3] - planned == pytest.approx([0.02, 0, 0], abs=1e-3)
 
 
 def test_an_experiment_is_undone_by_going_back_and_kept_by_a_checkpoint() -> None:
@@ -149,9 +146,9 @@ def test_an_experiment_is_undone_by_going_back_and_kept_by_a_checkpoint() -> Non
     runner.step()
     runner.experiment("saved", "D", (0.01, 0.0, 0.0))
     kept = Runner(runner.checkpoint())
-    assert context_of(kept.system).state.saved["D"] == pytest.approx([0.01, 0, 0])
+    assert kept.context.state.saved["D"] == pytest.approx([0.01, 0, 0])
     runner.back_to(0)
-    assert "D" not in context_of(runner.system).state.saved
+    assert "D" not in runner.context.state.saved
     assert not runner.touched
 
 
@@ -234,6 +231,6 @@ def test_going_back_over_what_people_did_does_it_again() -> None:
     late = Runner(runner.checkpoint())
     late.back_to(3, lambda _: first)
     assert history(late.events) == history(runner.events[: len(late.events)])
-    assert context_of(late.system).state.saved["D"] == pytest.approx([0.01, 0, 0])
+    assert late.context.state.saved["D"] == pytest.approx([0.01, 0, 0])
     late.step()
     assert history(late.events) == history(runner.events)

@@ -1,20 +1,19 @@
 """A second system goes through everything that runs are: stepped, broken at, put back, kept, answered, traced."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import msgspec
 import pytest
 from short_runs import begin, history
-from toy_system import TOY, Lines, Registers, begin_toy
+from toy_system import Lines, Registers, ToySystem, begin_toy, encoded
 
+from handeye.core import entries
 from handeye.core.errors import InvalidInput
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.formatting import as_text
 from handeye.debugger.stepper import Stepper
 from handeye.results.pauses import pause_sentence
 from handeye.results.summary import summary
-from handeye.runs import systems
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode, read_checkpoint
 from handeye.runs.folder import TRACE, open_again, open_new
@@ -59,9 +58,9 @@ def test_a_plan_is_written_once_for_all_checkpoints_of_its_run(monkeypatch: pyte
 
     def counted(plan: Lines) -> bytes:
         plans.append(plan)
-        return TOY.encode(plan)
+        return encoded(plan)
 
-    monkeypatch.setitem(systems._KINDS, "toy", replace(TOY, encode=counted))
+    monkeypatch.setattr(ToySystem, "encode", lambda _, plan: counted(plan))
     start, other = begin_toy(), begin_toy()
     for checkpoint in (start, start, other):
         encode(checkpoint)
@@ -122,7 +121,7 @@ def test_a_state_that_points_outside_its_plan_is_refused() -> None:
 
 def test_an_unknown_system_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     data = encode(Runner(begin_toy()).checkpoint())
-    monkeypatch.delitem(systems._KINDS, "toy")
+    monkeypatch.delitem(entries._registered, "toy")
     with pytest.raises(InvalidInput, match=r"^there is no system `toy` here; there are program, trig$"):
         decode(data, "it")
 

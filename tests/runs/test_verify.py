@@ -10,7 +10,6 @@ from handeye.runs.folder import open_new
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.verify import difference
-from handeye.systems.stanford.executor_run import context_of
 from handeye.trace.reading import Trace, read_trace
 
 pytestmark = pytest.mark.slow
@@ -23,7 +22,7 @@ def recorded(path: Path, *, secretly: bool, start: Checkpoint | None = None) -> 
     runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
     advance(runner, steps=5)
     if secretly:
-        context_of(runner.system).drive.state.load = 0.5
+        runner.context.drive.state.load = 0.5
     advance(runner)
     runner.finish()
     folder.close()

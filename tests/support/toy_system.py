@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import msgspec
 
+from handeye.core.entries import Entry, register
 from handeye.core.errors import InvalidInput
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
@@ -26,8 +27,7 @@ from handeye.program.events import (
 from handeye.program.system_state import SystemState
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.system import Settable, Surroundings, System, SystemKind
-from handeye.runs.systems import register
+from handeye.runs.system import RunningSystem, Settable, Surroundings, System
 
 
 class Line(Record, frozen=True, kw_only=True):
@@ -40,6 +40,7 @@ class Line(Record, frozen=True, kw_only=True):
     ways: tuple[int | None, ...]
     file: ClassVar[str] = ""
     macro: ClassVar[str] = ""
+    examines: ClassVar[None] = None
     needs: ClassVar[None] = None
 
     @property
@@ -58,6 +59,7 @@ class Lines(Record, frozen=True, kw_only=True):
     stages: tuple[str, ...] = ("count",)
     steps: tuple[Line, ...]
     required: ClassVar[dict[str, str]] = {}
+    errors: ClassVar[tuple[int, ...]] = ()
 
     @property
     def labels(self) -> dict[str, list[int]]:
@@ -75,7 +77,7 @@ class Registers(SystemState, kw_only=True):
     values: dict[str, int] = msgspec.field(default_factory=dict)
 
 
-class CounterMachine(System):
+class CounterMachine(RunningSystem):
     """Ten lines of interpreter, and what a run asks of any system."""
 
     cell = None
@@ -187,11 +189,26 @@ def decoded(data: bytes, name: str) -> Lines:
         raise InvalidInput(f"{name} is not sound: {error}") from None
 
 
-TOY = SystemKind(
-    name="toy", plan=Lines, state=Registers, encode=encoded, decode=decoded,
-    listing=lambda lines: lines, machine=lambda _: ("", ""), check=lambda _: None, build=CounterMachine,
-)  # fmt: skip
-register(TOY)
+class ToySystem(System):
+    """Programs of the counter machine."""
+
+    name, plan, state = "toy", Lines, Registers
+
+    def encode(self, plan: Lines) -> bytes:
+        return encoded(plan)
+
+    def decode(self, data: bytes, name: str) -> Lines:
+        return decoded(data, name)
+
+    def listing(self, plan: Lines) -> Lines:
+        return plan
+
+    def build(self, setup: Setup, around: Surroundings) -> CounterMachine:
+        return CounterMachine(setup, around)
+
+
+TOY = ToySystem()
+register(Entry(name="toy", title="the counter machine", help="Counts.", system="toy_system:TOY"))
 
 
 def counting(times: int = 5) -> Lines:

@@ -11,7 +11,6 @@ from handeye.core.variation import Overrides, WorldSpec
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.stanford.executor_run import context_of
 from handeye.trace.channels import HAND
 from handeye.trace.forces import Forces
 from handeye.trace.trace import Trace
@@ -37,7 +36,7 @@ def trace(tmp_path_factory: pytest.TempPathFactory) -> Trace:
     start = Checkpoint(setup=Setup(plan=plan_of(SCRIPT), world=world, camera="ray"))
 
     def forget(runner: Runner) -> None:
-        drive = context_of(runner.system).state.drive
+        drive = runner.context.state.drive
         drive.friction, drive.links = np.zeros_like(drive.friction), None
 
     return traced(start, tmp_path_factory.mktemp("felt") / "run", prepare=forget)

@@ -13,7 +13,7 @@ from handeye.core.variation import WorldSpec
 from handeye.execution.drive import ArmDrive
 from handeye.judge.finding import at_most
 from handeye.program.system_state import SystemState
-from handeye.systems.stanford.executor_run import ProgramSystem
+from handeye.systems.stanford.executor_run import RunningPlan
 from handeye.tasks import task
 from handeye.trials.chaos import trial
 from handeye.trials.chaos.invariants import wrong
@@ -163,13 +163,13 @@ def test_a_stop_without_brakes_is_found_and_shrunk(sound: SoundRun, monkeypatch:
 def test_a_state_that_is_not_put_back_whole_is_found_and_shrunk(
     sound: SoundRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    whole: Callable[[ProgramSystem, SystemState], None] = ProgramSystem.restore
+    whole: Callable[[RunningPlan, SystemState], None] = RunningPlan.restore
 
-    def forgetting(self: ProgramSystem, state: SystemState) -> None:
+    def forgetting(self: RunningPlan, state: SystemState) -> None:
         whole(self, state)
         self.run.state.saved.clear()
 
-    monkeypatch.setattr(ProgramSystem, "restore", forgetting)
+    monkeypatch.setattr(RunningPlan, "restore", forgetting)
     schedule = parse_schedule("seed=3 start=0 faults=lamp.dead@1 breaks=panic:10,pause:2")
     found = try_schedule(schedule, sound)
     assert found.names == {"resume"}

@@ -1,6 +1,8 @@
 """The television shows the picture that was taken or examined last, with what was found in it, and changes nothing."""
 
 import json
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -8,16 +10,20 @@ from fake_runs import FakeRun, fake_run
 from looked_runs import PART, SCRIPT, looked
 from toy_system import begin_toy
 
+from handeye.execution.state import Found
 from handeye.program.events import ErrorRaised, PartSeen
 from handeye.report.facts.seen import SeenPicture
 from handeye.runs.runner import Runner
+from handeye.runs.system import RunningSystem
 from handeye.view.moment import Newest
 from handeye.view.television import Television, shown
 
 
 def seen(run: FakeRun) -> SeenPicture | None:
     """The picture that is shown of a run."""
-    return shown(run.events, run.executor.run.plan.program, run.executor.state).picture
+    state = run.executor.state
+    system = SimpleNamespace(shots=state.shots, marks=lambda name: state.found.get(name, Found()).marks())
+    return shown(run.events, run.executor.run.plan.program, cast("RunningSystem", system)).picture
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""Executor of programs in the cell of a task: the first system that runs drive."""
+"""The system that carries out plans of motions, in the cell of a task."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -9,6 +9,7 @@ from msgspec import UNSET
 
 from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.core.diagnostics import quoted
+from handeye.core.entries import PLANNED
 from handeye.core.errors import (
     BadArgument,
     BadFile,
@@ -16,7 +17,6 @@ from handeye.core.errors import (
     FrictionUnknown,
     InvalidInput,
     NoSuchName,
-    Refused,
 )
 from handeye.core.plain_text import counted
 from handeye.core.units import DEGREE, INCH
@@ -26,26 +26,31 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.devices import check_devices
 from handeye.execution.executor import Executor
 from handeye.execution.friction_measurement import measure_joints
-from handeye.execution.state import ExecutionState
+from handeye.execution.state import ExecutionState, Found, Shot
 from handeye.execution.undo.done import Done, Undoing
 from handeye.execution.undo.undoing import order
+from handeye.execution.vision_actions import just_found
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode, plan_digest
 from handeye.program.causes import ArmNames
 from handeye.program.events import AnyEvent, Choice, FrictionMeasured, JointFriction, RunStarted
 from handeye.program.program import Position
 from handeye.program.system_state import SystemState
+from handeye.runs.operator import undoing
+from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup, plan_of
-from handeye.runs.system import Settable, Surroundings, System, SystemKind
+from handeye.runs.system import Listing, RunningSystem, Settable, StepperWords, Surroundings, System, Topics
 from handeye.systems.stanford.conditions import Conditions, conditions_of
 from handeye.systems.stanford.kept_calibrations import KeptCalibrations
 from handeye.systems.stanford.preparation import Preparation, preparation_of, take_up
 from handeye.tasks import task
 from handeye.tasks.interface import Eye
 from handeye.touch.spiral import spiral
+from handeye.vision.calibration import Calibration
+from handeye.vision.marks import Mark
 
 
-class ProgramSystem(System):
+class RunningPlan(RunningSystem):
     """Carries out a plan with the arm of a simulated cell."""
 
     def __init__(self, setup: Setup, around: Surroundings) -> None:
@@ -59,10 +64,10 @@ class ProgramSystem(System):
         self._unkept: str | None = None
         self.plan = plan_of(setup)
         self._eye, self.arm = task(setup.task).eye, task(setup.task).arm
-        check(setup)
+        PROGRAM.check(setup)
         self._cell = task(setup.task).cell(setup.world, around.parts.camera or setup.camera)
         check_devices(self.plan.program, self._cell.devices)
-        self.run = ExecutionContext(
+        self._context = ExecutionContext(
             plan=self.plan,
             arm=self.arm,
             cell=self._cell.devices,
@@ -72,16 +77,35 @@ class ProgramSystem(System):
             without=frozenset(setup.without),
             vision=around.vision,
         )
-        self.run.drive.halt, self.run.drive.watch = around.halt, around.watch
-        self.executor = Executor(run=self.run)
+        self.context.drive.halt, self.context.drive.watch = around.halt, around.watch
+        self.executor = Executor(run=self.context)
 
     @property
     def state(self) -> ExecutionState:
-        return self.run.state
+        return self.context.state
 
     @property
     def cell(self) -> SimulatedCell:
         return self._cell
+
+    @property
+    def context(self) -> ExecutionContext:
+        return self._context
+
+    @property
+    def arm_cell(self) -> SimulatedCell:
+        return self._cell
+
+    @property
+    def shots(self) -> Mapping[str, Shot]:
+        return self.state.shots
+
+    def marks(self, picture: str) -> list[Mark]:
+        return self.state.found.get(picture, Found()).marks()
+
+    @property
+    def just_found(self) -> tuple[str, list[Mark]]:
+        return just_found(self.context)
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -89,7 +113,7 @@ class ProgramSystem(System):
 
     @property
     def time(self) -> float:
-        return self.run.time
+        return self.context.time
 
     @property
     def trouble(self) -> str | None:
@@ -112,7 +136,7 @@ class ProgramSystem(System):
             seconds = self._measure_joints()
         if self.trouble is not None:
             with suppress(SimulationError):  # broken physics has no brakes either
-                self.run.drive.stop()
+                self.context.drive.stop()
         return [self._started(), *self._friction(seconds)]
 
     def _prepare(self, eye: Eye) -> float:
@@ -126,8 +150,8 @@ class ProgramSystem(System):
         if self.trouble is None:
             self._calibrate(eye)
         if self.trouble is None:
-            made = preparation_of(self.run, self._cell, seconds)
-            take_up(made, self.run, self._cell)  # as a later run will
+            made = preparation_of(self.context, self._cell, seconds)
+            take_up(made, self.context, self._cell)  # as a later run will
             if conditions is not None:
                 self._keep(kept, conditions, made)
         return seconds
@@ -135,7 +159,7 @@ class ProgramSystem(System):
     def _goes_on_from(self, earlier: Preparation) -> bool:
         """Take up what an earlier run has kept; False if it cannot be used, and nothing is changed."""
         try:
-            take_up(earlier, self.run, self._cell)
+            take_up(earlier, self.context, self._cell)
         except InvalidInput:
             return False
         self._kept_until = self.time
@@ -176,7 +200,7 @@ class ProgramSystem(System):
     def executed(self) -> Sequence[Done]:
         return self.state.done
 
-    def reverse(self, undoing: Undoing) -> None:
+    def undo(self, undoing: Undoing) -> None:
         self.executor.undo(undoing)
 
     def finish(self) -> bool:
@@ -185,7 +209,7 @@ class ProgramSystem(System):
     def restore(self, state: SystemState) -> None:
         if not isinstance(state, ExecutionState):
             raise BadFile("what the run remembers is not of the executor of programs")
-        self.run.restore(state)
+        self.context.restore(state)
         self._take_calibration()
 
     def _measure_joints(self) -> float:
@@ -226,9 +250,9 @@ class ProgramSystem(System):
     def _take_calibration(self) -> None:
         """Look with the calibrated camera, if it is."""
         if self.state.calibration is not None:
-            self.run.camera = self.state.calibration.model
+            self.context.camera = self.state.calibration.model
         elif self._eye is not None:
-            self.run.camera = self._eye.drawing
+            self.context.camera = self._eye.drawing
 
     # -- experiments ----------------------------------------------------------------------------------
 
@@ -275,58 +299,78 @@ class ProgramSystem(System):
         return self.state.world.moved.get(name, self.plan.program.positions[name])
 
 
-def context_of(system: System) -> ExecutionContext:
-    """The surroundings of the executor of programs.
+class PlanSystem(System):
+    """Programs of the first waist, planned for an arm."""
 
-    Raises:
-        InvalidInput: another system carries the run out.
-    """
-    if not isinstance(system, ProgramSystem):
-        raise Refused("this is no run of a plan of motions: another system carries it out")
-    return system.run
+    name = PLANNED
+    plan = Plan
+    state = ExecutionState
+    words = StepperWords(
+        about=(
+            "The script is carried out a step at a time. A step is a line that does something, together with the",
+            "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow stands before the next one.",
+        ),
+        places=(
+            "PLACE is a line (58; pins.al:3 in a required file), a label (L1), an instruction (AOJ), a",
+            "stage or a piece of its name, or an error (error:23). WHAT is one of",
+        ),
+        units="inches, degrees, ounces",
+        without=(),
+    )
+
+    def encode(self, plan: Plan) -> bytes:
+        return encode(plan).encode()
+
+    def decode(self, data: bytes, name: str) -> Plan:
+        return decode(data, name)
+
+    def listing(self, plan: Plan) -> Listing:
+        return plan.program
+
+    def build(self, setup: Setup, around: Surroundings) -> RunningPlan:
+        return RunningPlan(setup, around)
+
+    def machine(self, plan: Plan) -> tuple[str, str]:
+        return plan.arm, plan.arm_digest
+
+    def check(self, setup: Setup) -> None:
+        """See that a plan was made for the arm of its task, and that its world and faults can be had."""
+        world, plan = setup.world, plan_of(setup)
+        task(setup.task).check_arm(plan)
+        task(setup.task).variation(world.seed).check(world)
+        task(setup.task).faults(world.seed).check(world.faults)
+        stages = len(plan.program.stages)
+        late = next((fault for fault in world.faults if (fault.stage or 0) > stages), None)
+        if late is not None:
+            raise BadArgument(
+                f"the fault {quoted(late.name)} sets in with stage {late.stage}; "
+                f"the program has {counted(stages, 'stage')}"
+            )
+
+    def executed(self, plan: Plan, state: ExecutionState) -> Sequence[Done]:
+        return state.done
+
+    def order(self, plan: Plan, state: ExecutionState, undoing: Undoing) -> None:
+        order(state, undoing)
+
+    def calibration(self, state: ExecutionState) -> Calibration | None:
+        return state.calibration
+
+    @property
+    def topics(self) -> Topics:
+        from handeye.systems.stanford.topics import TOPICS  # with the stepper: not before somebody looks
+
+        return TOPICS
+
+    def choices(self, runner: Runner) -> Mapping[Choice, str]:
+        steps, onward = runner.listing.steps, runner.onward
+        first = next(step.place for step in steps if step.stage == runner.stage)
+        where = "to the end of the program" if onward is None else f"continue at line {steps[onward].place}"
+        return {
+            "proceed": "proceed: go on undoing" if undoing(runner) else f"proceed: {where}",
+            "retry": f"retry the stage from line {first}, with the world as it is now",
+            "skip": "skip the rest of the stage",
+        }
 
 
-def cell_of(system: System) -> SimulatedCell:
-    """The cell of the executor of programs, with its arm.
-
-    Raises:
-        InvalidInput: another system carries the run out.
-    """
-    if not isinstance(system, ProgramSystem):
-        raise Refused("this is no run of a plan of motions: another system drives its cell")
-    return system.cell
-
-
-def check(setup: Setup) -> None:
-    """See that a plan was made for the arm of its task, and that its world can be had.
-
-    Raises:
-        InvalidInput: it was made for another one, the world was drawn in another way, there is no such task, or no
-            such fault.
-    """
-    world, plan = setup.world, plan_of(setup)
-    task(setup.task).check_arm(plan)
-    task(setup.task).variation(world.seed).check(world)
-    task(setup.task).faults(world.seed).check(world.faults)
-    stages = len(plan.program.stages)
-    late = next((fault for fault in world.faults if (fault.stage or 0) > stages), None)
-    if late is not None:
-        raise BadArgument(
-            f"the fault {quoted(late.name)} sets in with stage {late.stage}; the program has {counted(stages, 'stage')}"
-        )
-
-
-PROGRAM: Final = SystemKind(
-    name="program",
-    plan=Plan,
-    state=ExecutionState,
-    encode=lambda plan: encode(plan).encode(),
-    decode=decode,
-    listing=lambda plan: plan.program,
-    machine=lambda plan: (plan.arm, plan.arm_digest),
-    check=check,
-    build=ProgramSystem,
-    executed=lambda plan, state: state.done,
-    order=lambda plan, state, undoing: order(state, undoing),
-)
-"""Programs of the first waist, planned for an arm."""
+PROGRAM: Final = PlanSystem()

@@ -1,1 +1,23 @@
-"""TRIG (MIT, 1982): programs that are taught by doing, and run backwards."""
+"""TRIG (MIT, 1982): programs taught by doing, drawn as they grow, and run forwards and backwards."""
+
+from handeye.core.entries import Entry
+
+ENTRY = Entry(
+    name="trig",
+    title="TRIG",
+    help="Teach a program by doing, see it as it grows, run it backwards (MIT, 1982).",
+    system="handeye.systems.trig.run.system:TAUGHT",
+    can=("undo",),
+    reasons={
+        "plans": "its programs are taught, and their places are those of the world they are taught in",
+    },
+    commands="""
+trig = handeye.systems.trig.cli.commands:trig: TRIG (MIT, 1982): teach a program by doing, see it as it grows, run it backwards.
+trials pallet = handeye.systems.trig.cli.pallet_trials:pallet_trials: Palletise in many worlds, and take everything back: how often it comes out right, and how far off blocks are.
+""",  # noqa: E501
+    tasks={
+        "palletise": "handeye.systems.trig.jobs.task:PALLET",
+        "bucket": "handeye.systems.trig.jobs.task:BUCKET_TASK",
+    },
+    files=("job.json", "program.trig.json"),
+)

@@ -21,7 +21,6 @@ from handeye.runs.operator import Operator, OperatorChoice, attend
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import StopCondition
-from handeye.systems.stanford.executor_run import cell_of
 from handeye.trials.brakes import brakes_hold
 from handeye.trials.chaos.schedule import Answer, Break, Schedule
 
@@ -143,7 +142,7 @@ class Carrying:
     def _attended(self, runner: Runner, stops: Sequence[StopCondition]) -> Pause:
         # `attend` does a step before a stop counts; a run interrupted at its end has none left. Any stop will do
         pause = paused_before(runner, stops) or attend(runner, self._operator, stops)  # type: ignore[arg-type]
-        if pause.kind in ("operator", "panic", "trouble") and not brakes_hold(cell_of(runner.system)):
+        if pause.kind in ("operator", "panic", "trouble") and not brakes_hold(runner.arm_cell):
             self._unbraked.append(f"{pause.kind} at {runner.elapsed:.2f} s")
         return pause
 

@@ -15,12 +15,11 @@ from trig_bench import low_script
 from trig_sessions import PLANS
 
 from handeye.cli.panic_button import PanicButton
-from handeye.results import finishing
 from handeye.systems.trig.jobs import referee
 from handeye.systems.trig.language.axes_arm import AxesArm
 from handeye.systems.trig.language.obstacles import Resisted
 from handeye.systems.trig.run import job as taught_job
-from handeye.systems.trig.run import job_video
+from handeye.systems.trig.run import job_folder, job_video
 from handeye.systems.trig.run.pallet_trials import broken_off_after
 
 PALLETISE = str(PLANS / "palletise.trig")
@@ -207,14 +206,14 @@ def _without_host_time(folder: str) -> dict[str, Any]:
 def test_a_key_behind_the_last_step_loses_nothing_of_what_a_job_came_to(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    write = finishing.write_job
+    write = job_folder.job_files
 
-    def struck(*words: Any) -> None:
+    def struck(*words: Any) -> dict[str, bytes]:
         assert not Path("job/result.json").exists()  # which says that all is there
         os.kill(os.getpid(), signal.SIGINT)
-        write(*words)
+        return write(*words)
 
-    monkeypatch.setattr(finishing, "write_job", struck)
+    monkeypatch.setattr(job_folder, "job_files", struck)
     assert command("trig", "palletise", "--blocks", "0", "--out", "job")[0] == 0
     assert json.loads(Path("job/job.json").read_bytes())["outcome"] == "right"
 

@@ -9,7 +9,7 @@ from handeye.runs.advance import Pause, advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.run.job import account, carried_out, carry_out, system_of
+from handeye.systems.trig.run.job import account, carried_out, carry_out, job_of
 
 pytestmark = pytest.mark.slow
 
@@ -54,7 +54,7 @@ def test_a_run_that_is_broken_off_with_the_second_block_in_the_hand_is_taken_bac
 def test_a_job_that_is_undone_and_not_as_it_was_taught_is_not_right() -> None:
     runner = low_job(1, seed=1)
     pause = carry_out(runner)
-    pallet = system_of(runner).job.session.program.positions["PALLET"]
+    pallet = job_of(runner).job.session.program.positions["PALLET"]
     pallet.data = pallet.data.moved(Place(x=0.001))
     result = outcome(runner, pause, Meter(), judged=True)
     assert (result.assembled, result.apart, result.exit_code) == (True, False, 3)
@@ -65,7 +65,7 @@ def test_a_job_that_is_undone_and_not_as_it_was_taught_is_not_right() -> None:
 def test_a_job_that_is_undone_because_somebody_says_so_is_not_judged_by_what_it_had_built() -> None:
     runner = low_job(1, seed=1)
     advance(runner)
-    runner.order_reversal(0, halts=True)
+    runner.have_undone(0, halts=True)
     result = outcome(runner, advance(runner), Meter(), judged=True)
     assert (result.assembled, result.apart) == (None, True)
     assert len(result.interventions) == 1

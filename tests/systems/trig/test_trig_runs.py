@@ -13,7 +13,6 @@ from handeye.core.errors import InvalidInput
 from handeye.core.variation import WorldSpec
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
-from handeye.debugger.choices import choices
 from handeye.debugger.stepper import Stepper
 from handeye.execution.servo import Halted
 from handeye.execution.undo.done import Undoing
@@ -29,7 +28,7 @@ from handeye.runs.operator import attend
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.systems import kind_of
+from handeye.runs.systems import system_of
 from handeye.runs.undo_orders import to_be_undone
 from handeye.runs.verify import difference
 from handeye.systems.trig.jobs.benches import JobName, TaughtPlan, open_job
@@ -66,7 +65,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path, start = tmp_path_factory.mktemp("whole") / "run", low_setup(1, seed=1)
     folder = open_new(path, start)
     runner = driven(folder, start, again=False)
-    runner.order_reversal(0, halts=True)
+    runner.have_undone(0, halts=True)
     advance(runner)
     runner.finish()
     folder.close()
@@ -82,7 +81,7 @@ def test_a_run_that_is_taken_up_from_disk_leaves_the_same_bytes(
     folder, start, faults = open_again(tmp_path / "run")
     assert not faults
     runner = driven(folder, start, again=True)
-    runner.order_reversal(0, halts=True)
+    runner.have_undone(0, halts=True)
     advance(runner, steps=5)
     kept(folder, runner)
     folder, start, _ = open_again(tmp_path / "run")
@@ -161,7 +160,7 @@ def test_a_run_of_another_day_is_undone_from_its_checkpoint() -> None:
 def test_what_the_arm_meets_calls_the_operator_and_is_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
     runner = low_job(0, seed=1)
     advance(runner)
-    runner.order_reversal(0, halts=True)
+    runner.have_undone(0, halts=True)
     monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
     assert advance(runner).kind == "operator"
     assert isinstance(runner.events[-1], OperatorCalled)
@@ -179,7 +178,7 @@ def test_a_step_that_somebody_halts_is_as_if_it_had_not_begun() -> None:
     halt[0] = True
     with pytest.raises(Halted):
         runner.step()
-    runner.rollback()
+    runner.undo()
     assert encode(runner.checkpoint()) == before
     halt[0] = False
     assert advance(runner).kind == "end"
@@ -252,7 +251,7 @@ def test_the_script_of_a_job_touches_no_file_on_the_bench_either(
 def test_worlds_that_are_drawn_otherwise_than_by_a_seed_are_refused() -> None:
     setup: Setup = low_setup(0, seed=1).setup
     with pytest.raises(InvalidInput):
-        kind_of(setup).check(msgspec.structs.replace(setup, world=WorldSpec(seed=1, level="high")))
+        system_of(setup).check(msgspec.structs.replace(setup, world=WorldSpec(seed=1, level="high")))
 
 
 @pytest.mark.parametrize(
@@ -303,7 +302,7 @@ def test_no_step_is_skipped_that_the_arm_undoes(monkeypatch: pytest.MonkeyPatch)
     runner = low_job(0, seed=1)
     advance(runner)
     monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
-    runner.order_reversal(0, halts=True, asked_by="job")
+    runner.have_undone(0, halts=True, asked_by="job")
     stepper = Stepper(runner)
     stepper.do("continue")
     events = [*runner.events]
@@ -354,7 +353,7 @@ def test_each_answer_to_a_taught_program_does_what_is_said(
     advance(runner, steps=1)
     monkeypatch.setattr(AxesArm, "check_travel", _refused)
     assert advance(runner).kind == "operator"
-    assert answer in choices(runner)
+    assert answer in runner.kind.choices(runner)
     runner.answer(answer)
     assert (runner.at, runner.call) == (at, None)
 

@@ -135,7 +135,7 @@ def _carried_out(
     from handeye.results.finishing import finished
     from handeye.results.outcome import outcome
     from handeye.runs.host_seconds import Meter
-    from handeye.systems.trig.run.job import account, carry_out, system_of
+    from handeye.systems.trig.run.job import account, carry_out, job_of
 
     meter = Meter(timer=HostTimer.of_process())
     with notes.status("teaching") as status:
@@ -145,7 +145,7 @@ def _carried_out(
             return [_Told(runner, status), *watching]
 
         runner = _taught(start, panic, folder, observers)
-        job = system_of(runner).job
+        job = job_of(runner).job
         if video is not None:
             video.watch(job)
         pause = carry_out(runner, tell=note)

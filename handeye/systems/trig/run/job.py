@@ -17,7 +17,7 @@ from handeye.systems.trig.jobs.benches import JobName, Lying, TaughtPlan, job_sc
 from handeye.systems.trig.language.cursor_commands import told_run
 from handeye.systems.trig.language.reports import Way
 from handeye.systems.trig.language.running import Ran
-from handeye.systems.trig.run.system import TAUGHT, TaughtSystem, plan_of
+from handeye.systems.trig.run.system import TAUGHT, RunningJob, plan_of
 
 Outcome = Literal["right", "stopped", "silent", "halted"]
 """All as it should be; the program or the arm stopped before; done, and the referee disagrees; somebody's key."""
@@ -66,9 +66,9 @@ def setup_of_job(name: JobName, seed: int, blocks: int | None) -> Checkpoint:
     return Checkpoint(setup=setup)
 
 
-def system_of(runner: Runner) -> TaughtSystem:
+def job_of(runner: Runner) -> RunningJob:
     """The system that carries out a job."""
-    assert isinstance(runner.system, TaughtSystem)
+    assert isinstance(runner.system, RunningJob)
     return runner.system
 
 
@@ -87,12 +87,12 @@ def carry_out(
         tell: is told how either way has ended.
     """
     go = go or (lambda steps: advance(runner, steps=steps))
-    if system_of(runner).state.turn is None:
+    if job_of(runner).state.turn is None:
         pause = go(after)
         tell(_way(runner, pause)[1])
         if not _turns(runner, pause, after):
             return pause
-        runner.order_reversal(0, halts=True, asked_by="job")
+        runner.have_undone(0, halts=True, asked_by="job")
     pause = go(None)
     tell(_way(runner, pause)[1])
     return pause
@@ -107,14 +107,14 @@ def carried_out(runner: Runner, *, after: int | None = None) -> JobReport:
 def _turns(runner: Runner, pause: Pause, after: int | None) -> bool:
     """The run has come as far as it was to, and is undone from there."""
     there = pause.kind == "end" or (after is not None and pause.kind == "break")
-    system = system_of(runner)
+    system = job_of(runner)
     return there and system.job.undoable and not runner.undone and len(system.executed) > 0
 
 
 def ends_job(runner: Runner, result: Result) -> bool:
     """A run is a job that is over and was judged; undone because somebody said so, it is none."""
     system = runner.system
-    if not isinstance(system, TaughtSystem) or result.paused or (runner.undone and system.state.turn is None):
+    if not isinstance(system, RunningJob) or result.paused or (runner.undone and system.state.turn is None):
         return False
     return not result.completed or result.judged is not None
 
@@ -125,7 +125,7 @@ def account(runner: Runner, pause: Pause, result: Result, *, after: int | None =
     Args:
         after: steps after which it was to be undone.
     """
-    system = system_of(runner)
+    system = job_of(runner)
     job, plan, turn = system.job, plan_of(runner.setup), system.state.turn
     way, told = _way(runner, pause)
     lying: dict[When, tuple[Lying, ...]] = {"taught": job.lying("taught"), "run": job.lying("now")}
@@ -160,7 +160,7 @@ _OUTCOMES: Final[Mapping[int, Outcome]] = {0: "right", 1: "stopped", 3: "silent"
 
 def _way(runner: Runner, pause: Pause) -> tuple[Way | None, str]:
     """How far the way has come that a run is on, and that in words; None: the arm refused a step."""
-    system, state = system_of(runner), system_of(runner).state
+    system, state = job_of(runner), job_of(runner).state
     if pause.kind in ("operator", "trouble") and state.obstacle is None:
         return None, pause.message
     undoing, done = state.turn is not None, len(system.executed)

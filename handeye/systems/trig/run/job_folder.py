@@ -6,30 +6,31 @@ from typing import Any, Final
 import msgspec
 
 from handeye.core.errors import BadFile
-from handeye.core.files import read_whole, write_whole
+from handeye.core.files import read_whole
 from handeye.results.kept_result import restore_figures
-from handeye.runs.folder import JOB, REPORT, TAUGHT
+from handeye.runs.folder import REPORT
+from handeye.systems.trig import ENTRY
 from handeye.systems.trig.language.program import TrigProgram
 from handeye.systems.trig.language.storage import decoded, encoded, read_program
 from handeye.systems.trig.run.job import JobReport
 from handeye.systems.trig.run.job_page import job_page
 
+JOB, TAUGHT = ENTRY.files
+"""What came of a job, and its program."""
 _LARGEST: Final = 1_000_000
 """Bytes: an account of twenty blocks takes ten thousand."""
 _FARTHEST: Final = 1e6
 """mm and degrees: no block lies there."""
 
 
-def write_job(path: Path, done: JobReport, program: TrigProgram) -> None:
-    """Write them, each whole or not at all.
-
-    Raises:
-        InvalidInput: the folder cannot be written to.
-    """
-    write_whole(path / JOB, msgspec.json.format(msgspec.json.encode(done), indent=1) + b"\n")
+def job_files(done: JobReport, program: TrigProgram) -> dict[str, bytes]:
+    """Those files, by name."""
     taught = encoded(program)
-    write_whole(path / TAUGHT, taught)
-    write_whole(path / REPORT, job_page(done, decoded(taught, TAUGHT)))  # as `kept_job_page` makes it
+    return {
+        JOB: msgspec.json.format(msgspec.json.encode(done), indent=1) + b"\n",
+        TAUGHT: taught,
+        REPORT: job_page(done, decoded(taught, TAUGHT)),  # as `kept_job_page` makes it
+    }
 
 
 def kept_job_page(path: Path) -> bytes | None:

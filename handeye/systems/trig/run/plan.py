@@ -8,6 +8,7 @@ from typing import ClassVar, Final
 import msgspec
 
 from handeye.core.errors import BadFile, InvalidInput, Refused
+from handeye.program.operation import Device
 from handeye.systems.trig.jobs.benches import TaughtPlan, new_session, read_taught_plan
 from handeye.systems.trig.language.graph import Graph
 from handeye.systems.trig.language.layout import Cell
@@ -17,8 +18,6 @@ from handeye.systems.trig.language.script import Script, type_script
 from handeye.systems.trig.language.step_words import loop_words, step_words
 from handeye.systems.trig.language.symbols import ASCII
 
-HANDS: Final = ("grasp", "ungrasp")
-"""Words of steps that work the hand alone."""
 PATIENCE: Final = 100_000
 """How often an imagined arm may ask whether to halt: a program that is run while it is taught must end."""
 
@@ -36,7 +35,12 @@ class TaughtStep:
     stage: ClassVar[int] = 0
     file: ClassVar[str] = ""
     macro: ClassVar[str] = ""
-    needs: ClassVar[None] = None
+    examines: ClassVar[None] = None
+
+    @property
+    def needs(self) -> Device | None:
+        """The hand, if it is worked alone."""
+        return "hand" if self.word in ("grasp", "ungrasp") else None
 
     @property
     def place(self) -> str:
@@ -52,6 +56,7 @@ class TaughtListing:
     steps: Sequence[TaughtStep]
     stages: tuple[str, ...]
     required: ClassVar[dict[str, str]] = {}
+    errors: ClassVar[tuple[int, ...]] = ()
 
     @property
     def numbers(self) -> Mapping[int, int]:

@@ -1,6 +1,7 @@
 """The system of taught programs: TRIG, at the arm of a bench."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -16,6 +17,7 @@ from handeye.core.versions import versions
 from handeye.execution.servo import Halted
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.undo.done import Undoing
+from handeye.judge.finding import Findings
 from handeye.planfile.store import written_digest
 from handeye.ports.workcell import Sensed
 from handeye.program.events import (
@@ -36,8 +38,12 @@ from handeye.program.events import (
     UndoStarted,
 )
 from handeye.program.system_state import SystemState
+from handeye.results.result import Result
+from handeye.runs.advance import Pause
+from handeye.runs.operator import undoing
+from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
-from handeye.runs.system import Settable, Surroundings, System, SystemKind
+from handeye.runs.system import Listing, RunningSystem, Settable, StepperWords, Surroundings, System
 from handeye.systems.trig.jobs.benches import TaughtJob, TaughtPlan, open_job
 from handeye.systems.trig.language.node import NONE, TOP
 from handeye.systems.trig.language.obstacles import told_obstacle
@@ -50,7 +56,7 @@ from handeye.systems.trig.run.state import Executed, TaughtState, Turn
 ARM: Final = "purbrick"
 
 
-class TaughtSystem(System):
+class RunningJob(RunningSystem):
     """Teaches a program in the world of a run, and carries it out."""
 
     def __init__(self, setup: Setup, around: Surroundings) -> None:
@@ -59,7 +65,7 @@ class TaughtSystem(System):
         Raises:
             InvalidInput: there is no such world, or the plan is of another system.
         """
-        check(setup)
+        TAUGHT.check(setup)
         self._setup, self._around, self._plan = setup, around, plan_of(setup)
         self._steps = listing(self._plan).steps
         self._numbers = listing(self._plan).numbers
@@ -253,7 +259,7 @@ class TaughtSystem(System):
     def executed(self) -> Sequence[Executed]:
         return self._state.executed(self._plan)
 
-    def reverse(self, undoing: Undoing) -> None:
+    def undo(self, undoing: Undoing) -> None:
         turn = Turn(steps=len(self.executed), ended=self._state.at is None, time=self.time)
         self._state.order(self._plan, undoing)
         if undoing.asked_by == "job":
@@ -271,6 +277,14 @@ class TaughtSystem(System):
         completed = state.at is None and state.stopped is None
         self._around.emit(RunFinished(time=self.time, completed=completed))
         return completed
+
+    def built(self) -> Findings:
+        """Findings on what the job has built, whose program had come to its end before the arm undid it."""
+        turn = self._state.turn
+        return self.job.built() if turn is not None and turn.ended else {}
+
+    def remembered(self) -> Findings:
+        return self.job.remembered()
 
     def restore(self, state: SystemState) -> None:
         if not isinstance(state, TaughtState):
@@ -355,29 +369,78 @@ def plan_of(setup: Setup) -> TaughtPlan:
     return setup.plan
 
 
-def check(setup: Setup) -> None:
-    """See that a job is done in a world that can be had.
+class TaughtSystem(System):
+    """Programs of TRIG, taught in the world of a run."""
 
-    Raises:
-        InvalidInput: its world is drawn otherwise than by a seed.
-    """
-    plan_of(setup)
-    world = setup.world
-    if world != WorldSpec(seed=world.seed):
-        raise Refused(f"worlds of taught jobs are drawn by their seed alone, not as {world}")
+    name = "trig"
+    plan = TaughtPlan
+    state = TaughtState
+    words = StepperWords(
+        about=(
+            "The program is carried out a step at a time, as it was taught; the arrow stands before the next one.",
+        ),
+        places=("PLACE is a line (8), the name of a step, or what steps do (LOOP, GRASP). WHAT is one of",),
+        units="millimetres, degrees, newtons",
+        commands={
+            "proceed": "have the step done again, or undone again, that called",
+            "retry": "the same as `proceed`",
+            "skip": "end the program here; on the way back no step is skipped",
+        },
+    )
+
+    def encode(self, plan: TaughtPlan) -> bytes:
+        return encode(plan)
+
+    def decode(self, data: bytes, name: str) -> TaughtPlan:
+        return decode(data, name)
+
+    def listing(self, plan: TaughtPlan) -> Listing:
+        return listing(plan)
+
+    def build(self, setup: Setup, around: Surroundings) -> RunningJob:
+        return RunningJob(setup, around)
+
+    def machine(self, plan: TaughtPlan) -> tuple[str, str]:
+        return ARM, ""
+
+    def check(self, setup: Setup) -> None:
+        super().check(setup)
+        world = setup.world
+        if world != WorldSpec(seed=world.seed):
+            raise Refused(f"worlds of taught jobs are drawn by their seed alone, not as {world}")
+
+    def executed(self, plan: TaughtPlan, state: TaughtState) -> Sequence[Executed]:
+        return state.executed(plan)
+
+    def order(self, plan: TaughtPlan, state: TaughtState, undoing: Undoing) -> None:
+        state.order(plan, undoing)
+
+    def choices(self, runner: Runner) -> Mapping[Choice, str]:
+        if undoing(runner):
+            return {"proceed": "proceed: have the step undone again", "retry": "retry: the same"}
+        return {
+            "proceed": "proceed: have the step done again",
+            "retry": "retry: the same",
+            "skip": "skip: end the program here",
+        }
+
+    def carry_out(self, runner: Runner, go: Callable[[], Pause]) -> Pause:
+        from handeye.systems.trig.run.job import carry_out
+
+        return carry_out(runner, go=lambda _: go())
+
+    def files(self, runner: Runner, pause: Pause, result: Result) -> Mapping[str, bytes]:
+        from handeye.systems.trig.run.job import account, ends_job, job_of
+        from handeye.systems.trig.run.job_folder import job_files
+
+        if not ends_job(runner, result):
+            return {}
+        return job_files(account(runner, pause, result), job_of(runner).job.session.program)
+
+    def page(self, folder: Path) -> bytes | None:
+        from handeye.systems.trig.run.job_folder import kept_job_page
+
+        return kept_job_page(folder)
 
 
-TAUGHT: Final = SystemKind(
-    name="trig",
-    plan=TaughtPlan,
-    state=TaughtState,
-    encode=encode,
-    decode=decode,
-    listing=listing,
-    machine=lambda _: (ARM, ""),
-    check=check,
-    build=TaughtSystem,
-    executed=lambda plan, state: state.executed(plan),
-    order=lambda plan, state, undoing: state.order(plan, undoing),
-)
-"""Programs of TRIG, taught in the world of a run."""
+TAUGHT: Final = TaughtSystem()

@@ -1,4 +1,4 @@
-"""The command on calibrations that are kept for other runs."""
+"""`handeye cache`: calibrations that are kept for other runs."""
 
 from typing import TYPE_CHECKING, Annotated, Final
 

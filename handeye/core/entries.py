@@ -1,0 +1,125 @@
+"""Entries of systems: what one says of itself before anything of it is loaded, and what it cannot do.
+
+A system is a folder of `handeye/systems`, or a package of somebody else's that names its entry in the entry-point group
+`handeye.systems`. An entry is data: names, sentences, and where the rest is found, as `module:NAME`.
+"""
+
+from collections.abc import Iterator, Mapping
+from importlib import import_module, metadata
+from typing import Any, Final, Literal
+
+from msgspec import field
+
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadArgument, NoSuchName, Refused
+from handeye.core.record import Record
+
+GROUP: Final = "handeye.systems"
+"""The entry-point group in which packages from elsewhere name their entries."""
+OWN: Final = ("handeye.systems.stanford:ENTRY", "handeye.systems.trig:ENTRY")
+"""Entries that come with handeye: they need no installed metadata."""
+PLANNED: Final = "program"
+"""The system that carries out plans of motions, which is meant where none is named."""
+
+Capability = Literal["plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format"]
+VERBS: Final[Mapping[Capability, str]] = {
+    "plans": "follow a plan of motions",
+    "undo": "undo what it did",
+    "compare": "compare two of its runs",
+    "faults": "have something broken in its world",
+    "levels": "set the errors of its world",
+    "senses": "do without a sense",
+    "video": "make a film of its run",
+    "chaos": "be broken off by chance",
+    "format": "format its scripts",
+}
+"""What a system may be asked for, as it stands behind `cannot`."""
+
+
+class Entry(Record, frozen=True, kw_only=True):
+    """What a system says of itself."""
+
+    name: str
+    """Checkpoints and traces name it."""
+    title: str
+    """How sentences name it."""
+    help: str
+    """What it is, in a line."""
+    system: str
+    """`module:NAME` of its `handeye.runs.system.System`."""
+    can: tuple[Capability, ...] = ()
+    reasons: dict[Capability, str] = field(default_factory=dict)
+    """Why it cannot do what it cannot, where that helps."""
+    commands: str = ""
+    """Commands that it adds, a line each: `NAME = MODULE:FUNCTION: SENTENCE`, as in `handeye/cli/commands.py`."""
+    tasks: dict[str, str] = field(default_factory=dict)
+    """`module:NAME` of each of its tasks."""
+    languages: dict[str, str] = field(default_factory=dict)
+    """`module:NAME` of the `TextLanguage` of each file ending."""
+    files: tuple[str, ...] = ()
+    """Names of the files that its finished runs leave in their folders, besides those of every run."""
+
+
+_registered: Final[dict[str, Entry]] = {}
+
+
+def register(entry: Entry) -> None:
+    """Make a system known to this program; one of its name is replaced."""
+    _registered[entry.name] = entry
+
+
+def entries() -> Mapping[str, Entry]:
+    """All entries by name: those that come with handeye, those of installed packages, those that were registered."""
+    return {entry.name: entry for entry in (*_installed(), *_registered.values())}
+
+
+def _installed() -> Iterator[Entry]:
+    if not _found:
+        _found.extend(loaded(place) for place in OWN)
+        _found.extend(_checked(point.name, point.load()) for point in metadata.entry_points(group=GROUP))
+    yield from _found
+
+
+_found: Final[list[Entry]] = []
+
+
+def _checked(name: str, entry: object) -> Entry:
+    """Raises BadArgument unless an entry point leads to an entry."""
+    if not isinstance(entry, Entry):
+        raise BadArgument(f"the entry point {quoted(name)} of {GROUP} leads to {entry!r}, which is no Entry")
+    return entry
+
+
+def entry_named(name: str) -> Entry:
+    """The entry of a system; raises NoSuchName if there is none of that name."""
+    known = entries()
+    if name not in known:
+        raise NoSuchName(f"there is no system {quoted(name)} here; there are {', '.join(known)}")
+    return known[name]
+
+
+def loaded(place: str) -> Any:
+    """What stands at `module:NAME`."""
+    module, _, name = place.partition(":")
+    return getattr(import_module(module), name)
+
+
+def language_at(file_name: str) -> str | None:
+    """`module:NAME` of the language of the longest ending that a file's name has; None: no system has that ending."""
+    known = {ending: place for entry in entries().values() for ending, place in entry.languages.items()}
+    fitting = [ending for ending in known if file_name.lower().endswith(ending)]
+    return known[max(fitting, key=len)] if fitting else None
+
+
+def refusal(name: str, capability: Capability, whose: str = "") -> Refused:
+    """The sentence that a system cannot do something; `whose` names a run or file, if there is one."""
+    entry = entry_named(name)
+    why = entry.reasons.get(capability, "")
+    before, behind = f"{whose}: " if whose else "", f": {why}" if why else ""
+    return Refused(f"{before}{entry.title} cannot {VERBS[capability]}{behind}")
+
+
+def require(name: str, capability: Capability, whose: str = "") -> None:
+    """See that a system can do something; raises Refused, with its name and the reason, if it cannot."""
+    if capability not in entry_named(name).can:
+        raise refusal(name, capability, whose)
