@@ -5,7 +5,7 @@ A task has a catalogue of them. A run records those it was given with its world;
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Final
+from typing import Annotated, Final, Literal
 
 import msgspec
 
@@ -68,11 +68,16 @@ class FaultKind:
     """What is broken, and what the program is given in its place: a sentence."""
     size: Size | None = None
     """None: it has no value."""
-    from_start: bool = False
-    """It can be there only from the beginning: nothing could bring it about while the cell works."""
+    when: Literal["before", "during"] = "during"
+    """`before` the run: in the world from the start only; `during` it: from the start or with a stage."""
     usual_stage: int | None = None
     """Number of the stage with which it sets in where nobody names one; None: it is there from the beginning then."""
     expected: Expected = UNKNOWN
+
+    @property
+    def from_start(self) -> bool:
+        """It can be there only from the beginning: nothing could bring it about while the cell works."""
+        return self.when == "before"
 
     @property
     def limits(self) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from handeye.core.units import INCH
 CATALOGUE = Catalogue(
     FaultKind(name="lamp.dead", meaning="The lamp stays dark."),
     FaultKind(name="gap.off", meaning="It reads more.", size=Size(unit="in", usual=0.5, limits=(-4.0, 4.0))),
-    FaultKind(name="gasket.missing", meaning="There is none.", from_start=True),
+    FaultKind(name="gasket.missing", meaning="There is none.", when="before"),
     FaultKind(name="base.removed", meaning="Somebody takes it away.", usual_stage=4),
 )
 

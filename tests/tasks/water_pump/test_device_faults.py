@@ -9,7 +9,7 @@ from driving import Drive, tick
 
 from handeye.cell.lines import LinesState
 from handeye.cell.sleep import asleep
-from handeye.core.errors import ERRORS, FEATURES_NOT_SEEN, PART_NOT_SEEN, SEARCH_EXHAUSTED, SWITCH_WRONG
+from handeye.core.errors import ERRORS
 from handeye.core.faults import UNKNOWN, Fault
 from handeye.core.resources import plans
 from handeye.core.variation import WorldSpec
@@ -18,15 +18,16 @@ from handeye.program.flow_operations import Wait
 from handeye.program.motion_operations import Move
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.faults.devices import defects, device_faults
-from handeye.tasks.water_pump.faults.expected_detection import EXPECTED, PINNED, SCREWED, expected
+from handeye.tasks.water_pump.faults.expected_detection import PINNED, SCREWED
 from handeye.tasks.water_pump.task import WATER_PUMP
 from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.tasks.water_pump.world.variation import SEVENTH
 
 PROGRAM = read_plan(plans() / "water_pump.plan.json").program
 CALLS = {step.operation.message for step in PROGRAM.steps if isinstance(step.operation, Wait)}
 """All that the program calls the operator with."""
-FAULTS: tuple[Fault, ...] = tuple(fault.kind.usual() for fault in device_faults())
+FAULTS: tuple[Fault, ...] = tuple(fault.usual() for fault in device_faults())
 
 
 @cache
@@ -64,22 +65,23 @@ def test_a_fault_goes_on_while_everything_in_the_cell_is_asleep() -> None:
 
 
 def test_the_catalogue_has_every_fault_of_a_device() -> None:
-    assert {fault.kind.name for fault in device_faults()} <= WATER_PUMP.faults(0).kinds.keys()
+    assert {fault.name for fault in device_faults()} <= WATER_PUMP.faults(0).kinds.keys()
 
 
 def test_a_fault_at_its_usual_size_is_one_that_can_be_had() -> None:
     WATER_PUMP.faults(0).check(FAULTS)
 
 
-@pytest.mark.parametrize("name", sorted(EXPECTED))
-def test_what_is_expected_is_of_faults_there_are_and_by_errors_there_are(name: str) -> None:
-    assert WATER_PUMP.faults(0).select(name)
-    assert {*EXPECTED[name].errors} <= ERRORS.keys()
-    assert {*EXPECTED[name].calls} <= CALLS
+def test_of_every_fault_it_is_said_how_it_is_noticed_by_errors_and_calls_there_are() -> None:
+    for kind in WATER_PUMP.faults(0).kinds.values():
+        assert kind.expected != UNKNOWN, kind.name
+        assert {*kind.expected.errors} <= ERRORS.keys(), kind.name
+        assert {*kind.expected.calls} <= CALLS, kind.name
 
 
-def test_of_every_fault_it_is_said_how_it_is_noticed_or_why_it_does_no_harm() -> None:
-    assert [name for name in WATER_PUMP.faults(0).kinds if expected(name) == UNKNOWN] == []
+def test_of_a_later_make_what_the_program_does_not_use_is_the_only_unknown() -> None:
+    unknown = [name for name, kind in WATER_PUMP.faults(SEVENTH).kinds.items() if kind.expected == UNKNOWN]
+    assert {name.split(".")[1] for name in unknown} == {"7"}
 
 
 def test_what_is_said_of_screws_goes_by_the_order_in_which_the_program_drives_them() -> None:
@@ -87,10 +89,3 @@ def test_what_is_said_of_screws_goes_by_the_order_in_which_the_program_drives_th
     driven = [int(goal[1:]) + 1 for goal in goals if re.fullmatch(r"H\d", goal)]
     assert tuple(driven) == SCREWED
     assert tuple(int(k) + 1 for k in dimensions().all("base.screw_holes.pinned")) == PINNED
-
-
-def test_what_is_said_of_one_fault_counts_and_not_what_is_said_of_its_group() -> None:
-    assert expected("pin.1.thick").errors == (SEARCH_EXHAUSTED,)
-    assert expected("base.reversed").errors == (PART_NOT_SEEN, FEATURES_NOT_SEEN)
-    assert expected("finger_switch.plus_y.stuck_open").errors == (SWITCH_WRONG,)
-    assert expected("gasket.off") == UNKNOWN

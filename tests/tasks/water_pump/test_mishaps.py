@@ -106,4 +106,4 @@ def test_what_happens_happens_again_from_a_state_that_was_kept() -> None:
 
 
 def test_the_catalogue_has_all_that_can_happen_by_hand_or_by_chance() -> None:
-    assert {fault.kind.name for fault in mishap_faults()} <= WATER_PUMP.faults(0).kinds.keys()
+    assert {fault.name for fault in mishap_faults()} <= WATER_PUMP.faults(0).kinds.keys()

@@ -63,14 +63,12 @@ def radius(part: str, *faults: Fault) -> float:
 
 
 def test_every_wrong_part_makes_a_scene() -> None:
-    model, _ = scene(*(fault.kind.usual() for fault in part_faults(3)))
+    model, _ = scene(*(fault.usual() for fault in part_faults(3)))
     assert model.nbody == scene()[0].nbody
 
 
 def test_the_seventh_screw_can_be_missing_too() -> None:
-    names = {fault.kind.name for fault in part_faults(SEVENTH)} - {
-        fault.kind.name for fault in part_faults(0)
-    }
+    names = {fault.name for fault in part_faults(SEVENTH)} - {fault.name for fault in part_faults(0)}
     assert names == {f"{thing}.7.{what}" for thing, what in (
         ("screw", "missing"), ("screw", "burred"), ("hole", "blocked"), ("thread", "scarred"), ("thread", "crosses"),
             ("thread", "stripped"), ("thread", "full"), ("screw", "slotless"),

@@ -1,4 +1,4 @@
-"""Disturbances: what somebody changes in a pump behind the arm's back, before the arm is told to undo what it did.
+"""Faults after a run: disturbances of a finished pump, behind the arm's back, before the arm undoes what it did.
 
 Nobody simulates the hand that does it. What is taken away lies on the tray under the floor from then on, where nothing
 meets it; what is moved is elsewhere, at rest; what is glued is welded. A hand that tightens a screw is a torque.

@@ -1,4 +1,4 @@
-"""Wrong parts of the pump and its cell: what is missing, of another size, or where it should not be.
+"""Faults that are there before a run: parts of the pump and its cell that are missing, of another size, or misplaced.
 
 A wrong part is wrong in the scene, before anything happens; the devices that meet it work.
 """
@@ -6,15 +6,28 @@ A wrong part is wrong in the scene, before anything happens; the devices that me
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from handeye.core.faults import Fault, FaultKind, Size
+from handeye.core.errors import (
+    FEATURES_NOT_SEEN,
+    FORCE_WRONG,
+    GASKET_WRONG,
+    JOINT_LIMIT,
+    NO_SOLUTION,
+    NOTHING_HELD,
+    PART_NOT_SEEN,
+    SEARCH_EXHAUSTED,
+    SERVO_LAG,
+    WRONG_HEIGHT,
+)
+from handeye.core.faults import Expected, Fault, Size
 from handeye.core.pose import rotation_z
+from handeye.tasks.water_pump.faults import expected_detection as detect
+from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
 from handeye.tasks.water_pump.world.dimensions import Point, base_top, dimensions, web_centre
 from handeye.tasks.water_pump.world.variation import screws
 
@@ -49,12 +62,7 @@ METAL: Final = ((0.004, 1.0), (0.999, 0.9999, 0.0001, 0.5, 2.0))
 _AWAY: Final = Size(unit="mm", usual=6.0, limits=(-50.0, 50.0))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PartFault:
-    """A fault of a part."""
-
-    kind: FaultKind
-    change: Change
+PartFault = PumpFault[Change]
 
 
 def part_faults(seed: int) -> tuple[PartFault, ...]:
@@ -65,151 +73,211 @@ def part_faults(seed: int) -> tuple[PartFault, ...]:
 @cache
 def _part_faults(count: int) -> tuple[PartFault, ...]:
     return (
-        *_base(),
-        *_gasket(),
-        *_top(),
-        *_pins(),
-        *_screws(count),
-        *_holes(count),
-        *_screwdriver(),
-        *_light(),
-    )
+        *_base(), *_gasket(), *_top(), *_pins(), *_screws(count), *_holes(count), *_screwdriver(), *_light()
+    )  # fmt: skip
 
 
 def break_parts(spec: mujoco.MjSpec, faults: Sequence[Fault], seed: int) -> None:
     """Make parts of a scene wrong; faults of devices change nothing in it."""
-    known = {fault.kind.name: fault for fault in part_faults(seed)}
-    for fault in faults:
-        if fault.name in known:
-            known[fault.name].change(spec, fault.value or 0.0)
+    for fault, change in broken(part_faults(seed), faults):
+        change(spec, fault.value or 0.0)
 
 
-def _fault(name: str, meaning: str, change: Change, size: Size | None = None) -> PartFault:
-    return PartFault(kind=FaultKind(name=name, meaning=meaning, size=size, from_start=True), change=change)
+def _fault(
+    name: str, meaning: str, breaks: Change, expected: Expected, size: Size | None = None
+) -> PartFault:
+    return PumpFault(name=name, meaning=meaning, when="before", size=size, expected=expected, breaks=breaks)
 
 
 def _base() -> Iterator[PartFault]:
-    yield _fault("base.missing", "Nothing lies on the belt.", _missing("base"))
+    yield _fault(
+        "base.missing", "Nothing lies on the belt.", _missing("base"),
+        Expected(errors=(PART_NOT_SEEN,), calls=detect.UNSEEN),
+    )  # fmt: skip
     yield _fault(
         "base.turned", "The base lies with its line of centres in this direction.",
         lambda spec, yaw: _turn(spec, "base", _plate_centre(), yaw),
+        Expected(
+            errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=detect.UNSEEN,
+            harmless="The job is for a base that lies anyhow within the arm's reach.",
+        ),
         Size(unit="deg", usual=35.0, limits=(-360.0, 360.0)),
     )  # fmt: skip
     yield _fault(
         "base.far", "The belt has carried the base so much too far: out of the arm's reach, or out of sight.",
-        _shift("base", (0.0, 1.0)), Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
+        _shift("base", (0.0, 1.0)),
+        Expected(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=detect.UNSEEN),
+        Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
     )  # fmt: skip
     yield _fault(
-        "base.reversed", "The base lies end for end.", lambda spec, _: _reverse(spec, "base", _plate_centre())
-    )
+        "base.reversed", "The base lies end for end.", lambda spec, _: _reverse(spec, "base", _plate_centre()),
+        Expected(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=detect.UNSEEN),
+    )  # fmt: skip
 
 
 def _gasket() -> Iterator[PartFault]:
     part, middle = "gasket", (web_centre(), 0.0)
     thin = dimensions()("gasket.thickness")
-    yield _fault("gasket.missing", "No gasket lies on its stand.", _missing(part))
-    yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0))
+    wrong = Expected(errors=(WRONG_HEIGHT,), calls=(detect.THICKNESS,))
+    yield _fault(
+        "gasket.missing", "No gasket lies on its stand.", _missing(part),
+        Expected(errors=(NOTHING_HELD,), stages=(detect.PUT_ON_GASKET,)),
+    )  # fmt: skip
+    yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0), wrong)
     yield _fault(
         "gasket.thick", "The gasket is so thick, where .06 in are right.",
-        lambda spec, thick: _thicken(spec, thick / thin), Size(unit="in", usual=0.09, limits=(0.02, 0.5)),
+        lambda spec, thick: _thicken(spec, thick / thin), wrong,
+        Size(unit="in", usual=0.09, limits=(0.02, 0.5)),
     )  # fmt: skip
-    yield from _moved(part, "the gasket")
+    yield from _moved(part, "the gasket", {
+        "x": Expected(calls=(detect.GASKET_OFF,), harmless="The hand feels for it around its place."),
+        "y": Expected(
+            errors=(SEARCH_EXHAUSTED,), calls=(detect.GASKET_STAYS,),
+            harmless="The search finds the pins with a gasket that is held a quarter inch off.",
+        ),
+    })  # fmt: skip
     yield _fault(
         "gasket.turned", "The gasket lies turned about the vertical on its stand.",
         lambda spec, angle: _turn(spec, part, middle, _yaw(spec, part) + angle),
+        Expected(
+            errors=(SEARCH_EXHAUSTED, GASKET_WRONG),
+            # Down beside the pins, it leaves bare where the hand feels how thick it is.
+            calls=(detect.GASKET_OFF, detect.GASKET_STAYS, detect.THICKNESS),
+            harmless="Fingers that close on the gasket turn it straight.",
+        ),
         Size(unit="deg", usual=12.0, limits=(-90.0, 90.0)),
     )  # fmt: skip
     yield _fault(
-        f"{part}.reversed", "The gasket lies end for end.", lambda spec, _: _reverse(spec, part, middle)
-    )
+        "gasket.reversed", "The gasket lies end for end.", lambda spec, _: _reverse(spec, part, middle),
+        Expected(calls=(detect.GASKET_LOST,)),
+    )  # fmt: skip
 
 
 def _top() -> Iterator[PartFault]:
-    yield _fault("top.missing", "No top lies on its stand.", _missing("top"))
-    yield from _moved("top", "the top")
+    yield _fault(
+        "top.missing", "No top lies on its stand.", _missing("top"),
+        Expected(calls=("NO TOP IS ON ITS STAND", detect.TOP_LOST), stages=(detect.PUT_ON_TOP,)),
+    )  # fmt: skip
+    off = Expected(
+        errors=(SEARCH_EXHAUSTED,),
+        harmless="CENTER takes the top where it stands, and the search finds the pins along the fingers.",
+    )
+    yield from _moved("top", "the top", {"x": off, "y": off})
     yield _fault(
         "top.tilted", "A chip so high lies under one end of the top, on its stand.", _chip,
+        Expected(
+            # Askew on the pins it may reach up to where the hand comes down on it, and touch it in what should be free
+            # air.
+            errors=(NOTHING_HELD, SERVO_LAG, WRONG_HEIGHT, SEARCH_EXHAUSTED, FORCE_WRONG),
+            calls=(
+                "THE TOP DOES NOT LIE FLAT ON THE GASKET",
+                *(f"PIN {pin} DOES NOT STAND: THE TOP HAS DRAWN IT OUT" for pin in (1, 2)),
+            ),
+            stages=(detect.PUT_ON_TOP,),
+            harmless="Fingers that close on two flats set the top straight.",
+        ),
         Size(unit="mm", usual=6.0, limits=(0.1, 15.0)),
     )  # fmt: skip
     yield _fault(
-        "top.reversed", "The top lies end for end.", lambda spec, _: _reverse(spec, "top", (0.0, 0.0))
+        "top.reversed", "The top lies end for end.", lambda spec, _: _reverse(spec, "top", (0.0, 0.0)),
+        Expected(calls=(detect.TOP_LOST,)),
+    )  # fmt: skip
+    yield _fault(
+        "rotor.jammed", "The rotor does not turn.", _jam, Expected(calls=("THE ROTOR IS HARD TO TURN",))
     )
-    yield _fault("rotor.jammed", "The rotor does not turn.", _jam)
 
 
-def _moved(part: str, article: str) -> Iterator[PartFault]:
+def _moved(part: str, article: str, expected: Mapping[str, Expected]) -> Iterator[PartFault]:
     for axis, direction in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
-        name, meaning = (
-            f"{part}.off.{axis}",
-            f"On its stand {article} lies so far along table {axis} from its place.",
-        )
-        yield _fault(name, meaning, _shift(part, direction), _AWAY)
+        meaning = f"On its stand {article} lies so far along table {axis} from its place."
+        yield _fault(f"{part}.off.{axis}", meaning, _shift(part, direction), expected[axis], _AWAY)
 
 
 def _pins() -> Iterator[PartFault]:
     for number in (1, 2):
         pin = f"pin{number - 1}"
-        yield _fault(f"pin.{number}.missing", f"Aligning pin {number} is not in its holder.", _missing(pin))
+        yield _fault(
+            f"pin.{number}.missing",
+            f"Aligning pin {number} is not in its holder.",
+            _missing(pin),
+            detect.NO_PIN,
+        )
         yield _fault(
             f"pin.{number}.thick", f"The nose of aligning pin {number} is so much thicker, in radius.",
-            _thick_nose(pin), Size(unit="mm", usual=0.2, limits=(-1.0, 0.25)),
+            _thick_nose(pin), detect.NO_HOLE_FOR_PIN, Size(unit="mm", usual=0.2, limits=(-1.0, 0.25)),
         )  # fmt: skip
 
 
 def _screws(count: int) -> Iterator[PartFault]:
     for number in range(1, count + 1):
-        screw = f"screw{number - 1}"
-        yield _fault(f"screw.{number}.missing", f"Screw {number} is not in the dispenser.", _missing(screw))
+        screw, loose = f"screw{number - 1}", detect.loose_screw(number)
+
+        def calls(*texts: str, number: int = number) -> Expected:
+            return detect.if_used(number, Expected(calls=texts))
+
+        yield _fault(
+            f"screw.{number}.missing", f"Screw {number} is not in the dispenser.", _missing(screw),
+            calls(f"NO SCREW AT S{number}"),
+        )  # fmt: skip
         yield _fault(
             f"screw.{number}.burred", f"A burr makes the point of screw {number} so much thicker, in radius: from .35 "
-            "mm on it enters no tapped hole.", _thick_point(screw), Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
+            "mm on it enters no tapped hole.", _thick_point(screw), calls(detect.misfit_screw(number), loose),
+            Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip
         yield _fault(
             f"{_SCREW}.{number}.{_SLOTLESS}", f"The head of screw {number} has no slot: the bit slips on it, and no "
-            "thread takes it.",
-            _slippery(f"screw_head{number - 1}"),
+            "thread takes it.", _slippery(f"screw_head{number - 1}"), calls(loose),
         )  # fmt: skip
 
 
 def _holes(count: int) -> Iterator[PartFault]:
     for number in range(1, count + 1):
-        yield _fault(
-            f"hole.{number}.blocked", f"Tapped hole {number} of the base is open only so far below its mouth.",
-            _block(number - 1), Size(unit="mm", usual=2.0, limits=(0.0, 20.0)),
-        )  # fmt: skip
-        yield _fault(
-            f"{_THREAD}.{number}.{_SCARRED}",
-            f"A screw was crossed in tapped hole {number} before: another crosses there more easily.",
-            _as_drawn,
+        hole, screw = number - 1, detect.screw_of(number)
+        misfit, loose, high = detect.misfit_screw(screw), detect.loose_screw(screw), detect.high_screw(screw)
+        blocked = Expected(calls=(misfit, high))
+        full = Expected(  # the mouth of a hole that is full still lets a point in, by less than a thread
+            errors=(SEARCH_EXHAUSTED,),
+            calls=(misfit, loose),
+            stages=(detect.DRIVE_FIRST if screw <= 2 else detect.DRIVE_LAST,),
         )
-        yield _fault(
-            f"{_THREAD}.{number}.{_CROSSES}",
-            f"Whatever screw comes into tapped hole {number} crosses, however straight it stands.",
-            _as_drawn,
-        )
-        yield _fault(
-            f"{_THREAD}.{number}.stripped",
-            f"The thread of tapped hole {number} is worn away: a screw slides in and holds nothing.",
-            _strip(number - 1),
-        )
-        yield _fault(
-            f"{_THREAD}.{number}.full",
-            f"The shank of a broken screw fills tapped hole {number} up to its mouth.",
-            _fill(number - 1),
-        )
+        if number in detect.PINNED:
+            blocked = full = detect.NO_HOLE_FOR_PIN
+        for name, meaning, breaks, expected, size in (
+            (f"hole.{number}.blocked", f"Tapped hole {number} of the base is open only so far below its mouth.",
+             _block(hole), blocked, Size(unit="mm", usual=2.0, limits=(0.0, 20.0))),
+            (f"{_THREAD}.{number}.{_SCARRED}",
+             f"A screw was crossed in tapped hole {number} before: another crosses there more easily.", _as_drawn,
+             Expected(
+                 harmless="A screw that comes in straight goes home in a scarred thread, too; the referee cautions."
+             ), None),
+            (f"{_THREAD}.{number}.{_CROSSES}",
+             f"Whatever screw comes into tapped hole {number} crosses, however straight it stands.", _as_drawn,
+             Expected(calls=(high,)), None),
+            (f"{_THREAD}.{number}.stripped",
+             f"The thread of tapped hole {number} is worn away: a screw slides in and holds nothing.", _strip(hole),
+             Expected(calls=(loose, detect.lost_screw(screw))), None),
+            (f"{_THREAD}.{number}.full",
+             f"The shank of a broken screw fills tapped hole {number} up to its mouth.", _fill(hole), full, None),
+        ):  # fmt: skip
+            yield _fault(name, meaning, breaks, detect.if_used(number, expected), size)
 
 
 def _screwdriver() -> Iterator[PartFault]:
-    yield _fault("screwdriver.missing", "The screwdriver is not in its rack.", _missing("driver"))
-    yield _fault(_SMOOTH, "The bit does not rub on what it turns, and no thread takes it.", _slippery("bit"))
+    yield _fault(
+        "screwdriver.missing", "The screwdriver is not in its rack.", _missing("driver"),
+        Expected(errors=(NOTHING_HELD,), stages=(detect.DRIVE_FIRST,)),
+    )  # fmt: skip
+    yield _fault(
+        _SMOOTH, "The bit does not rub on what it turns, and no thread takes it.", _slippery("bit"),
+        Expected(calls=(detect.loose_screw(1),)),
+    )  # fmt: skip
 
 
 def _light() -> Iterator[PartFault]:
     yield _fault(
-        "light.shadow",
-        "A card in the way of the light throws the edge of its shadow across the base.",
-        _shade,
-    )
+        "light.shadow", "A card in the way of the light throws the edge of its shadow across the base.", _shade,
+        detect.POOR_LIGHT,
+    )  # fmt: skip
 
 
 def scarred_threads(faults: Sequence[Fault]) -> frozenset[int]:

@@ -1,13 +1,11 @@
 """The catalogue of what can be broken in the pump's world."""
 
-from dataclasses import replace
 from typing import Final
 
 from handeye.core.faults import Catalogue
 from handeye.tasks.water_pump.faults.before import part_faults
 from handeye.tasks.water_pump.faults.devices import device_faults
 from handeye.tasks.water_pump.faults.during import mishap_faults
-from handeye.tasks.water_pump.faults.expected_detection import expected
 
 MATRIX: Final = (
     "finger_switch.stuck_closed",
@@ -72,7 +70,4 @@ MATRIX: Final = (
 
 def catalogue(seed: int) -> Catalogue:
     """What can be broken in the world of a seed, and what can happen to it: devices, parts, mishaps."""
-    devices, parts = device_faults(), part_faults(seed)
-    kinds = (*(fault.kind for fault in devices), *(fault.kind for fault in parts))
-    kinds += tuple(fault.kind for fault in mishap_faults())
-    return Catalogue(*(replace(kind, expected=expected(kind.name)) for kind in kinds), matrix=MATRIX)
+    return Catalogue(*device_faults(), *part_faults(seed), *mishap_faults(), matrix=MATRIX)

@@ -1,13 +1,30 @@
-"""Faults of the devices of the pump's cell: what is broken on which line, and what that line then carries."""
+"""Faults of devices, from the start of a run or from a stage on: the lines each breaks, and what they then carry."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import cache
 from typing import Final
 
 from handeye.cell.defects import DEAD, PICTURE, Defect, Drifting, Effect, Missing, Scaled, Shifted, Stuck
-from handeye.core.faults import Fault, FaultKind, Size
+from handeye.core.errors import (
+    CURRENT_WRONG,
+    FEATURES_NOT_SEEN,
+    FORCE_WRONG,
+    GAP_WRONG,
+    GASKET_WRONG,
+    JOINT_SENSE_WRONG,
+    NOTHING_HELD,
+    PART_NOT_SEEN,
+    PICTURE_WRONG,
+    SEARCH_EXHAUSTED,
+    SERVO_LAG,
+    SWITCH_WRONG,
+    WATCHDOG,
+)
+from handeye.core.faults import Expected, Fault, Size
 from handeye.core.units import JIFFY
+from handeye.tasks.water_pump.faults import expected_detection as detect
+from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
 from handeye.tasks.water_pump.world.variation import JOINT_UNITS
 
 _FINGERS: Final = ("finger_switch.plus_y", "finger_switch.minus_y")
@@ -22,21 +39,9 @@ _DRIFT: Final = {
 _LEFT: Final = (0.0, 100.0)
 """%: what is left of something that is weak."""
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DeviceFault:
-    """A fault of a device."""
-
-    kind: FaultKind
-    lines: Sequence[str]
-    """The lines that it breaks."""
-    effect: Callable[[float], Effect]
-    """What it does to them, by its value."""
-
-    def defects(self, fault: Fault) -> Iterator[Defect]:
-        """What is broken of the cell's lines."""
-        for line in self.lines:
-            yield Defect(line=line, effect=self.effect(fault.value or 0.0), stage=fault.stage)
+Lines = tuple[Sequence[str], Callable[[float], Effect]]
+"""The lines that a fault breaks, and what it does to them, by its value."""
+DeviceFault = PumpFault[Lines]
 
 
 @cache
@@ -47,9 +52,10 @@ def device_faults() -> tuple[DeviceFault, ...]:
 
 def defects(faults: Sequence[Fault]) -> tuple[Defect, ...]:
     """What faults break of the lines of the cell; other faults break none."""
-    known = {fault.kind.name: fault for fault in device_faults()}
     return tuple(
-        defect for fault in faults if fault.name in known for defect in known[fault.name].defects(fault)
+        Defect(line=line, effect=effect(fault.value or 0.0), stage=fault.stage)
+        for fault, (lines, effect) in broken(device_faults(), faults)
+        for line in lines
     )
 
 
@@ -58,38 +64,43 @@ def _fault(
     meaning: str,
     lines: str | Sequence[str],
     effect: Effect | Callable[[float], Effect],
+    expected: Expected,
     size: Size | None = None,
     stage: int | None = None,
 ) -> DeviceFault:
     made = effect if callable(effect) else lambda _: effect
-    kind = FaultKind(name=name, meaning=meaning, size=size, usual_stage=stage)
-    return DeviceFault(kind=kind, lines=(lines,) if isinstance(lines, str) else lines, effect=made)
+    breaks = ((lines,) if isinstance(lines, str) else lines, made)
+    return PumpFault(
+        name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
+    )
 
 
 def _switches() -> Iterator[DeviceFault]:
     told = {"closed": "tells of touch, whatever it meets", "open": "never tells of touch"}
+    expected = Expected(errors=(SWITCH_WRONG,))
     for state, tells in told.items():
         stuck = Stuck(float(state == "closed"))
-        yield _fault(f"finger_switch.stuck_{state}", f"The switch of either finger {tells}.", _FINGERS, stuck)
+        yield _fault(
+            f"finger_switch.stuck_{state}", f"The switch of either finger {tells}.", _FINGERS, stuck, expected
+        )
         for line in _FINGERS:
             side = "+y" if line.endswith("plus_y") else "-y"
-            yield _fault(f"{line}.stuck_{state}", f"The switch of the {side} finger {tells}.", line, stuck)
+            meaning = f"The switch of the {side} finger {tells}."
+            yield _fault(f"{line}.stuck_{state}", meaning, line, stuck, expected)
 
 
 def _hand() -> Iterator[DeviceFault]:
-    gap = "gap_potentiometer"
-    yield _fault(f"{gap}.stuck", "The gap reads what it read when this set in.", gap, Stuck())
+    gap, expected = "gap_potentiometer", Expected(errors=(GAP_WRONG,))
+    yield _fault(f"{gap}.stuck", "The gap reads what it read when this set in.", gap, Stuck(), expected)
     yield _fault(
-        f"{gap}.off",
-        "The gap reads so much more than it is.",
-        gap,
-        Shifted,
+        f"{gap}.off", "The gap reads so much more than it is.", gap, Shifted, expected,
         Size(unit="in", usual=0.5, limits=(-4.0, 4.0)),
-    )
-    yield _fault("finger_motor.dead", "The fingers press with nothing.", "finger_motor", DEAD)
+    )  # fmt: skip
+    expected = Expected(errors=(GAP_WRONG, NOTHING_HELD, FORCE_WRONG))
+    yield _fault("finger_motor.dead", "The fingers press with nothing.", "finger_motor", DEAD, expected)
     yield _fault(
         "finger_motor.weak", "So much is left of the force with which the fingers press.", "finger_motor", Scaled,
-        Size(unit="%", usual=10.0, limits=_LEFT),
+        expected, Size(unit="%", usual=10.0, limits=_LEFT),
     )  # fmt: skip
 
 
@@ -99,31 +110,36 @@ def _force() -> Iterator[DeviceFault]:
             f"force.off_zero.{axis}",
             f"The drives are off zero by what a force at the hand, along table {axis}, is to them: the arm bears a "
             "force that is not there, and the program, which reckons the force from the torques it put out, feels it.",
-            f"force.{axis}", Shifted, Size(unit="N", usual=20.0, limits=(-100.0, 100.0)),
+            f"force.{axis}", Shifted, Expected(errors=(FORCE_WRONG,), at_setup=True),
+            Size(unit="N", usual=20.0, limits=(-100.0, 100.0)),
         )  # fmt: skip
 
 
 def _joints() -> Iterator[DeviceFault]:
+    wrong = Expected(errors=(JOINT_SENSE_WRONG,), at_setup=True)
     for number, unit in enumerate(JOINT_UNITS, 1):
         pot, tachometer, drive = f"potentiometer.{number}", f"tachometer.{number}", f"drive.{number}"
         joint = f"of joint {number}"
         yield _fault(
-            f"{pot}.stuck", f"The position {joint} reads what it read when this set in.", pot, Stuck()
+            f"{pot}.stuck", f"The position {joint} reads what it read when this set in.", pot, Stuck(), wrong
         )
         yield _fault(
-            f"{pot}.jump", f"The position {joint} reads so much more than it is.", pot, Shifted, _JUMP[unit]
-        )
+            f"{pot}.jump", f"The position {joint} reads so much more than it is.", pot, Shifted,
+            Expected(errors=(JOINT_SENSE_WRONG, FORCE_WRONG), calls=detect.ASTRAY, at_setup=True), _JUMP[unit],
+        )  # fmt: skip
         yield _fault(
             f"{pot}.drift", f"The position {joint} reads more and more: so much more each second.", pot, Drifting,
-            _DRIFT[unit],
+            wrong, _DRIFT[unit],
         )  # fmt: skip
-        yield _fault(f"{tachometer}.dead", f"The rate {joint} reads zero.", tachometer, DEAD)
+        yield _fault(f"{tachometer}.dead", f"The rate {joint} reads zero.", tachometer, DEAD, wrong)
         yield _fault(
             f"{drive}.weak", f"So much is left of the torque that the drive {joint} is told.", drive, Scaled,
-            Size(unit="%", usual=50.0, limits=_LEFT),
+            Expected(errors=(FORCE_WRONG, SERVO_LAG), at_setup=True), Size(unit="%", usual=50.0, limits=_LEFT),
         )  # fmt: skip
         yield _fault(
             f"brake.{number}.slips", f"So much is left of what the brake {joint} holds.", f"brake.{number}", Scaled,
+            replace(wrong, harmless="The brakes hold for as long as a picture takes, and the potentiometers tell where "
+                    "the arm sank."),
             Size(unit="%", usual=10.0, limits=_LEFT),
         )  # fmt: skip
 
@@ -131,37 +147,54 @@ def _joints() -> Iterator[DeviceFault]:
 def _servo() -> Iterator[DeviceFault]:
     yield _fault(
         "servo.late", "The computer is late: no torque arrives at the drives for so many servo periods.", "servo",
-        lambda periods: Missing(periods * JIFFY), Size(unit="", usual=60.0, limits=(1.0, 36000.0)), stage=3,
+        lambda periods: Missing(periods * JIFFY), Expected(errors=(WATCHDOG,)),
+        Size(unit="", usual=60.0, limits=(1.0, 36000.0)), stage=3,
     )  # fmt: skip
 
 
 def _screwdriver() -> Iterator[DeviceFault]:
     current, motor = "screwdriver.current", "screwdriver.motor"
     yield _fault(
-        f"{current}.dead",
-        "The current of the screwdriver's motor reads zero, and so does its torque.",
-        current,
-        DEAD,
-    )
-    yield _fault(f"{motor}.dead", "The screwdriver's motor never turns.", motor, DEAD)
+        f"{current}.dead", "The current of the screwdriver's motor reads zero, and so does its torque.", current, DEAD,
+        Expected(errors=(CURRENT_WRONG,)),
+    )  # fmt: skip
+    yield _fault(
+        f"{motor}.dead", "The screwdriver's motor never turns.", motor, DEAD,
+        Expected(errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1),)),
+    )  # fmt: skip
+    lost = [
+        (f"SCREW {screw} IS NOT ON THE BIT", detect.lost_screw(screw), f"NO SCREW AT S{screw}")
+        for screw in range(1, 7)  # it is fetched once more, and may lie elsewhere by then
+    ]
     yield _fault(
         "magnet.weak", "So much is left of the force of the bit's magnet, which holds a screw.", "magnet", Scaled,
+        Expected(
+            calls=tuple(call for calls in lost for call in calls),
+            harmless="A screw weighs .06 N, a hundredth of that force: what bears it holds it straight, too.",
+        ),
         Size(unit="%", usual=1.0, limits=_LEFT),
     )  # fmt: skip
 
 
 def _sight() -> Iterator[DeviceFault]:
-    yield _fault("lamp.dead", "The lamp on the hand stays dark.", "lamp", DEAD)
-    yield _fault("picture.frozen", "Every picture is the first one after this set in.", PICTURE, Stuck())
-    yield _fault("picture.dark", "Every picture is black.", PICTURE, DEAD)
+    yield _fault("lamp.dead", "The lamp on the hand stays dark.", "lamp", DEAD, Expected(at_setup=True))
+    wrong = Expected(errors=(PICTURE_WRONG,), at_setup=True)
+    yield _fault(
+        "picture.frozen", "Every picture is the first one after this set in.", PICTURE, Stuck(), wrong
+    )
+    yield _fault("picture.dark", "Every picture is black.", PICTURE, DEAD, wrong)
     yield _fault(
         "camera.bumped", "The camera has been bumped: it looks so far aside and down of where its mount is told.",
-        ("camera.pan", "camera.tilt"), Shifted, Size(unit="deg", usual=1.0, limits=(-20.0, 20.0)), stage=1,
+        ("camera.pan", "camera.tilt"), Shifted,
+        Expected(
+            # The base is not where it was seen: nothing is between the fingers, or it is in their way.
+            errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, SEARCH_EXHAUSTED, NOTHING_HELD, SERVO_LAG, GASKET_WRONG),
+            calls=(*detect.UNSEEN, *detect.OFF, detect.NOT_HELD),
+            harmless="The hand feels for the base around where it was seen.",
+        ),
+        Size(unit="deg", usual=1.0, limits=(-20.0, 20.0)), stage=1,
     )  # fmt: skip
     yield _fault(
-        "turret.stuck",
-        "The lens stays that was turned to first after this set in.",
-        "turret",
-        Stuck(),
-        stage=1,
-    )
+        "turret.stuck", "The lens stays that was turned to first after this set in.", "turret", Stuck(),
+        Expected(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG), calls=detect.UNSEEN), stage=1,
+    )  # fmt: skip

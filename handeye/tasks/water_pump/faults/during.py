@@ -1,4 +1,4 @@
-"""Mishaps: what happens to the pump's cell while it works, by somebody's hand or by chance.
+"""Faults that set in during a run: mishaps, by a person's hand or by chance.
 
 Each begins with a stage and lasts a stated time. What is taken away or lost lies from that moment on the tray under
 the floor, where nothing meets it: nobody simulates the hand that takes it. A push is a force; so is the hand that moves
@@ -8,7 +8,7 @@ the base, a spring to a point that goes at a constant speed, and friction drags 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Final
 
 import mujoco
@@ -17,11 +17,14 @@ import numpy as np
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.sleep import wake
 from handeye.cell.state import finite
-from handeye.core.faults import Fault, FaultKind, Size
+from handeye.core.errors import FORCE_WRONG, NOTHING_HELD, SEARCH_EXHAUSTED, SERVO_LAG, WRONG_HEIGHT
+from handeye.core.faults import Expected, Fault, Size
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.core.units import INCH
+from handeye.tasks.water_pump.faults import expected_detection as detect
 from handeye.tasks.water_pump.faults.before import GONE, OVER
+from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
 from handeye.tasks.water_pump.scene.arm import ARM
 
 PUSH: Final = 2.0
@@ -112,13 +115,14 @@ class Mishap(ABC):
 class Pushed(Mishap):
     """Somebody pushes the hand of the arm."""
 
-    force: tuple[float, float, float]
-    """N, along the axes of the table."""
+    axis: int
+    """Of the table: 0 is x."""
+    force_N: float
 
     def act(self, scene: Scene, state: MishapState) -> bool:
         over = (state.seconds or 0.0) >= PUSH
         body = scene.model.body(f"{ARM}link6").id
-        scene.data.xfrc_applied[body, :3] = (0.0, 0.0, 0.0) if over else self.force
+        scene.data.xfrc_applied[body, self.axis] = 0.0 if over else self.force_N
         return over
 
 
@@ -126,8 +130,9 @@ class Pushed(Mishap):
 class Moved(Mishap):
     """Somebody moves the base along the table."""
 
-    way: tuple[float, float]
-    """m"""
+    axis: int
+    """Of the table: 0 is x."""
+    way_m: float
 
     @property
     def watched(self) -> str:
@@ -136,9 +141,11 @@ class Moved(Mishap):
     def act(self, scene: Scene, state: MishapState) -> bool:
         assert state.place is not None
         seconds, (spring, damper, most) = state.seconds or 0.0, HAND
-        goal = np.add(state.place[:2], np.multiply(self.way, seconds / MOVE))
+        way = np.zeros(2)
+        way[self.axis] = self.way_m
+        goal = np.add(state.place[:2], way * (seconds / MOVE))
         away = goal - scene.place("base")[:2]
-        late = np.divide(self.way, MOVE) - scene.data.qvel[scene.dofs("base")][:2]
+        late = way / MOVE - scene.data.qvel[scene.dofs("base")][:2]
         force = spring * away + damper * late
         force *= min(1.0, most / max(float(np.hypot(*force)), 1e-9))
         over = seconds >= MOVE
@@ -184,13 +191,7 @@ class LightOut(Mishap):
         return True
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MishapFault:
-    """A fault by which something happens."""
-
-    kind: FaultKind
-    make: Callable[[float], Mishap]
-    """What happens, by its value."""
+MishapFault = PumpFault[Callable[[float], Mishap]]
 
 
 @cache
@@ -202,76 +203,76 @@ def mishap_faults() -> tuple[MishapFault, ...]:
 def _fault(
     name: str,
     meaning: str,
-    make: Callable[[float], Mishap],
-    stage: int | None = None,
+    breaks: Callable[[float], Mishap],
+    expected: Expected,
     size: Size | None = None,
+    stage: int | None = None,
 ) -> MishapFault:
-    kind = FaultKind(name=name, meaning=meaning, size=size, usual_stage=stage)
-    return MishapFault(kind=kind, make=make)
+    return PumpFault(
+        name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
+    )
 
 
 def _light() -> Iterator[MishapFault]:
     meaning = "The lamp of the cell goes out; what light the room has stays."
-    yield _fault("light.off", meaning, lambda _: LightOut(), stage=6)
+    yield _fault("light.off", meaning, lambda _: LightOut(), detect.POOR_LIGHT, stage=6)
 
 
 def _pushes() -> Iterator[MishapFault]:
     size = Size(unit="N", usual=40.0, limits=(-300.0, 300.0))
-    pushes: dict[str, Callable[[float], Mishap]] = {
-        "x": lambda force: Pushed((force, 0.0, 0.0)),
-        "y": lambda force: Pushed((0.0, force, 0.0)),
-        "z": lambda force: Pushed((0.0, 0.0, force)),
-    }
-    for axis, push in pushes.items():
+    expected = Expected(
+        errors=(FORCE_WRONG, SERVO_LAG),
+        calls=detect.ASTRAY,
+        harmless="The drives bear a push that is over before the hand feels for anything.",
+    )
+    for number, axis in enumerate("xyz"):
         meaning = f"Somebody pushes the hand along table {axis} for {PUSH:g} s."
-        yield _fault(f"arm.pushed.{axis}", meaning, push, stage=3, size=size)
+        yield _fault(f"arm.pushed.{axis}", meaning, partial(Pushed, number), expected, size, stage=3)
 
 
 def _base() -> Iterator[MishapFault]:
     size = Size(unit="in", usual=1.0, limits=(-6.0, 6.0))
-    moves: dict[str, Callable[[float], Mishap]] = {
-        "x": lambda way: Moved((way, 0.0)),
-        "y": lambda way: Moved((0.0, way)),
-    }
-    for axis, move in moves.items():
+    expected = Expected(
+        errors=(SEARCH_EXHAUSTED, NOTHING_HELD),
+        calls=(detect.NOT_HELD, "THE PUMP IS NOT WHERE IT WAS PUT", "THE PUMP HAS MOVED SINCE IT WAS FELT"),
+        stages=("feel for the grasp",),
+        harmless="The hand feels for the base around where it was seen.",
+    )
+    for number, axis in enumerate("xy"):
         meaning = f"Somebody moves the base along table {axis} within {MOVE:g} s, with what stands on it."
-        yield _fault(f"base.moved.{axis}", meaning, move, stage=2, size=size)
+        yield _fault(f"base.moved.{axis}", meaning, partial(Moved, number), expected, size, stage=2)
     meaning = "Somebody takes the base away, and all that stands on it."
-    yield _fault("base.removed", meaning, lambda _: TakenAway(), stage=4)
+    yield _fault("base.removed", meaning, lambda _: TakenAway(), detect.NO_HOLE_FOR_PIN, stage=4)
 
 
 def _losses() -> Iterator[MishapFault]:
-    parts = {"pin.1": ("pin0", "aligning pin 1"), "pin.2": ("pin1", "aligning pin 2")}
-    for name, (part, told) in {
-        **parts,
-        "gasket": ("gasket", "the gasket"),
-        "top": ("top", "the top"),
-    }.items():
+    gasket = Expected(
+        errors=(NOTHING_HELD, WRONG_HEIGHT),
+        calls=(detect.GASKET_LOST, detect.THICKNESS, *detect.OFF),
+        stages=(detect.PUT_ON_GASKET,),
+    )
+    top = Expected(
+        errors=(NOTHING_HELD,),
+        calls=(detect.TOP_LOST, "THE TOP MEETS NOTHING: IT IS LOST"),
+        stages=(detect.PUT_ON_TOP,),
+    )
+    for name, part, told, expected in (
+        ("pin.1", "pin0", "aligning pin 1", detect.NO_PIN),
+        ("pin.2", "pin1", "aligning pin 2", detect.NO_PIN),
+        ("gasket", "gasket", "the gasket", gasket),
+        ("top", "top", "the top", top),
+    ):
         meaning = f"The hand loses {told} as soon as it has lifted it by {LIFTED / INCH:.1f} in."
-        yield _fault(f"{name}.dropped", meaning, _dropping(part))
+        yield _fault(f"{name}.dropped", meaning, _dropping(part), expected)
 
 
 def _dropping(part: str) -> Callable[[float], Mishap]:
     return lambda _: Dropped(part)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Due:
-    """A mishap and when it is due."""
-
-    mishap: Mishap
-    stage: int | None
-    """Number of the stage with which it begins, from 1; None: with the cell."""
-
-
-def due(faults: Sequence[Fault]) -> tuple[Due, ...]:
-    """What happens by faults; other faults let nothing happen."""
-    known = {fault.kind.name: fault.make for fault in mishap_faults()}
-    return tuple(
-        Due(mishap=known[fault.name](fault.value or 0.0), stage=fault.stage)
-        for fault in faults
-        if fault.name in known
-    )
+def due(faults: Sequence[Fault]) -> list[tuple[Fault, Mishap]]:
+    """Those of a run's faults by which something happens, and what."""
+    return [(fault, make(fault.value or 0.0)) for fault, make in broken(mishap_faults(), faults)]
 
 
 class Mishaps(Mechanism[MishapsState]):
@@ -290,9 +291,9 @@ class Mishaps(Mechanism[MishapsState]):
         self._begin(lambda stage: stage is not None and stage <= number)
 
     def _begin(self, now: Callable[[int | None], bool]) -> None:
-        for place, (due, state) in enumerate(zip(self.due, self._states, strict=True)):
-            if state.seconds is None and now(due.stage):
-                self._states[place] = MishapState(seconds=0.0, place=self._place(due.mishap.watched))
+        for number, ((fault, mishap), state) in enumerate(zip(self.due, self._states, strict=True)):
+            if state.seconds is None and now(fault.stage):
+                self._states[number] = MishapState(seconds=0.0, place=self._place(mishap.watched))
 
     def _place(self, part: str | None) -> tuple[float, float, float] | None:
         if part is None:
@@ -301,10 +302,10 @@ class Mishaps(Mechanism[MishapsState]):
         return x, y, z
 
     def before(self, seconds: float) -> None:
-        for place, (due, state) in enumerate(zip(self.due, self._states, strict=True)):
+        for number, ((_, mishap), state) in enumerate(zip(self.due, self._states, strict=True)):
             if state.seconds is not None and not state.over:
-                over = due.mishap.act(self._scene, state)
-                self._states[place] = MishapState(
+                over = mishap.act(self._scene, state)
+                self._states[number] = MishapState(
                     seconds=state.seconds + seconds, place=state.place, over=over
                 )
 
@@ -314,11 +315,11 @@ class Mishaps(Mechanism[MishapsState]):
     def check(self, state: MishapsState) -> None:
         if len(state.mishaps) != len(self.due):
             raise ValueError("other things happen in it")
-        for due, own in zip(self.due, state.mishaps, strict=True):
+        for (_, mishap), own in zip(self.due, state.mishaps, strict=True):
             finite(own.place or (), "what happens in it")
             if not 0 <= (own.seconds or 0.0) < np.inf:
                 raise ValueError("something happened in it when it cannot have")
-            if (own.seconds is None or due.mishap.watched is None) != (own.place is None):
+            if (own.seconds is None or mishap.watched is None) != (own.place is None):
                 raise ValueError("something happened in it to another part")
 
     def restore(self, state: MishapsState) -> None:

@@ -1,0 +1,22 @@
+"""The declaration of a fault of the pump's cell: its name, size, time and expected detection, and what it breaks."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from handeye.core.faults import Fault, FaultKind
+
+B = TypeVar("B")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PumpFault(FaultKind, Generic[B]):
+    """A fault of the catalogue together with what it breaks: a change of the scene, lines of devices, or a mishap."""
+
+    breaks: B
+
+
+def broken(declared: Iterable[PumpFault[B]], faults: Sequence[Fault]) -> list[tuple[Fault, B]]:
+    """Those of a run's `faults` that are among the declared ones, each with what it breaks."""
+    known = {fault.name: fault.breaks for fault in declared}
+    return [(fault, known[fault.name]) for fault in faults if fault.name in known]
