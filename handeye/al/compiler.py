@@ -24,9 +24,10 @@ LANGUAGE: Final = "wave"
 
 
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
-    """The program of a text, or None if any diagnostic is an error, and its diagnostics.\n\nRequired texts are in
-    `source.required` (see `includes.sewn`); spans are offsets of the whole. The program contains\nthe taught
-    positions and parts and those the text adds. Diagnostics are sorted by position, at most `LIMIT`.
+    """The program of a text, or None if any diagnostic is an error, and its diagnostics.
+
+    Required texts are in `source.required` (see `includes.sewn`); spans are offsets of the whole. The program contains
+    the taught positions and parts and those the text adds. Diagnostics are sorted by position, at most `LIMIT`.
     """
     script, found = parse_whole(source)
     if any(d.code in MISSING for d in found):

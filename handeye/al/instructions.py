@@ -1,6 +1,7 @@
-"""The table of instructions, from which parser, checker, formatter and manual derive.\n\nWords and meanings of the
-period: Bolles and Paul, AIM-220 (1973), and what is left of the arm program's\nmanual. What the period does not
-document and we added in its spirit has `ours` set.
+"""The table of instructions, from which parser, checker, formatter and manual derive.
+
+Words and meanings of the period: Bolles and Paul, AIM-220 (1973), and what is left of the arm program's
+manual. What the period does not document and we added in its spirit has `ours` set.
 """
 
 from typing import Final

@@ -1,5 +1,6 @@
-"""Lines of a macro with a call's operands in the place of parameters.\n\nAn operand is read where its parameter stands;
-a mistake in it alone is reported where it is written.
+"""Lines of a macro with a call's operands in the place of parameters.
+
+An operand is read where its parameter stands; a mistake in it alone is reported where it is written.
 """
 
 import re

@@ -12,11 +12,7 @@ StageNumber = Callable[[str], int]
 
 
 def faults(catalogue: Catalogue, texts: Iterable[str], stage: StageNumber) -> tuple[Fault, ...]:
-    """Faults from their options, in the order of their names.
-
-    Raises:
-        InvalidInput: a name, a value or a stage that cannot be used, or one fault twice.
-    """
+    """Faults from their options, in the order of their names."""
     found = tuple(sorted((_fault(catalogue, text, stage) for text in texts), key=lambda fault: fault.name))
     catalogue.check(found)
     return found
@@ -42,20 +38,12 @@ def _value(kind: FaultKind, text: str) -> float | None:
 
 
 def by_number(text: str) -> int:
-    """The number of a stage where no program is known whose stages have names.
-
-    Raises:
-        InvalidInput: it is no number from 1 up.
-    """
+    """The number of a stage where no program is known whose stages have names."""
     if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
         raise BadArgument(f"{quoted(text)} is no number of a stage, from 1 up")
     return int(text)
 
 
 def from_start_only(text: str) -> int:
-    """Where nothing has stages.
-
-    Raises:
-        InvalidInput: always.
-    """
+    """Where nothing has stages."""
     raise BadArgument(f"a fault is there from the beginning here; leave out {quoted(f'@{text}')}")

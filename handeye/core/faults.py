@@ -97,22 +97,14 @@ class FaultKind:
         return UNITS[self.unit]
 
     def usual(self, stage: int | None = None) -> Fault:
-        """The fault at its usual size, from a stage on, by its number, or from its usual one.
-
-        Raises:
-            InvalidInput: it cannot set in with a stage.
-        """
+        """The fault at its usual size, from a stage on, by its number, or from its usual one."""
         value = None if self.size is None else self.size.usual * self.measure.size
         fault = Fault(name=self.name, value=value, stage=stage or self.usual_stage)
         self.check(fault)
         return fault
 
     def check(self, fault: Fault) -> None:
-        """Make sure that a fault of this name can be had.
-
-        Raises:
-            InvalidInput: its value or its stage does not fit it.
-        """
+        """Make sure that a fault of this name can be had."""
         if fault.stage is not None and self.from_start:
             raise BadArgument(
                 f"the fault {quoted(self.name)} cannot set in while the cell works; leave out `@{fault.stage}`"
@@ -141,11 +133,7 @@ class Catalogue:
         assert {*self.matrix} <= self.kinds.keys(), "the matrix names a fault that there is not"
 
     def kind(self, name: str) -> FaultKind:
-        """The fault of a name.
-
-        Raises:
-            InvalidInput: there is none such.
-        """
+        """The fault of a name."""
         if name in self.kinds:
             return self.kinds[name]
         inside = [known for known in self.kinds if known.startswith(f"{name}.")]
@@ -158,20 +146,12 @@ class Catalogue:
         raise NoSuchName(f"there is no fault {quoted(name)}; {near}")
 
     def select(self, name: str) -> tuple[FaultKind, ...]:
-        """The fault of a name, or those of a group.
-
-        Raises:
-            InvalidInput: there is neither.
-        """
+        """The fault of a name, or those of a group."""
         found = tuple(kind for kind in self.kinds.values() if f"{kind.name}.".startswith(f"{name}."))
         return found or (self.kind(name),)
 
     def check(self, faults: Sequence[Fault]) -> None:
-        """Make sure that a run can be given these faults.
-
-        Raises:
-            InvalidInput: there is none of a name, one is given twice, or its value or stage does not fit it.
-        """
+        """Make sure that a run can be given these faults."""
         for fault in faults:
             self.kind(fault.name).check(fault)
         once(fault.name for fault in faults)
@@ -186,11 +166,7 @@ class Catalogue:
 
 
 def once(names: Iterable[str]) -> None:
-    """Make sure that no name comes twice.
-
-    Raises:
-        InvalidInput: one does.
-    """
+    """Make sure that no name comes twice."""
     seen: set[str] = set()
     for name in names:
         if name in seen:

@@ -29,11 +29,7 @@ class Kind:
 
 
 def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
-    """Content of a file.
-
-    Raises:
-        InvalidInput: no such file, a directory, a device, larger than `largest`, or unreadable.
-    """
+    """Content of a file."""
     file = Path(path)
     try:
         if not file.exists():
@@ -52,22 +48,14 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
 
 
 def beside(path: Path, ending: str) -> Path:
-    """The file of the same name with another ending.
-
-    Raises:
-        InvalidInput: the path has no name: it is a directory.
-    """
+    """The file of the same name with another ending."""
     if not path.name:
         raise CannotWrite(f"{path} is a directory, not a file")
     return path.with_suffix(ending)
 
 
 def check_place(path: Path, kind: Kind) -> None:
-    """Look whether a file of a kind may be written, and can be: it replaces none of another kind.
-
-    Raises:
-        InvalidInput: it may not, or cannot.
-    """
+    """Look whether a file of a kind may be written, and can be: it replaces none of another kind."""
     if not path.name.lower().endswith(kind.ending):
         raise CannotWrite(f"{path}: the name of the {kind.name} must end in {kind.ending}")
     try:
@@ -84,21 +72,13 @@ def check_place(path: Path, kind: Kind) -> None:
 
 
 def check_free(path: Path, what: str, *, overwrite: bool) -> None:
-    """Look whether there is nothing at a place yet, or what it holds may be replaced.
-
-    Raises:
-        InvalidInput: it may not; `what`: it.
-    """
+    """Look whether there is nothing at a place yet, or what it holds may be replaced."""
     if path.exists() and not overwrite:
         raise CannotWrite(f"{path} holds a {what} already; --overwrite replaces it")
 
 
 def write_over(path: Path, data: bytes, kind: Kind) -> None:
-    """Write a file of a kind, as `write_whole`, where `check_place` has nothing against it.
-
-    Raises:
-        InvalidInput: as both.
-    """
+    """Write a file of a kind, as `write_whole`, where `check_place` has nothing against it."""
     check_place(path, kind)
     write_whole(path, data)
 
@@ -106,9 +86,6 @@ def write_over(path: Path, data: bytes, kind: Kind) -> None:
 def write_whole(path: Path, data: bytes) -> None:
     """Write `data` beside `path`, then put it in its place in one act. What a link leads to is written, and who may
     read a file that was there may still.
-
-    Raises:
-        InvalidInput: the file cannot be written, or is none; nothing is left behind.
     """
     temporary = None
     place = Path(os.path.realpath(path))

@@ -26,12 +26,7 @@ class FolderKind:
 
 
 def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
-    """Look whether a folder of a kind may be written, and can be: it takes the place of one of its kind at most.
-
-    Raises:
-        Taken: one of its kind is there, and may not be replaced.
-        InvalidInput: it may not be written for another reason, or cannot.
-    """
+    """Look whether a folder of a kind may be written, and can be: it takes the place of one of its kind at most."""
     try:
         _refuse_others(path, kind, overwrite=overwrite)
         with tempfile.TemporaryFile(dir=Path(os.path.realpath(path)).parent):
@@ -63,11 +58,7 @@ def _fits(name: Path, pattern: str) -> bool:
 
 
 def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
-    """Write a folder of files beside `path`, then put it in its place; what was there is gone then.
-
-    Raises:
-        InvalidInput: it cannot be written; what was there is there still, and nothing is left beside it.
-    """
+    """Write a folder of files beside `path`, then put it in its place; what was there is gone then."""
     place = Path(os.path.realpath(path))
     temporary = None
     try:

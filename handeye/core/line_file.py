@@ -16,9 +16,6 @@ class LineFile:
 
         Args:
             writer: who else may be writing to it, with its article.
-
-        Raises:
-            InvalidInput: the file cannot be written, or somebody is writing to it now.
         """
         self.path = path
         if path.exists() and not path.is_file():  # to open a pipe that nobody reads would wait for ever
@@ -32,11 +29,7 @@ class LineFile:
             raise self._unwritable(error) from None
 
     def append(self, line: bytes) -> None:
-        """Write a line, its end included, whole or not at all.
-
-        Raises:
-            InvalidInput: there is no room.
-        """
+        """Write a line, its end included, whole or not at all."""
         try:
             whole = self._file.seek(0, os.SEEK_END)
             if self._file.write(line) < len(line):

@@ -22,11 +22,7 @@ class MutableRecord(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def copied(record: Kept) -> Kept:
-    """A snapshot of a record: nothing that happens to the record afterwards changes it.
-
-    Raises:
-        TypeError: something in it can be changed and cannot be copied.
-    """
+    """A snapshot of a record: nothing that happens to the record afterwards changes it."""
     return type(record)(**{name: _copied(getattr(record, name)) for name in record.__struct_fields__})
 
 

@@ -27,11 +27,7 @@ def packed(record: object) -> bytes:
 
 
 def unpacked(data: bytes, kind: type[T], largest: int) -> T:
-    """The record that `packed` made bytes of; `largest` is the most bytes that it may have.
-
-    Raises:
-        ValueError: it is none of this kind, or too large.
-    """
+    """The record that `packed` made bytes of; `largest` is the most bytes that it may have."""
     try:
         return decoded(_inflated(data, largest), kind)
     except zlib.error as error:
@@ -44,11 +40,7 @@ def encoded(record: object) -> bytes:
 
 
 def decoded(data: bytes | msgspec.Raw, kind: type[T]) -> T:
-    """The record that `encoded` made bytes of.
-
-    Raises:
-        ValueError: it is none of this kind.
-    """
+    """The record that `encoded` made bytes of."""
     try:
         return msgspec.msgpack.decode(data, type=kind, dec_hook=_array)
     except (msgspec.DecodeError, TypeError, RecursionError) as error:

@@ -10,11 +10,7 @@ _ROOTS = (_PACKAGE / "_data", _PACKAGE.parent)
 
 
 def folder(name: str) -> Path:
-    """The folder `scenes`, `plans` or `demo`.
-
-    Raises:
-        InvalidInput: the installation is incomplete.
-    """
+    """The folder `scenes`, `plans` or `demo`."""
     for root in _ROOTS:
         if (root / name).is_dir():
             return root / name

@@ -103,11 +103,7 @@ def line_name(line: int, file: str = "") -> str:
 
 
 def read_source(path: str | Path) -> Source:
-    """The text in a file, named as the path was given.
-
-    Raises:
-        InvalidInput: no such file, a directory, unreadable, too large, or not UTF-8 (with the byte's offset).
-    """
+    """The text in a file, named as the path was given."""
     data = read_whole(path, LARGEST)
     try:
         return Source(name=str(path), text=data.decode("utf-8-sig"))

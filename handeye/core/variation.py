@@ -55,11 +55,7 @@ class Quantity:
         return UNITS[self.unit]
 
     def check(self, value: float) -> None:
-        """Make sure that it can be set to a value, SI.
-
-        Raises:
-            InvalidInput: it is not a number, or more or less than the quantity can be.
-        """
+        """Make sure that it can be set to a value, SI."""
         low, high = (limit * self.measure.size for limit in self.limits)
         if type(value) not in (int, float) or not low <= value <= high:  # not a number is not between two
             raise BadArgument(
@@ -136,11 +132,7 @@ class Variation:
         return frozenset(".".join(part[:n]) for part in parts for n in range(1, len(part)))
 
     def select(self, name: str) -> tuple[Quantity, ...]:
-        """The quantity of a name, or those of a group.
-
-        Raises:
-            InvalidInput: there is none such.
-        """
+        """The quantity of a name, or those of a group."""
         found = tuple(q for q in self.quantities.values() if within(q.name, name))
         if not found:
             first = dict.fromkeys(known.split(".")[0] for known in self.quantities)
@@ -150,11 +142,7 @@ class Variation:
         return found
 
     def draw(self, spec: WorldSpec) -> World:
-        """The world of a specification.
-
-        Raises:
-            InvalidInput: it was drawn in another way, or speaks of quantities that this task does not have.
-        """
+        """The world of a specification."""
         self.check(spec)
         return World(spec=spec, values={name: self.value(name, spec) for name in self.quantities})
 
@@ -168,11 +156,7 @@ class Variation:
         return drawn(quantity, spec.level, random_numbers(spec.seed, name))
 
     def check(self, spec: WorldSpec) -> None:
-        """Make sure that a world is one that can be drawn here.
-
-        Raises:
-            InvalidInput: as `draw`.
-        """
+        """Make sure that a world is one that can be drawn here."""
         if spec.level not in SPREADS:
             raise NoSuchName(f"there is no level {spec.level!r}; there are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:
@@ -204,11 +188,7 @@ def drawn(quantity: Quantity, level: Level, stream: np.random.Generator) -> floa
 
 
 def checked_seed(seed: object) -> int:
-    """A seed, as a plain number.
-
-    Raises:
-        InvalidInput: it is none.
-    """
+    """A seed, as a plain number."""
     number = whole(seed)
     if number is None or number < 0:
         raise BadArgument(f"a seed is a whole number from 0 up; {seed!r} is not")

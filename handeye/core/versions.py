@@ -36,11 +36,7 @@ def _installed(package: str) -> str:
 
 @cache
 def code_digest() -> str:
-    """Sixteen hexadecimal digits that stand for this program and its scenes, as they are on disk.
-
-    Raises:
-        InvalidInput: the installation is incomplete.
-    """
+    """Sixteen hexadecimal digits that stand for this program and its scenes, as they are on disk."""
     package = Path(__file__).resolve().parents[1]
     files = [(package, path) for path in package.rglob("*.py")]
     files += [(scenes(), path) for path in scenes().rglob("*") if path.is_file()]

@@ -37,9 +37,6 @@ def overrides(variation: Variation, without: Iterable[str], settings: Iterable[s
     Args:
         without: names of quantities and groups that are to have their nominal values.
         settings: `NAME=VALUE` each, for a quantity or for each of a group; of two for one quantity, the later.
-
-    Raises:
-        InvalidInput: a name, a unit or a value that cannot be used.
     """
     off = sorted(set(without))
     for name in off:
@@ -60,11 +57,7 @@ def _setting(variation: Variation, text: str) -> dict[str, float]:
 
 
 def value_of(quantity: Measured, text: str) -> float:
-    """A value of a quantity as written, SI; without a unit it is in the quantity's own.
-
-    Raises:
-        InvalidInput: not a number, a unit of something else, or more or less than the quantity can be.
-    """
+    """A value of a quantity as written, SI; without a unit it is in the quantity's own."""
     written = split_value(text)
     if written is None:
         raise BadArgument(f"{quantity.name} cannot be {quoted(text)}, which is not a number")

@@ -31,11 +31,7 @@ _FILES = 2
 
 
 def explanation(word: str) -> str:
-    """Explanation of a diagnostic's code, an error number or an instruction.
-
-    Raises:
-        InvalidInput: it is none of these; the sentence names the nearest.
-    """
+    """Explanation of a diagnostic's code, an error number or an instruction."""
     if word in CODES:
         return _code(word)
     if word.upper() in EXPLAINED:

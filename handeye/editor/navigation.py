@@ -57,11 +57,7 @@ def references(document: Document, offset: int) -> list[Found]:
 
 
 def renamable(document: Document, offset: int) -> Occurrence:
-    """The name at an offset, if it can be renamed.
-
-    Raises:
-        InvalidInput: there is no name, or it is a word of the language, or it is defined where no edit reaches.
-    """
+    """The name at an offset, if it can be renamed."""
     name = document.name_at(offset)
     if name is None:
         raise Refused("there is no name here")
@@ -75,11 +71,7 @@ def renamable(document: Document, offset: int) -> Occurrence:
 
 
 def rename(document: Document, offset: int, new: str) -> list[Edit]:
-    """Edits of the script, the taught file and the required files that rename a thing.
-
-    Raises:
-        InvalidInput: it cannot be renamed, or cannot have that name.
-    """
+    """Edits of the script, the taught file and the required files that rename a thing."""
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:
         raise BadArgument(

@@ -24,7 +24,7 @@ from handeye.program.flow_operations import (
 )
 from handeye.program.operation import Operation
 from handeye.program.senses import TESTED
-from handeye.program.world_model import place
+from handeye.program.world_model import rounded_place
 
 
 def test_error(run: ExecutionContext, operation: Test) -> bool:
@@ -108,7 +108,7 @@ def here(run: ExecutionContext, operation: Here) -> None:
 
 def where(run: ExecutionContext, _: Where) -> None:
     """Tell where the hand is."""
-    run.emit(HandTold(time=run.time, at=place(run.drive.hand())))
+    run.emit(HandTold(time=run.time, at=rounded_place(run.drive.hand())))
 
 
 def load(run: ExecutionContext, operation: Load) -> None:

@@ -23,7 +23,7 @@ from handeye.program.motion_operations import Center, Close, Open
 from handeye.program.operation import Operation
 from handeye.touch.centring import Centring
 from handeye.touch.hold import at_least, at_most, least_gap
-from handeye.touch.senses import FOLLOWED, FREED, followed, stood_still
+from handeye.touch.senses import FREE_OPENING, GAP_ERROR, followed, stood_still
 
 _SHUT: Final = -0.02
 """Set-point of the gap, m, that no thing and no hand reaches: the fingers press with all their grip."""
@@ -38,7 +38,7 @@ def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:
     gap, touch = run.drive.sensed.gap, _touch(run)
     if not followed(gap, operation.gap):
         return _gap_wrong(GapAstray(gap=round(gap, 6), goal=operation.gap))
-    if any(touch) and operation.gap - start > FREED:
+    if any(touch) and operation.gap - start > FREE_OPENING:
         return _switch_wrong(SwitchesClosed(fingers=touch))
     return None
 
@@ -127,7 +127,7 @@ def _begin_to_close(run: ExecutionContext) -> Fault | None:
     run.state.grasping, drive.state.in_air = True, False
     if already or not any(_touch(run)):
         return None
-    _to_gap(run, drive.sensed.gap + FREED)
+    _to_gap(run, drive.sensed.gap + FREE_OPENING)
     drive.hold(run.arm.hand.grasp.settle // 2)
     touch = drive.sensed.touch
     return _switch_wrong(SwitchesClosed(fingers=touch)) if any(touch) else None
@@ -151,7 +151,7 @@ def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
 def _nothing_centred(run: ExecutionContext, least: float) -> Fault:
     """The error of fingers that did not both touch anything: held apart all the same, they touch it unnoticed."""
     gap = run.drive.sensed.gap
-    if at_least(gap, least + FREED):
+    if at_least(gap, least + FREE_OPENING):
         return _switches_open(run)
     return Fault(number=errors.NOTHING_HELD, cause=NothingBetween(gap=round(gap, 6)))
 
@@ -162,7 +162,7 @@ def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault |
     thin = _thick_enough(run, least)
     if thin is not None:
         return thin
-    if not told and at_least(gap, FOLLOWED):
+    if not told and at_least(gap, GAP_ERROR):
         return _switches_open(run)
     if maximum is not None and not at_most(gap, maximum):
         return Fault(number=errors.WRONG_THICKNESS, cause=GapTooLarge(gap=round(gap, 6), maximum=maximum))

@@ -30,7 +30,7 @@ from handeye.program.guards import GuardKind, Guards, unmet
 from handeye.program.motion_operations import Change, Height, Move, Travel, Turn
 from handeye.program.operation import Operation
 from handeye.touch.guards import monitor
-from handeye.touch.senses import STARTING
+from handeye.touch.senses import STARTING_TORQUE
 
 PLAN_TOLERANCE: Final = 1e-4
 """A goal or start nearer than this (m, rad) to its planned value is run as planned."""
@@ -169,7 +169,7 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
     if not guards:
         return None
     kinds, drive = tuple(guard.kind for guard in guards), run.drive.state
-    if GuardKind.TORQUE in kinds and drive.tool and drive.current < STARTING:
+    if GuardKind.TORQUE in kinds and drive.tool and drive.current < STARTING_TORQUE:
         return Fault(number=errors.CURRENT_WRONG, cause=CurrentSilent(torque=round(drive.current, 6)))
     return Fault(number=unmet(guards), cause=GuardsUnmet(guards=kinds))
 

@@ -32,7 +32,7 @@ from handeye.program.causes import (
     JointSensesApart,
 )
 from handeye.touch.guards import ActiveGuard, Monitor, Trip
-from handeye.touch.senses import IN_AIR, off_zero
+from handeye.touch.senses import FREE_FORCE, off_zero
 
 DITHER = 2.0
 """Torque that shakes a joint, over its friction. Chosen: as much again is left to move it."""
@@ -264,7 +264,7 @@ class ServoLoop(Servo):
     def _force_in_air(self) -> Outcome:
         """The error that the last tare is no zero force."""
         x, y, z = (round(float(component), 6) for component in self._unloaded())
-        cause = ForceInAir(force=(x, y, z), limit=IN_AIR, load=self.state.load)
+        cause = ForceInAir(force=(x, y, z), limit=FREE_FORCE, load=self.state.load)
         return Outcome(error=errors.FORCE_WRONG, cause=cause)
 
     def _sensors(self) -> JointAgreement:

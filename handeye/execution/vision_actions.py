@@ -9,7 +9,7 @@ from handeye.core import errors
 from handeye.core.pose import Array, Pose, planar, yaw
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Found, Shot
-from handeye.planning.first_grasp import first_grasp
+from handeye.planning.grasp_state import first_grasp
 from handeye.ports.camera import DIGITISE, Picture, TvCamera
 from handeye.program.causes import NoGeneral, NoPicture, PictureBlank, PictureRepeated
 from handeye.program.events import (

@@ -1,4 +1,4 @@
-"""Collects what the planner finds: each wrong position once, however often it is gone to."""
+"""Collects planning findings, one for each wrong position."""
 
 from dataclasses import dataclass, field
 
@@ -8,21 +8,20 @@ from handeye.program.findings import PlanningFinding
 
 @dataclass(slots=True)
 class FindingList:
-    """Findings in the order of the text."""
+    """Findings in text order, one for each code and position."""
 
-    found: list[PlanningFinding] = field(default_factory=list)
-    _told: set[tuple[str, str]] = field(default_factory=set)
-    """Codes and positions: a wrong position is one mistake."""
+    findings: list[PlanningFinding] = field(default_factory=list)
+    _reported: set[tuple[str, str]] = field(default_factory=set)
 
     def add(self, finding: PlanningFinding) -> None:
-        """Take a finding, unless it is about a position that the same has been found of."""
+        """Add a finding, unless its position has one of that code."""
         if finding.position is not None:
-            if (finding.code, finding.position) in self._told:
+            if (finding.code, finding.position) in self._reported:
                 return
-            self._told.add((finding.code, finding.position))
-        self.found.append(finding)
+            self._reported.add((finding.code, finding.position))
+        self.findings.append(finding)
 
     @property
     def is_fatal(self) -> bool:
-        """There is no plan."""
-        return any(CODES[finding.code].severity == "error" for finding in self.found)
+        """True if there is no plan."""
+        return any(CODES[finding.code].severity == "error" for finding in self.findings)

@@ -1,26 +1,24 @@
-"""The state of the hand, as far as the program tells: how wide it is open, and what it holds."""
+"""The state of the hand as far as the program determines it: gap, and object held."""
 
 from dataclasses import dataclass, field
 
 from handeye.arm.hand import HandModel
 from handeye.core.obb import Box
+from handeye.core.record import Record
 from handeye.program.motion_operations import Center, Close, Move, Open
 from handeye.program.program import Program, Step
 
 
 @dataclass(slots=True)
 class GraspState:
-    """The hand after the steps it has followed; at first closed and empty."""
+    """The hand after a sequence of steps; initially closed and empty."""
 
     program: Program
     hand: HandModel
-    gap: float = 0.0
-    """m; after a grasp the least thickness that the program asks of the thing, for it says no more."""
-    closed_at: str | None = None
-    """The position at which it has closed since it was last opened; empty: none."""
+    gap: float = 0.0  # m; after a grasp, its minimum
+    closed_at: str | None = None  # where it has closed since it was last opened
     held: str | None = None
-    taken: int | None = None
-    """The step by which it is held."""
+    taken: int | None = None  # the step that grasped it
     _goal: str = ""
     _holds: dict[str, str] = field(init=False)
 
@@ -28,7 +26,7 @@ class GraspState:
         self._holds = {at: name for name, held in self.program.held.items() for at in held.positions}
 
     def follow(self, number: int, step: Step) -> None:
-        """Take over what a step does to the hand, and to what is in it."""
+        """Apply a step."""
         match step.operation:
             case Move(goal=goal):
                 self._goal = goal
@@ -43,10 +41,29 @@ class GraspState:
 
     @property
     def fingers(self) -> tuple[Box, ...]:
-        """The hand, as boxes in T."""
+        """The hand as boxes in T."""
         return self.hand.boxes(self.gap)
 
     @property
     def load(self) -> tuple[Box, ...]:
-        """The thing it holds, as boxes in T."""
+        """The object held, as boxes in T."""
         return () if self.held is None else self.program.held[self.held].boxes
+
+
+class FirstGrasp(Record, frozen=True, kw_only=True):
+    """A grasp at a position, with the gap (m) before it."""
+
+    position: str
+    gap: float
+
+
+def first_grasp(program: Program, hand: HandModel, after: int, part: str) -> FirstGrasp | None:
+    """The first grasp at a position of a part after a step, in text order."""
+    state = GraspState(program, hand)
+    for number, step in enumerate(program.steps):
+        gap, grasped = state.gap, state.closed_at is not None
+        state.follow(number, step)
+        position = state.closed_at
+        if number > after and position and not grasped and program.positions[position].of == part:
+            return FirstGrasp(position=position, gap=gap)
+    return None

@@ -1,4 +1,4 @@
-"""The checks of each planned motion: what is in its way, and whether the arm is strong enough for it."""
+"""Checks of each planned motion for collisions and for the arm's strength."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -6,42 +6,135 @@ from typing import Final
 
 import numpy as np
 
+from handeye.arm.dynamics import gravity
 from handeye.arm.friction import MARGIN, faint, felt_friction
-from handeye.arm.kinematics import forward
-from handeye.arm.model import ArmModel
-from handeye.core.pose import Array
+from handeye.arm.kinematics import forward, jacobian
+from handeye.arm.model import ArmModel, constants
+from handeye.core.obb import Box, depths, lowest
+from handeye.core.pose import Array, Pose, inverse, planar
 from handeye.core.record import Vector3
-from handeye.planning.collision import Surroundings, table_crossing
+from handeye.core.units import INCH
 from handeye.planning.findings import FindingList
 from handeye.planning.grasp_state import GraspState
-from handeye.planning.strength import weakness
 from handeye.program.findings import RunsInto, TooFaint, TooHeavy, TooWeak
 from handeye.program.flow_operations import Load
 from handeye.program.guards import Exerted, Guards
 from handeye.program.motion_operations import Change
 from handeye.program.program import Program, Step
 
-SPARSE: Final = 8
-"""One of so many configurations of a motion is checked for what a load asks of the joints."""
+OVERLAP: Final = 0.1 * INCH
+"""Overlap of boxes that is tolerated, m.
+
+The pump's free motions deviate as much from the straight descent: the screwdriver's return is planned .02 in into its
+rack.
+"""
+
+SAME: Final = 1e-6
+"""Depths closer than this are equal, m: of equal ones the first counts, on every processor."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Crossing:
+    """The deepest collision on a motion."""
+
+    what: str | None  # fixture; None: the table
+    depth: float  # m
+    along: float  # m travelled when deepest
+    at_end: bool  # deepest at the end
+
+
+class Obstacles:
+    """The fixtures of a program, box by box."""
+
+    def __init__(self, program: Program) -> None:
+        fixtures = [
+            (name, fixture, box) for name, fixture in program.fixtures.items() for box in fixture.boxes
+        ]
+        self._names = [name for name, _, _ in fixtures]
+        self._boxes = [box for _, _, box in fixtures]
+        frames = [inverse(planar(*fixture.at)) for _, fixture, _ in fixtures]
+        self._X_FW = np.array(frames).reshape(-1, 4, 4)
+
+    def crossing(self, X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
+        """The deepest collision of boxes in T with a fixture over poses, shape (N, 4, 4)."""
+        if not self._boxes or not boxes:
+            return None
+        deep = depths(self._X_FW @ X_WT[:, None], boxes, self._boxes)
+        return _deepest(X_WT, deep.reshape(len(X_WT), -1), self._names * len(boxes), goal)
+
+
+def table_crossing(X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
+    """The deepest collision of boxes in T with the table over poses, shape (N, 4, 4)."""
+    if not boxes:
+        return None
+    deep = np.maximum(-lowest(X_WT, boxes), 0.0)
+    return _deepest(X_WT, deep, [None] * len(boxes), goal)
+
+
+def _deepest(X_WT: Pose, deep: Array, names: Sequence[str | None], goal: bool) -> Crossing | None:
+    """The worst of depths, shape (N, k), without those the motion begins in."""
+    outside = np.logical_or.accumulate(deep <= OVERLAP / 2, axis=0)
+    outside[-1] |= goal
+    entered = np.where(outside & (deep > OVERLAP), deep, 0.0)
+    sample, which = divmod(int(np.argmax(entered >= entered.max() - SAME)), entered.shape[1])
+    if entered[sample, which] == 0.0:
+        return None
+    way = np.linalg.norm(np.diff(X_WT[: sample + 1, :3, 3], axis=0), axis=1)
+    return Crossing(
+        what=names[which], depth=float(entered[sample, which]), along=float(way.sum()),
+        at_end=bool(deep[-1, which] >= entered[sample, which] - OVERLAP),
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Weakness:
+    """A joint, from 0, that limits a force or moment to `most` (N, N m)."""
+
+    joint: int
+    most: float
+
+
+def weakness(
+    arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
+) -> Weakness | None:
+    """The joint that keeps the hand from exerting a force at any of the configurations `q`, or None.
+
+    Args:
+        q: shape (N, n), rad and m.
+        wanted: N, table axes, shape (3,); a moment (N m) if `turning`.
+        weight: additional weight in the hand, N.
+    """
+    size = float(np.linalg.norm(wanted))
+    if size == 0.0:
+        return None
+    J = np.swapaxes(jacobian(arm, q), -1, -2)
+    torque = J[..., 3:] @ wanted if turning else J[..., :3] @ wanted
+    left = constants(arm).effort - np.sign(torque) * (gravity(arm, q) + J[..., 2] * weight)
+    share = np.maximum(left, 0.0) / np.maximum(np.abs(torque), 1e-12)
+    joint = int(np.argmin(share.min(axis=0)))
+    least = float(share.min())
+    return None if least >= 1.0 else Weakness(joint=joint, most=size * least)
+
+
+LOAD_STRIDE: Final = 8  # of the configurations of a motion, every eighth is checked for load
 
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """A force or moment that the hand is to exert on a motion."""
+    """A force or moment to be exerted on a motion; `guard`: a guard waits for it."""
 
     exerted: Exerted
     guard: bool
-    """A guard waits for it."""
 
 
 def to_stop(guards: Guards, along: Vector3 | None = None) -> list[Demand]:
-    """Forces along a vector, and moments about one, that guards wait for in a motion `along` another."""
+    """Demands of guards in a motion `along` a vector."""
     waited = (guard.exerted(along) for guard in guards)
     return [Demand(exerted, guard=True) for exerted in waited if exerted is not None]
 
 
 def to_press(operation: Change) -> list[Demand]:
-    """Force and moment that a straight motion is to press and turn with."""
+    """Demands of a straight motion that presses or turns."""
     both = ((operation.press, False), (operation.moment, True))
     exerted = (Exerted(wanted, turning) for wanted, turning in both if wanted is not None)
     return [Demand(one, guard=False) for one in exerted]
@@ -49,37 +142,36 @@ def to_press(operation: Change) -> list[Demand]:
 
 @dataclass(slots=True)
 class Checks:
-    """Follows a program step by step, and says what it finds."""
+    """Checks a program step by step."""
 
     arm: ArmModel
     program: Program
     findings: FindingList
     _grip: GraspState = field(init=False)
-    _surroundings: Surroundings = field(init=False)
-    _load: tuple[float, int] | None = None
-    """Weight (N), and the step that says so; None once it was found too heavy."""
+    _obstacles: Obstacles = field(init=False)
+    _load: tuple[float, int] | None = None  # weight (N), declaring step
 
     def __post_init__(self) -> None:
         self._grip = GraspState(self.program, self.arm.hand)
-        self._surroundings = Surroundings(self.program)
+        self._obstacles = Obstacles(self.program)
 
     def forget(self) -> None:
-        """The next step is reached by a jump: whatever the hand held, it may hold something else."""
+        """Reset for a step reached by a jump: the hand may hold something else."""
         self._grip, self._load = GraspState(self.program, self.arm.hand), None
 
     def follow(self, number: int, step: Step) -> None:
-        """Take over what a step does to the hand, and to what is in it."""
+        """Apply a step."""
         self._grip.follow(number, step)
         match step.operation:
             case Load(weight=weight):
                 self._load = (weight, number) if weight > 0 else None
 
     def clear(self, number: int, step: Step, q: Array) -> None:
-        """Check that the hand and its load are clear of everything over configurations `q`, shape (N, n)."""
+        """Check that hand and load are clear of obstacles over configurations `q`, shape (N, n)."""
         X_WT, grip, goal = forward(self.arm, q), self._grip, step.operation.goal_position
         for boxes, held in ((grip.fingers, None), (grip.load, grip.held)):
             judged = held is None and goal is not None
-            crossing = table_crossing(X_WT, boxes, goal=judged) or self._surroundings.crossing(
+            crossing = table_crossing(X_WT, boxes, goal=judged) or self._obstacles.crossing(
                 X_WT, boxes, goal=judged
             )
             if crossing is not None:
@@ -93,11 +185,11 @@ class Checks:
                 return  # the worst of a motion is enough
 
     def strong(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Check that the arm holds its load up over configurations `q`, and can exert what is asked at both ends."""
+        """Check that the arm carries its load over configurations `q`, and can exert the demands at both ends."""
         weight = 0.0
         if self._load is not None:
             weight, declared = self._load
-            weak = weakness(self.arm, q[::SPARSE], np.array([0.0, 0.0, weight]))
+            weak = weakness(self.arm, q[::LOAD_STRIDE], np.array([0.0, 0.0, weight]))
             if weak is not None:
                 self._load = None
                 self.findings.add(
@@ -120,7 +212,7 @@ class Checks:
                 return
 
     def told_from_friction(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Check that what guards wait for from a configuration on can be told from the friction expected there."""
+        """Check that guards can be told from the expected friction at the start, `q`."""
         guarded = [demand for demand in demands if demand.guard]
         felt = felt_friction(self.arm, q, np.array(self.arm.compliance.friction)) if guarded else None
         for demand in guarded:

@@ -1,5 +1,4 @@
-"""Motions of each kind. One implementation, two callers: the planner at planned values, and the
-executor when the world is not where the plan thought."""
+"""Motions of each kind, for the planner with planned poses, and for the executor with measured ones."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,18 +19,16 @@ from handeye.program.motion_operations import Change, Move, Turn
 CLEARANCE: Final = 3.0 * INCH
 """Departure and approach height; "a few inches" in 1972, three by recollection (reference D10)."""
 LEAST_CLEARANCE: Final = 0.5 * INCH
-"""Of motions to a place close by, which rise no higher than they go far."""
+"""Minimum, for near places: a motion rises no higher than it goes far."""
 GUARDED_SPEED: Final = 1.0 * INCH
-"""m/s of a straight motion that is to stop on a force. At 1 in/s a 50 oz stop overshoots by a few newtons."""
-FREE_SPEED: Final = 2.0 * INCH
-"""m/s of a straight motion that is not."""
-TURN_SPEED: Final = 30 * DEGREE
-"""rad/s of a motion on a circle."""
+"""m/s of a straight motion that makes contact; at 1 in/s a 50 oz stop overshoots by a few newtons."""
+FREE_SPEED: Final = 2.0 * INCH  # m/s of a straight motion otherwise
+TURN_SPEED: Final = 30 * DEGREE  # rad/s on a circle
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unreachable:
-    """A position that a Move cannot go to, or by way of, and why."""
+    """A position that a Move cannot reach, and why."""
 
     name: str
     why: IKResult
@@ -40,13 +37,13 @@ class Unreachable:
 def move_trajectory(
     arm: ArmModel, q: Array, via: Sequence[Pose], X_WT: Pose, operation: Move, speed: float
 ) -> Trajectory | Unreachable:
-    """The trajectory of a Move from configuration `q` by way of hand poses `via` to `X_WT`, or why there is none."""
+    """The trajectory of a Move from `q` through hand poses `via` to `X_WT`, or why there is none."""
     passed: list[Array] = []
     for name, X_via in zip(operation.via, via, strict=True):
-        found = solve(arm, X_via, passed[-1] if passed else q)
-        if found.q is None:
-            return Unreachable(name=name, why=found)
-        passed.append(found.q)
+        result = solve(arm, X_via, passed[-1] if passed else q)
+        if result.q is None:
+            return Unreachable(name=name, why=result)
+        passed.append(result.q)
     places = [forward(arm, q), *via, X_WT]
     departure, approach = (
         0.0 if operation.direct else _clearance(one, other) for one, other in (places[:2], places[-2:])
@@ -56,18 +53,18 @@ def move_trajectory(
 
 
 def _clearance(X_from: Pose, X_to: Pose) -> float:
-    """Height to rise between two places."""
+    """Height to rise between two places, m."""
     away = float(np.hypot(*(X_to[:2, 3] - X_from[:2, 3])))
     return float(np.clip(away, LEAST_CLEARANCE, CLEARANCE))
 
 
 def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKResult:
-    """Set-points of a Change from configuration `q`, or why there are none."""
+    """Set-points of a Change from `q`, or why there are none."""
     return straight(arm, q, np.array(operation.displacement), change_speed(operation))
 
 
 def change_speed(operation: Change) -> float:
-    """Speed of a Change, m/s: as written, else by whether it feels its way."""
+    """Speed of a Change, m/s."""
     return operation.speed or (GUARDED_SPEED if operation.meets else FREE_SPEED)
 
 

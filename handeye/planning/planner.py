@@ -1,8 +1,7 @@
-"""The planning phase: a program and an arm make a plan. No clock, no randomness, no simulator.
+"""Plans a program for an arm: no clock, no randomness, no simulator.
 
-The planner walks the program in the order of its text, each motion beginning where the one before was planned
-to end. What cannot be reached, held or pressed, or would go through the table or a fixture, is found here and not at
-run time.
+The planner walks the program in text order, each motion beginning where the one before was planned to end. Goals out
+of reach, loads too heavy and collisions are found here and not at run time.
 """
 
 from collections.abc import Callable, Sequence
@@ -29,27 +28,27 @@ from handeye.program.program import Program, Step
 from handeye.program.world_model import WorldModel
 
 SPEED = 0.40
-"""Free motions use this share of the arm's speeds, and its square of the accelerations. Fitted: with the
-invented acceleration limits it makes the whole job take about the four minutes of 1973 (layout study, section
-5); one datum, so no evidence of how slow the real arm was."""
-HOME = "PARK"
-"""The position a program starts from."""
-_LOOK = 2
-"""Servo periods between the places of a free motion at which its surroundings are looked at; under .6 in at the pump's
-speeds."""
+"""Fraction of the arm's rates for free motions; its square applies to accelerations.
+
+Fitted: with the invented acceleration limits it makes the whole job take about the four minutes of 1973 (layout
+study, section 5); one datum, so no evidence of how slow the real arm was.
+"""
+HOME = "PARK"  # the position a program starts from
+_COLLISION_STRIDE = (
+    2  # servo periods between collision checks of a free motion: under .6 in at the pump's speeds
+)
 
 
 def make_plan(
     program: Program, arm: ArmModel, *, task: str, speed: float = SPEED, start: Array | None = None
 ) -> tuple[Plan | None, list[PlanningFinding]]:
-    """The plan of a program for an arm, and what is found against it. There is none if any of that is an error.
+    """The plan of a program for an arm, None if there are errors, and the findings.
 
-    A position that only a `HERE` defines is in the plan where the hand is planned to be then.
+    A position that only a `HERE` defines has the pose planned for it.
 
     Args:
         task: name of the task that the plan is for.
-        start: where the arm stands when the program begins, shape (n,), rad and m; by default at `HOME`, or at
-            the first goal of a program that has none.
+        start: initial configuration, shape (n,), rad and m; by default at `HOME`, else at the first goal.
     """
     findings = FindingList()
     walk = _Walk(
@@ -58,13 +57,13 @@ def make_plan(
     )  # fmt: skip
     walk.go(start)
     if findings.is_fatal:
-        return None, findings.found
+        return None, findings.findings
     positions = {**walk.world.state.moved, **program.positions}
     plan = Plan(
         task=task, arm=arm.name, arm_digest=digest(arm), speed=speed, motions=walk.motions,
         program=msgspec.structs.replace(program, positions=positions),
     )  # fmt: skip
-    return plan, findings.found
+    return plan, findings.findings
 
 
 @dataclass(slots=True, kw_only=True)
@@ -72,13 +71,12 @@ class _Walk:
     program: Program
     arm: ArmModel
     speed: float
-    world: WorldModel
-    """Nothing in it is measured; what has moved in it, a `HERE` has defined."""
+    world: WorldModel  # nothing measured; moved by `HERE` only
     findings: FindingList
     checks: Checks
     q: Array = field(init=False)
     known: bool = True
-    """The arm is where `q` says; False behind a jump, and behind a motion that cannot be made."""
+    """False after a jump, and after a motion that cannot be made: `q` is not the arm's configuration."""
     motions: dict[int, PlannedMotion] = field(default_factory=dict)
 
     def go(self, start: Array | None) -> None:
@@ -115,7 +113,7 @@ class _Walk:
         self.world.state.moved[name] = self.world.seen_from(of, forward(self.arm, self.q))
 
     def _start(self) -> None:
-        """Begin at the rest position, or at the first goal of a program that has none."""
+        """Begin at `HOME`, or at the first goal of a program without it."""
         known = self.program.positions
         led_to = (step.operation.goal_position for step in self.program.steps)
         goals = [goal for goal in led_to if goal in known]
@@ -148,7 +146,7 @@ class _Walk:
         knots = tuple(_joints(q) for q in trajectory.knots)
         self.motions[number] = PlannedMotion(knots=knots, times=tuple(float(t) for t in trajectory.times))
         begin = 0.0 if self.known else float(trajectory.times[:-1].sum())  # the approach is always that one
-        count = 2 + int((trajectory.duration - begin) / (_LOOK * self.arm.servo.period))
+        count = 2 + int((trajectory.duration - begin) / (_COLLISION_STRIDE * self.arm.servo.period))
         q = trajectory.at(np.linspace(begin, trajectory.duration, count)).q
         if not operation.guards:
             self.checks.clear(number, step, q)
@@ -159,7 +157,7 @@ class _Walk:
     def _sampled(
         self, number: int, step: Step, samples: Samples | IKResult, guarded: bool, demands: Sequence[Demand]
     ) -> None:
-        """A motion of which every set-point is there; a guarded one is meant to meet something."""
+        """A motion given by all its set-points; a guarded one should make contact."""
         if isinstance(samples, IKResult):
             if self.known:
                 self._no_configuration(number, None, samples)
@@ -176,7 +174,7 @@ class _Walk:
         self.q = q[-1]
 
     def _no_configuration(self, number: int, position: str | None, failure: IKResult) -> None:
-        """Tell why there are no joint positions for a position, or somewhere on the way of a motion."""
+        """Report a position, or a motion, without joint positions."""
         assert failure.reason is not None
         about = position if failure.along is None else None
         self.findings.add(
@@ -189,8 +187,7 @@ _PLANNED: Final[dict[type[Operation], Callable[[_Walk, int, Step, Any], None]]] 
     Change: _Walk.change,
     Turn: _Walk.turn,
     Here: _Walk.define,
-}
-"""The planner's methods for steps that move the arm, or that ask where it is."""
+}  # steps that move the arm, or need its pose
 
 
 def _joints(q: Array) -> Joints:

@@ -1,4 +1,4 @@
-"""From text to plan: a script compiled by its language, planned for an arm, and all there is to say about it."""
+"""Compiles and plans scripts."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ from handeye.program.taught import Taught
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannedScript:
-    """The plan that the planning phase has made of a text, and its diagnostics."""
+    """The plan of a text, and its diagnostics."""
 
     source: Source
     plan: Plan | None
@@ -42,9 +42,6 @@ def plan_source(
 def plan_program(
     program: Program, arm: ArmModel, language: Language, *, task: str = "", start: Array | None = None
 ) -> tuple[Plan | None, list[Diagnostic]]:
-    """The plan of a program, and what the planner says in the words of its language.
-
-    `task` may be left out where only the diagnostics are wanted.
-    """
+    """The plan of a program, with diagnostics in the words of its language; `task` is needed for the plan only."""
     plan, findings = make_plan(program, arm, task=task, start=start)
     return plan, language.phrase(program, arm, findings)

@@ -1,26 +1,25 @@
-"""Sentences for causes: the one place that makes them, in inches."""
+"""Sentences for causes, in period units."""
 
 from typing import assert_never
 
 from handeye.core.errors import ERRORS
 from handeye.core.plain_text import told_apart
-from handeye.core.units import INCH, OUNCE_FORCE, OUNCE_INCH
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program import causes as c
 from handeye.program.causes import Cause
-from handeye.program.doubt_text import doubt_sentence, touching_fingers
 from handeye.program.guards import GuardKind
 from handeye.program.reason_text import sentence as reason_sentence
 
 
 def error_sentence(number: int, cause: Cause | None) -> str:
-    """An error for people, and in brackets what led to it this time."""
+    """The meaning of an error, with its cause in brackets."""
     meaning = ERRORS.get(number, "an error")
     words = "" if cause is None else cause_sentence(cause)
     return f"{meaning} ({words})" if words else meaning
 
 
 def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
-    """A call of the operator for people: the program's own message, if it has one."""
+    """A call of the operator: the program's own message, or the error, or the cause."""
     if message:
         return message
     if error is not None:
@@ -29,7 +28,7 @@ def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
 
 
 def cause_sentence(cause: Cause) -> str:
-    """A cause for people; empty if the meaning of its error says all."""
+    """The sentence of a cause; empty if its error's meaning says it all."""
     match cause:
         case c.BeyondArm():
             goal = f"{cause.goal}: " if cause.goal else ""
@@ -90,7 +89,7 @@ def cause_sentence(cause: Cause) -> str:
 
 
 def inspection_sentence(cause: c.InspectionCause | c.Recorded | None) -> str:
-    """Outcome of an inspection for people; None: all is well."""
+    """The result of an inspection; None is a pass."""
     match cause:
         case None:
             return "the gasket is on properly"
@@ -104,7 +103,7 @@ def inspection_sentence(cause: c.InspectionCause | c.Recorded | None) -> str:
 
 
 def match_sentence(off: float, unlike: float) -> str:
-    """What two pictures of a part tell, for people: how far it has moved (m), and what share of it looks otherwise."""
+    """The result of a match: displacement (m), and the fraction that looks different."""
     return f"moved by {_inches(off)} against what is around it; {100 * unlike:.0f} % of it looks otherwise"
 
 
@@ -140,10 +139,10 @@ def _met_early(cause: c.MetEarly) -> str:
     gap, kept = _apart(cause.gap, cause.kept)
     then = "held something" if cause.holding else "stood"
     touching = f"{touching_fingers(cause.fingers)} something at {gap} in already"
-    told = f"{touching}; when the step was executed the fingers {then} at {kept} in"
+    sentence = f"{touching}; when the step was executed the fingers {then} at {kept} in"
     if all(cause.fingers) or not cause.holding:
-        return told
-    return f"{told}: it lies {_inches((cause.gap - cause.kept) / 2)} off the middle of the hand"
+        return sentence
+    return f"{sentence}: it lies {_inches((cause.gap - cause.kept) / 2)} off the middle of the hand"
 
 
 def _not_found(cause: c.SightCause) -> str:
@@ -174,9 +173,69 @@ def _hole(fault: c.BaseHoleUnseen | c.GasketHoleUnseen | c.GasketHoleOff) -> str
 
 
 def _apart(*lengths: float, decimals: int = 2) -> list[str]:
-    """Lengths that are compared, in inches."""
+    """Lengths to be compared, in inches."""
     return told_apart([length / INCH for length in lengths], decimals)
 
 
 def _inches(length: float) -> str:
     return f"{length / INCH:z.2f} in"
+
+
+_FINGERS = ("+y", "-y")  # by side of the hand, in switch order
+
+
+def doubt_sentence(cause: c.SenseCause) -> str:
+    """Why a sensor is not believed, in inches, degrees and ounces."""
+    match cause:
+        case c.SwitchesClosed():
+            return f"{_switches(cause.fingers)} closed although the fingers are open"
+        case c.SwitchesOpen():
+            held = f"something {_inches(cause.gap)} thick holds the fingers apart"
+            return f"{_switches(cause.fingers)} open although {held}"
+        case c.GapAstray():
+            return f"the gap reads {_inches(cause.gap)}; the fingers were driven to {_inches(cause.goal)}"
+        case c.GapStill():
+            driven = f"the fingers were driven together by {_inches(cause.driven)}"
+            return f"the gap still reads {_inches(cause.gap)}; {driven}"
+        case c.ForceInAir():
+            return _in_air(cause)
+        case c.JointSensesApart():
+            pot, tachometer = (_way(cause.joint, way) for way in (cause.potentiometer, cause.tachometer))
+            ways = f"{cause.joint.name} has gone {pot} by its potentiometer, {tachometer} by its tachometer"
+            return f"{ways}, under its brake: or the brake slips" if cause.braked else ways
+        case c.CurrentSilent():
+            return f"it showed {cause.torque / OUNCE_INCH:.1f} oz-in at most, less than it takes to start"
+        case c.PictureRepeated():
+            return f"picture {cause.picture} is the same as {cause.earlier}, point by point"
+        case c.PictureBlank():
+            return f"picture {cause.picture} is of one intensity all over"
+    assert_never(cause)
+
+
+def touching_fingers(fingers: tuple[bool, bool]) -> str:
+    """Fingers, with the verb `touch`."""
+    named = _named(fingers)
+    return f"the {named[0]} finger touches" if len(named) == 1 else "both fingers touch"
+
+
+def _switches(fingers: tuple[bool, bool]) -> str:
+    """Switches of fingers, with their verb."""
+    named = _named(fingers)
+    if len(named) == 1:
+        return f"the switch of the {named[0]} finger is"
+    return "the switches of both fingers are"
+
+
+def _named(fingers: tuple[bool, bool]) -> list[str]:
+    return [finger for finger, meant in zip(_FINGERS, fingers, strict=True) if meant]
+
+
+def _in_air(cause: c.ForceInAir) -> str:
+    components = zip("xyz", cause.force, strict=True)
+    felt = ", ".join(f"{force / OUNCE_FORCE:z.0f} oz in {axis}" for axis, force in components)
+    allowed, load = (f"{force / OUNCE_FORCE:.0f} oz" for force in (cause.limit, cause.load))
+    return f"{felt}; allowed: {allowed}; declared load: {load}"
+
+
+def _way(joint: c.JointName, way: float) -> str:
+    return _inches(way) if joint.kind == "prismatic" else f"{way / DEGREE:z.1f} degrees"

@@ -1,7 +1,4 @@
-"""Causes of errors and of calls of the operator: facts, which `handeye.program.cause_text` puts into words.
-
-SI units.
-"""
+"""Causes of errors and of operator calls, as facts in SI units; `cause_text` words them."""
 
 from typing import Literal
 
@@ -10,8 +7,7 @@ from handeye.program.guards import GuardKind
 from handeye.program.reason_text import NamedArm
 from handeye.program.reasons import Reason
 
-LargeHole = Literal["largest", "second"]
-"""The holes by which vision locates a part."""
+LargeHole = Literal["largest", "second"]  # holes that vision locates a part by
 
 
 class CauseRecord(Record, frozen=True, kw_only=True, tag_field="cause", tag=True):
@@ -22,14 +18,14 @@ class CauseRecord(Record, frozen=True, kw_only=True, tag_field="cause", tag=True
 
 
 class JointName(Record, frozen=True, kw_only=True):
-    """A joint, as people are told of it."""
+    """Name and kind of a joint."""
 
     name: str
     kind: str
 
 
 class ArmNames(Record, frozen=True, kw_only=True):
-    """An arm, as people are told of it."""
+    """Names of an arm and its joints."""
 
     name: str
     joints: tuple[JointName, ...]
@@ -42,15 +38,14 @@ class ArmNames(Record, frozen=True, kw_only=True):
 
 
 class BeyondArm(CauseRecord, frozen=True, kw_only=True):
-    """The arm cannot be there, or not go there."""
+    """The arm cannot reach a pose, or cannot move there; `goal` is the position's name, if it has one."""
 
     goal: str = ""
-    """The position that it cannot go to, if it is one with a name."""
     reason: Reason
     arm: ArmNames
 
     def __post_init__(self) -> None:
-        """Raises ValueError if it tells of a joint that the arm does not have."""
+        """Raises ValueError for a joint that the arm does not have."""
         if not all(0 <= joint < len(self.arm.joints) for joint in self.reason.named_joints):
             raise ValueError(f"the {self.arm.name} arm has {len(self.arm.joints)} joints")
 
@@ -68,7 +63,7 @@ class HandAstray(CauseRecord, frozen=True, kw_only=True):
 
 
 class HandStuck(CauseRecord, frozen=True, kw_only=True):
-    """The hand moved only so far while it pressed."""
+    """The hand moved only this far (m) while it pressed."""
 
     moved: float
 
@@ -80,7 +75,7 @@ class GuardsUnmet(CauseRecord, frozen=True, kw_only=True):
 
 
 class TravelOutside(CauseRecord, frozen=True, kw_only=True):
-    """The last straight motion did not go as far as it should, or farther."""
+    """The last straight motion was too short or too long (m)."""
 
     travel: float
     minimum: float
@@ -88,7 +83,7 @@ class TravelOutside(CauseRecord, frozen=True, kw_only=True):
 
 
 class HeightOutside(CauseRecord, frozen=True, kw_only=True):
-    """The hand stands too high over where a difference was saved, or too low."""
+    """The hand is too high or too low (m) over where a difference was saved."""
 
     name: str
     height: float
@@ -97,7 +92,7 @@ class HeightOutside(CauseRecord, frozen=True, kw_only=True):
 
 
 class HeightUnknown(CauseRecord, frozen=True, kw_only=True):
-    """The difference that a height should be compared with was not saved."""
+    """The difference to compare a height with was not saved."""
 
     name: str
 
@@ -106,14 +101,14 @@ class HeightUnknown(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapTooSmall(CauseRecord, frozen=True, kw_only=True):
-    """The gap of the closed fingers is below the minimum."""
+    """The gap (m) of the closed fingers is below the minimum."""
 
     gap: float
     minimum: float
 
 
 class GapTooLarge(CauseRecord, frozen=True, kw_only=True):
-    """The gap of the closed fingers is above the maximum."""
+    """The gap (m) of the closed fingers is above the maximum."""
 
     gap: float
     maximum: float
@@ -129,70 +124,67 @@ class NothingBetween(CauseRecord, frozen=True, kw_only=True):
 
 
 class SwitchesClosed(CauseRecord, frozen=True, kw_only=True):
-    """Finger switches are closed although the fingers have gone apart."""
+    """Finger switches are closed although the fingers have been opened; `fingers` are those, as `Sensed.touch`."""
 
     fingers: tuple[bool, bool]
-    """As `Sensed.touch`: those that are closed."""
 
 
 class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
-    """Finger switches are open although something holds the fingers apart that are driven shut."""
+    """Switches of `fingers` are open although something holds the driven fingers apart at `gap` (m)."""
 
     fingers: tuple[bool, bool]
-    """Those that are open."""
     gap: float
 
 
 class GapAstray(CauseRecord, frozen=True, kw_only=True):
-    """The gap is not what the fingers were driven to."""
+    """The gap (m) is not what the fingers were driven to."""
 
     gap: float
     goal: float
 
 
 class GapStill(CauseRecord, frozen=True, kw_only=True):
-    """The gap reads the same while the fingers are driven together."""
+    """The gap (m) reads the same after the fingers were driven together by `driven` (m)."""
 
     gap: float
     driven: float
-    """By how much, m."""
 
 
 class ForceInAir(CauseRecord, frozen=True, kw_only=True):
-    """The force on the hand, before any tare, where it should touch nothing."""
+    """The hand feels a force (N, table axes, no tare) where it should touch nothing; `load` is the declared weight."""
 
     force: Vector3
-    """N, table coordinates."""
     limit: float
     load: float
-    """Weight that was declared, N."""
 
 
 class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
-    """Ways of a joint since the motion began, by its two sensors."""
+    """Displacements of a joint since the motion began, by its two sensors, disagree.
+
+    `braked`: measured since the brakes were set, so a brake may be slipping.
+    """
 
     joint: JointName
     potentiometer: float
     tachometer: float
     braked: bool = False
-    """Since the brakes were set: then it may be a brake that slips."""
 
 
 class CurrentSilent(CauseRecord, frozen=True, kw_only=True):
-    """The greatest torque that the motor's current showed while the screwdriver ran."""
+    """The screwdriver ran, and its motor current showed at most this torque (N m)."""
 
     torque: float
 
 
 class PictureRepeated(CauseRecord, frozen=True, kw_only=True):
-    """A picture is the same as an earlier one, point by point."""
+    """A picture equals an earlier one, pixel by pixel."""
 
     picture: str
     earlier: str
 
 
 class PictureBlank(CauseRecord, frozen=True, kw_only=True):
-    """A picture is of one intensity all over."""
+    """A picture has one intensity all over."""
 
     picture: str
 
@@ -201,13 +193,13 @@ class PictureBlank(CauseRecord, frozen=True, kw_only=True):
 
 
 class NoPicture(CauseRecord, frozen=True, kw_only=True):
-    """The picture to be looked at was not taken."""
+    """The picture to be examined was not taken."""
 
     picture: str
 
 
 class NoGeneral(CauseRecord, frozen=True, kw_only=True):
-    """The part was not found roughly before it was to be located by its holes."""
+    """The part was not located roughly before it was to be located by its holes."""
 
 
 class NoOutline(CauseRecord, frozen=True, kw_only=True):
@@ -215,17 +207,17 @@ class NoOutline(CauseRecord, frozen=True, kw_only=True):
 
 
 class OutsidePicture(CauseRecord, frozen=True, kw_only=True):
-    """The part is not in the field of the close picture."""
+    """The part is outside the close picture."""
 
 
 class NoHoles(CauseRecord, frozen=True, kw_only=True):
-    """The two largest holes of the part are not among the dark blobs that were found."""
+    """The part's two largest holes are not among the dark blobs."""
 
     blobs: int
 
 
 class NoGasket(CauseRecord, frozen=True, kw_only=True):
-    """The picture after shows nothing new where the gasket should be."""
+    """The later picture shows nothing new where the gasket should be."""
 
 
 class HoleFault(Record, frozen=True, kw_only=True, tag_field="fault", tag=True):
@@ -239,28 +231,26 @@ class BaseHoleUnseen(HoleFault, frozen=True, kw_only=True):
 
 
 class GasketHoleUnseen(HoleFault, frozen=True, kw_only=True):
-    """The gasket's hole is not found in what the picture after has more."""
+    """The gasket's hole is not found in the difference picture."""
 
 
 class GasketHoleOff(HoleFault, frozen=True, kw_only=True):
-    """The gasket's hole is not where the base's is."""
+    """The gasket's hole is off the base's by `off` (m)."""
 
     off: float
 
 
 class GasketWrong(CauseRecord, frozen=True, kw_only=True):
-    """There is a gasket, and it does not lie as it should."""
+    """A gasket is present but lies wrong."""
 
     faults: tuple[BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff, ...]
 
 
 class PartAstray(CauseRecord, frozen=True, kw_only=True):
-    """The part does not stand in the later picture as in the earlier one."""
+    """A part has moved by `off` (m) against its surroundings; a fraction `unlike` of it looks different."""
 
     off: float
-    """By how much it has moved against what is around it, m."""
     unlike: float
-    """Share of it, from 0 to 1, that looks otherwise."""
 
 
 # -- the program ------------------------------------------------------------------------------------
@@ -271,80 +261,69 @@ class NoSearch(CauseRecord, frozen=True, kw_only=True):
 
 
 class PlacesTried(CauseRecord, frozen=True, kw_only=True):
-    """The search has been at all its places."""
+    """The search has tried all its places; `around` is the position it started from, if it has a name."""
 
     places: int
     around: str = ""
-    """The position that it went out from, if it has moved to one."""
 
 
 class Looping(CauseRecord, frozen=True, kw_only=True):
-    """The program runs in a circle in which no time passes."""
+    """The program loops without time passing; `place` is the line, as `12` or `pins.al:12`."""
 
     place: str
-    """Its line, as people are told: `12`, or `pins.al:12`."""
 
 
 # -- undoing ----------------------------------------------------------------------------------------
 
 
 class UndoResisted(CauseRecord, frozen=True, kw_only=True):
-    """While the arm undid a step, the hand felt more force (N) than it may."""
+    """The hand felt more than the allowed force (N) while a step was reversed."""
 
     force: float
     limit: float
 
 
 class HoldOff(CauseRecord, frozen=True, kw_only=True):
-    """The fingers stand at another gap (m) than when the step was executed."""
+    """The gap (m) differs from `kept`, the gap when the step was executed."""
 
     gap: float
     kept: float
-    """As it was then."""
     holding: bool
-    """They held something then."""
 
 
 class MetEarly(CauseRecord, frozen=True, kw_only=True):
-    """Fingers that closed met something at a wider gap (m) than when the step was executed."""
+    """Closing fingers touched at a wider gap (m) than `kept`, the gap when the step was executed."""
 
     fingers: tuple[bool, bool]
-    """Those that touch it, as `Sensed.touch`."""
     gap: float
     kept: float
-    """As it was then."""
     holding: bool
-    """They held something then."""
 
 
 class ScrewFast(CauseRecord, frozen=True, kw_only=True):
-    """The driver turned left on a screw, and it did not come out."""
+    """The driver turned left, at most at this torque (N m), and the screw rose only `risen` (m)."""
 
     torque: float
-    """The most that the driver has shown, N m."""
     risen: float
-    """m"""
 
 
 class ScrewLost(CauseRecord, frozen=True, kw_only=True):
-    """A screw that was turned out has not come along to where it was taken: nothing bears the hand there."""
+    """A screw was not carried along: going down `way` (m), the hand did not meet `force` (N)."""
 
     way: float
-    """That the hand goes down, m."""
     force: float
-    """That it does not meet, N."""
 
 
 class BackingOut(CauseRecord, frozen=True, kw_only=True):
-    """In the step the driver turned left; that is not undone."""
+    """The step turned a screw out, which is not reversed."""
 
 
 class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
-    """What the step has left cannot be used."""
+    """The record that the step left for its reversal cannot be used."""
 
 
 class Recorded(CauseRecord, frozen=True, kw_only=True):
-    """Words that an older handeye recorded where there is a fact today."""
+    """A cause recorded as words by an older version."""
 
     words: str
 
@@ -355,14 +334,10 @@ SenseCause = (
     SwitchesClosed | SwitchesOpen | GapAstray | GapStill | ForceInAir | JointSensesApart | CurrentSilent
     | PictureRepeated | PictureBlank
 )  # fmt: skip
-"""Causes for which a sense is not believed."""
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
-"""Causes for which the arm does not go on undoing what it did."""
 InspectionCause = NoGasket | GasketWrong
-"""Causes for which a part does not pass its inspection."""
 Cause = (
     BeyondArm | JointBehind | HandAstray | HandStuck | GuardsUnmet | TravelOutside | HeightOutside | HeightUnknown
     | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause | InspectionCause
     | PartAstray | NoSearch | PlacesTried | Looping | UndoCause | Recorded
 )  # fmt: skip
-"""All there are."""

@@ -1,4 +1,4 @@
-"""Findings of the planner against a program: facts in SI units, each at a step. A language puts them into its words."""
+"""Planning findings: facts in SI units, each at a step; a language words them."""
 
 from dataclasses import dataclass
 
@@ -14,18 +14,15 @@ from handeye.program.reasons import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NoConfiguration:
-    """There are no joint positions for a goal, or for the way to it."""
+    """No joint positions exist for a goal, or at a distance `along` (m) on the way to it."""
 
     step: int
-    position: str | None
-    """The goal, or what the motion is led by; None: it is about the motion."""
+    position: str | None  # the goal or via point; None: the finding is about the motion
     reason: Reason
     along: float | None = None
-    """How far along the way of the hand it is, m; None: at the position."""
 
     @property
     def code(self) -> str:
-        """Code of its diagnostic."""
         on_the_way = self.along is not None
         match self.reason:
             case JointLimit():
@@ -41,94 +38,74 @@ class NoConfiguration:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GoalBelowTable:
-    """A goal is below the table top."""
+    """A goal is `depth` (m) below the table top."""
 
     step: int
     position: str
     depth: float
-    """m"""
     code: str = "hand-through-table"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunsInto:
-    """The hand, or what it holds, would go through something."""
+    """The hand, or what it holds, would pass through a fixture or the table."""
 
     step: int
-    position: str | None
-    """The goal, if it is there that it is deepest."""
-    fixture: str | None
-    """None: the table."""
-    depth: float
-    """How deep at most, m."""
-    along: float
-    """How far the hand has gone when it is deepest, m."""
-    at_end: bool
-    """It is deepest at the end of the motion."""
-    held: str | None
-    """Name of what the hand holds and leads there; None: the hand itself."""
-    grasp: int | None
-    """The step that took it."""
+    position: str | None  # the goal, if deepest there
+    fixture: str | None  # None: the table
+    depth: float  # m, at most
+    along: float  # m travelled when deepest
+    at_end: bool  # deepest at the end of the motion
+    held: str | None  # what the hand holds there; None: the hand itself
+    grasp: int | None  # the step that grasped it
 
     @property
     def code(self) -> str:
-        """Code of its diagnostic."""
         who = "hand" if self.held is None else "carries"
         return f"{who}-through-{'table' if self.fixture is None else 'fixture'}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TooHeavy:
-    """A load cannot be held up on a motion."""
+    """A load of `weight` (N) cannot be held up; `joint`, from 0, fails first, at `most` (N)."""
 
     step: int
     weight: float
-    """N"""
-    declared: int
-    """The step that says what the load weighs."""
+    declared: int  # the step that declares the load
     joint: int
-    """The one that gives out first, from 0."""
     most: float
-    """The most that could be held up, N."""
     position: None = None
     code: str = "load-beyond-arm"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TooWeak:
-    """A force or moment that the hand is to exert, or that a guard waits for, is beyond the arm."""
+    """A force or moment is beyond the arm; `joint`, from 0, fails first, at `most` (N, N m)."""
 
     step: int
     exerted: Exerted
-    guard: bool
-    """A guard waits for it, and would never be met."""
+    guard: bool  # a guard waits for it, and can never trip
     joint: int
-    """The one that gives out first, from 0."""
     most: float
-    """How large it could be, N or N m."""
     position: None = None
 
     @property
     def code(self) -> str:
-        """Code of its diagnostic."""
         return "stop-beyond-arm" if self.guard else "force-beyond-arm"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TooFaint:
-    """A guard waits for a force or moment that is hard to tell from the friction expected of the joints."""
+    """A guard's threshold is hard to tell from joint friction, felt there as `friction` (N, N m)."""
 
     step: int
     exerted: Exerted
     friction: float
-    """What friction can be felt as there, N or N m."""
-    margin: float
-    """So many times that would be clear of it."""
+    margin: float  # multiple of `friction` that would be clear of it
     position: None = None
 
     @property
     def code(self) -> str:
-        """Code of its diagnostic."""
         return "faint-moment" if self.exerted.turning else "faint-force"
 
 

@@ -1,4 +1,4 @@
-"""Operations of search, errors, counters and memory, and those that call for load, tool or operator."""
+"""Operations on searches, errors, counters and memory, and on load, tool and operator."""
 
 from typing import ClassVar, Self
 
@@ -9,9 +9,9 @@ from handeye.program.operation import Branch, Operation, action
 
 
 class Search(Operation, frozen=True, kw_only=True):
-    """Set up a search with this step (m) and at most `limit` places, of which the present one is the first.
+    """Set up a search with this step (m) and at most `limit` places, the first being the present one.
 
-    The places lie on a square spiral; or on a line, if it is `along` a direction (rad from the table's x).
+    The places lie on a square spiral, or on a line if it is `along` a direction (rad from table x).
     """
 
     family: ClassVar = "search"
@@ -32,9 +32,9 @@ class Advance(Operation, frozen=True, kw_only=True):
 
 
 class Test(Operation, frozen=True, kw_only=True):
-    """Ask whether the last action raised an error, and clear it.
+    """Test whether the last action raised an error, and clear it.
 
-    `raised`: next step when error `number` was raised (None ends the program); otherwise the step's `next`.
+    `raised`: next step if error `number` was raised (None ends the program).
     """
 
     __test__ = False
@@ -46,11 +46,9 @@ class Test(Operation, frozen=True, kw_only=True):
 
     @property
     def branch(self) -> Branch | None:
-        """The other way."""
         return Branch(self.raised, error=self.number)
 
     def leading_to(self, target: int | None) -> Self:
-        """The same with another target of its branch."""
         return replace(self, raised=target)
 
 
@@ -67,7 +65,7 @@ class Assign(Operation, frozen=True, kw_only=True):
 class Countdown(Operation, frozen=True, kw_only=True):
     """Subtract one from a counter (SOJG).
 
-    `positive`: next step while it is still positive (None ends the program); otherwise the step's `next`.
+    `positive`: next step while it is positive (None ends the program).
     """
 
     branches: ClassVar = True
@@ -79,23 +77,21 @@ class Countdown(Operation, frozen=True, kw_only=True):
 
     @property
     def branch(self) -> Branch | None:
-        """The other way."""
         return Branch(self.positive, counter=self.counter)
 
     def leading_to(self, target: int | None) -> Self:
-        """The same with another target of its branch."""
         return replace(self, positive=target)
 
 
 class Jump(Operation, frozen=True, kw_only=True):
-    """Go on elsewhere (the step's `next`)."""
+    """Continue at the step's `next`."""
 
 
 class Save(Operation, frozen=True, kw_only=True):
-    """Keep the difference actual minus goal of the last Move; after Center only its part along the finger line.
+    """Save the difference actual minus goal of the last Move; after Center only its part along the finger line.
 
-    What a Restore of the same name had added to that goal counts to the difference, so that saving again under
-    one name follows a datum that moves.
+    A Restore of the same name in that goal counts to the difference, so that saving again under one name
+    follows a datum that moves.
     """
 
     family: ClassVar = "search"
@@ -106,7 +102,7 @@ class Save(Operation, frozen=True, kw_only=True):
 
 
 class Here(Operation, frozen=True, kw_only=True):
-    """Define a position as where the hand is; one that belongs to a part keeps to it."""
+    """Define a position as the present hand pose, relative to its part if it has one."""
 
     writing: ClassVar = {"position": ("position",)}
 
@@ -114,22 +110,21 @@ class Here(Operation, frozen=True, kw_only=True):
 
 
 class Where(Operation, frozen=True, kw_only=True):
-    """Tell where the hand is."""
+    """Show the hand pose."""
 
 
 class Wait(Operation, frozen=True, kw_only=True):
-    """Stop, set the brakes, tell the operator."""
+    """Stop, set the brakes and call the operator."""
 
     message: str
 
     @property
     def calls(self) -> str:
-        """The message: the operator is always called."""
         return self.message
 
 
 class Undo(Operation, frozen=True, kw_only=True):
-    """Have the arm undo its stage and begin it anew; when that was done `times` since the stage began, go on."""
+    """Reverse the stage and start it anew; after `times` reversals since the stage began, go on."""
 
     bounds: ClassVar = {"times": (1, 100)}
 
@@ -137,12 +132,11 @@ class Undo(Operation, frozen=True, kw_only=True):
 
     @property
     def undoes(self) -> int:
-        """How often."""
         return self.times
 
 
 class Load(Operation, frozen=True, kw_only=True):
-    """Declare the weight (N) of what the hand carries, so that the servo compensates it."""
+    """Declare the weight (N) in the hand, for the servo to compensate."""
 
     bounds: ClassVar = {"weight": (-1e3, 1e3)}
 

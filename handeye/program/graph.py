@@ -1,4 +1,4 @@
-"""The steps of a program as a graph: what leads where, what comes before what."""
+"""The steps of a program as a directed graph."""
 
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -9,22 +9,21 @@ from handeye.program.operation import Operation
 from handeye.program.program import Step
 
 A = TypeVar("A", bound=Operation)
-FAR: Final = 100
-"""The most steps that are searched for what was done last."""
+MAX_SEARCHED: Final = 100  # steps
 
 
 @dataclass(frozen=True, slots=True)
 class Graph:
-    """Steps by number, and the steps each can lead to; None is the end of the program."""
+    """Steps by number, with successors, predecessors, numbers by kind of operation, and the reachable ones.
+
+    A successor None is the end of the program.
+    """
 
     steps: Sequence[Step]
     onward: list[tuple[int | None, ...]] = field(init=False)
     back: list[list[int]] = field(init=False)
-    """Steps that lead to each."""
     kinds: dict[type[Operation], list[int]] = field(init=False)
-    """Steps with each kind of operation."""
     reached: set[int] = field(init=False)
-    """Steps that can be reached."""
 
     def __post_init__(self) -> None:
         kinds: dict[type[Operation], list[int]] = {}
@@ -46,44 +45,44 @@ class Graph:
         object.__setattr__(self, "reached", reachable([0] if self.steps else [], onward))
 
     def which(self, *kinds: type[Operation]) -> list[int]:
-        """The steps whose operation is of one of these kinds, in order."""
+        """Steps with operations of these kinds, in order."""
         return sorted(number for kind in kinds for number in self.kinds.get(kind, ()))
 
     def each(self, kind: type[A]) -> Iterator[tuple[int, A]]:
-        """The steps whose operation is of a kind, in order, with it."""
+        """Steps with operations of a kind, in order."""
         for number in self.kinds.get(kind, ()):
             operation = self.steps[number].operation
             if isinstance(operation, kind):
                 yield number, operation
 
     def at(self, number: int | None, kind: type[A]) -> A | None:
-        """The operation of a step, if it is of a kind; of no step, there is none."""
+        """The operation of a step if it is of a kind, else None."""
         operation = None if number is None else self.steps[number].operation
         return operation if isinstance(operation, kind) else None
 
     def actions(self) -> list[int]:
-        """The steps that can raise an error, or clear it."""
+        """Steps that can raise an error, or clear it."""
         return self.which(*(kind for kind in self.kinds if kind.raising))
 
     def after(self, numbers: Iterable[int]) -> set[int]:
-        """The steps that can come, sooner or later, after one of these."""
+        """Steps that can follow, directly or not."""
         return reachable([target for number in numbers for target in self.onward[number]], self.onward)
 
     def before(self, numbers: Iterable[int]) -> set[int]:
-        """The steps after which, sooner or later, one of these can come."""
+        """Steps that can precede, directly or not."""
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """The steps of these kinds that can be the last before a step; none if the step can come without one of them.
+        """Steps of these kinds that can be the last before a step; none if the step can come without one of them.
 
-        None either if the search looks at more than `FAR` steps. Steps that cannot be reached do not count.
+        None either after looking at `MAX_SEARCHED` steps. Unreachable steps do not count.
         """
         found: list[int] = []
         seen: set[int] = set()
         waiting = [number]
         while waiting:
             here = waiting.pop()
-            if here == 0 or len(seen) > FAR:
+            if here == 0 or len(seen) > MAX_SEARCHED:
                 return []
             for before in self.back[here]:
                 if before in seen or before not in self.reached:
@@ -93,7 +92,7 @@ class Graph:
         return found
 
     def leads(self, first: int | None, last: int | None, without: Container[int]) -> bool:
-        """True if there is a way from one step to another, or to the end, that avoids some; near steps come first."""
+        """True if a path leads from one step to another, or to the end, avoiding `without`; near steps come first."""
         waiting = [] if first is None or first in without else [first]
         seen = set(waiting)
         while waiting:
@@ -107,10 +106,7 @@ class Graph:
         return False
 
     def circles(self) -> list[set[int]]:
-        """For each step: the steps it leads to that lead back to it, and itself.
-
-        They are its strongly connected component, found as Kosaraju does.
-        """
+        """The strongly connected component of each step (Kosaraju's algorithm)."""
         found: list[set[int]] = [set() for _ in self.steps]
         for start in reversed(self._finished()):
             circle, waiting = found[start], [start]
@@ -123,7 +119,7 @@ class Graph:
         return found
 
     def _finished(self) -> list[int]:
-        """All steps, each behind those that it leads to and that do not lead back to it."""
+        """Steps in order of completion of a depth-first search."""
         finished: list[int] = []
         seen: set[int] = set()
         waiting = [(number, False) for number in range(len(self.steps))]
@@ -138,7 +134,7 @@ class Graph:
         return finished
 
     def trapped(self, exits: Iterable[int]) -> set[int]:
-        """The steps from which the program neither ends nor comes to an exit."""
+        """Steps from which neither the end nor an exit can be reached."""
         out = set(exits)
         turns = {n for n, step in enumerate(self.steps) if step.next is not None and step.next <= n} - out
         if all(any(t is None or t > n for t in self.onward[n]) for n in turns):
@@ -147,10 +143,7 @@ class Graph:
         return set(range(len(self.steps))) - reachable(out, self.back)
 
     def loop(self, start: int, known: set[int]) -> set[int]:
-        """The steps that can be reached from `start`; none if any of those already known is among them.
-
-        All of them are known from now on.
-        """
+        """Steps reachable from `start`, empty if they lead into `known`; adds them to `known`."""
         found = reachable([start], self.onward, known)
         met = any(target in known for number in found for target in self.onward[number])
         known |= found
@@ -160,7 +153,7 @@ class Graph:
 def reachable(
     first: Iterable[int | None], edges: Sequence[Iterable[int | None]], without: Iterable[int] = ()
 ) -> set[int]:
-    """Everything that can be reached along edges, by number, the beginning included."""
+    """Nodes reachable along edges, the first included."""
     found = set(without)
     waiting = list(first)
     while waiting:

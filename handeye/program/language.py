@@ -1,8 +1,4 @@
-"""Languages as values: what reads a script, makes a program of it, and puts into its words what a planner finds.
-
-Whoever loads scripts is given languages by the endings of their files, so that no skill knows a
-language, and no language another.
-"""
+"""Languages as values, chosen by file ending, so that no skill knows a language."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -16,23 +12,22 @@ from handeye.program.reason_text import NamedArm
 from handeye.program.taught import Taught
 
 Compiled = tuple[Program | None, list[Diagnostic]]
-"""A program, and what there is to say about its text; there is none if any of that is an error."""
+"""A program, None if there are errors, and diagnostics."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Language:
-    """A language that scripts are written in."""
+    """A scripting language."""
 
-    name: str
-    """As programs and plans say it."""
+    name: str  # as stored in programs and plans
     read: Callable[[Path], Source]
-    """The script in a file with all that belongs to it; raises InvalidInput if it cannot be read."""
+    """Reads a script with all it requires; raises InvalidInput."""
     compile: Callable[[Source, Taught], Compiled]
     phrase: Callable[[Program, NamedArm, Iterable[PlanningFinding]], list[Diagnostic]]
-    """Diagnostics for what a planner found against a program for an arm, at their places in the text."""
+    """Diagnostics for planning findings, at their places in the text."""
 
 
 def language_of(file: PurePath, languages: Mapping[str, Language]) -> Language:
-    """The language of a script by the ending of its file; the first there is, if no language has that ending."""
+    """The language of a file's ending; the first one if none has that ending."""
     found = languages.get(file.suffix.lower())
     return next(iter(languages.values())) if found is None else found

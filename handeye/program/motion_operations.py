@@ -1,4 +1,4 @@
-"""Operations that move the arm or its hand, and the check of how far the arm went."""
+"""Operations that move the arm or the hand, and checks of its travel."""
 
 import math
 from typing import Annotated, ClassVar, Final
@@ -10,8 +10,7 @@ from handeye.core.record import Record, Vector3
 from handeye.program.guards import FORCE, Bounds, GuardKind, Guards, unmet
 from handeye.program.operation import Operation, Use, action
 
-VIAS: Final = 4
-"""Positions that a motion can be led by."""
+VIAS: Final = 4  # via points of a motion, at most
 _LENGTH: Final[Bounds] = (1e-6, 10.0)  # m
 _GAP: Final[Bounds] = (0.0, 0.2)  # m
 
@@ -20,12 +19,11 @@ class Restore(Record, frozen=True, kw_only=True):
     """Shift a goal by a saved difference."""
 
     name: str
-    level: bool = False
-    """Use only the horizontal components."""
+    level: bool = False  # horizontal components only
 
 
 class ArmMotion(Operation, frozen=True, kw_only=True):
-    """Base of the motions of the arm: guards may end them, and if none does, an error is raised."""
+    """Base of arm motions; raises an error if it has guards and none trips."""
 
     family: ClassVar = "motion"
     moves: ClassVar = True
@@ -36,7 +34,6 @@ class ArmMotion(Operation, frozen=True, kw_only=True):
 
     @property
     def raises(self) -> frozenset[int]:
-        """The numbers of the errors it can raise."""
         found = set(self.raising)
         if self.guards:
             found.add(unmet(self.guards))
@@ -46,7 +43,7 @@ class ArmMotion(Operation, frozen=True, kw_only=True):
 
 
 class Move(ArmMotion, frozen=True, kw_only=True):
-    """Planned motion to a position, with departure upwards and approach from above."""
+    """Planned motion to a position, departing upwards and approaching from above."""
 
     planned: ClassVar = True
     reading: ClassVar = {"position": ("goal", "via")}
@@ -54,87 +51,72 @@ class Move(ArmMotion, frozen=True, kw_only=True):
 
     goal: str
     restore: tuple[Restore, ...] = ()
-    searching: bool = False
-    """Inside a search loop: the present search offset is added to the goal."""
-    direct: bool = False
-    """Without departure and approach."""
-    via: Annotated[tuple[str, ...], Meta(max_length=VIAS)] = ()
-    """Positions passed on the way, in this order, without stopping."""
+    searching: bool = False  # in a search loop: adds the search offset to the goal
+    direct: bool = False  # without departure and approach
+    via: Annotated[tuple[str, ...], Meta(max_length=VIAS)] = ()  # via points, passed without stopping
     guards: Guards = ()
 
     @property
     def reads(self) -> tuple[Use, ...]:
-        """Everything it is carried out by, what it is shifted by included."""
+        """Everything it depends on, shifts included."""
         shifts = [Use("difference", restore.name, restore.level) for restore in self.restore]
         search = [Use("search")] if self.searching else []
         return (*self.used(self.reading), *shifts, *search)
 
     @property
     def goal_position(self) -> str:
-        """The goal, before anything shifts it."""
         return self.goal
 
     @property
     def knots(self) -> int | None:
-        """Start, lift-off, what it passes, set-down and goal."""
         return 4 + len(self.via)
 
 
 class Change(ArmMotion, frozen=True, kw_only=True):
-    """Straight motion from the present place, orientation kept unless the hand is to be turned."""
+    """Straight motion from the present place; the orientation is kept unless a moment turns the hand."""
 
     bounds: ClassVar = {"speed": (1e-4, 2.0), "displacement": _LENGTH, "press": FORCE, "moment": FORCE}
     writing: ClassVar = {"travel": ()}
 
-    displacement: Vector3
-    """m, table coordinates."""
-    speed: float | None = None
-    """m/s; None: the speed of guarded moves, or of free ones if nothing is to be met."""
+    displacement: Vector3  # m, table axes
+    speed: float | None = None  # m/s; None: the usual speed, slower if it meets something
     guards: Guards = ()
-    press: Vector3 | None = None
-    """Force to exert while moving (N, table coordinates): the hand follows what it presses on."""
-    free: Vector3 | None = None
-    """Axes of the table, 1 or 0, along which the hand gives way to force while moving."""
-    spin: Vector3 | None = None
-    """Axes of the table, 1 or 0, about which the hand gives way to a moment while moving."""
-    moment: Vector3 | None = None
-    """Moment to exert while moving (N m, table coordinates), the hand turning until it does."""
+    press: Vector3 | None = None  # force to exert, N, table axes
+    free: Vector3 | None = None  # 1 for each table axis along which the hand complies
+    spin: Vector3 | None = None  # 1 for each table axis about which the hand complies
+    moment: Vector3 | None = None  # moment to exert, N m, table axes
 
     @property
     def meets(self) -> bool:
-        """True if it is meant to meet something: to stop on it, or to press on it or turn it."""
+        """True if it should make contact: it has guards, presses or turns."""
         return bool(self.guards) or self.press is not None or self.moment is not None
 
     @property
     def complies(self) -> bool:
-        """True if force or moment moves the hand on the way."""
+        """True if force or moment shifts the hand."""
         return any(way is not None for way in (self.press, self.free, self.moment, self.spin))
 
     @property
     def straight_way(self) -> Vector3 | None:
-        """Its displacement."""
         return self.displacement
 
     @property
     def knots(self) -> int | None:
-        """Start and goal."""
         return 2
 
 
 class Turn(ArmMotion, frozen=True, kw_only=True):
-    """Motion of the hand on a circle about the vertical through a position, the hand turning with it."""
+    """Motion on a circle about the vertical through a position, by `angle` (rad, counter-clockwise from above)."""
 
     bounds: ClassVar = {"angle": (-4 * math.pi, 4 * math.pi)}
     reading: ClassVar = {"position": ("centre",)}
 
     centre: str
     angle: float
-    """rad, positive counter-clockwise seen from above."""
     guards: Guards = ()
 
     @property
     def knots(self) -> int | None:
-        """Start and goal."""
         return 2
 
 
@@ -166,7 +148,6 @@ class Close(Operation, frozen=True, kw_only=True):
 
     @property
     def raises(self) -> frozenset[int]:
-        """The numbers of the errors it can raise."""
         return self.raising if self.maximum is None else self.raising | {errors.WRONG_THICKNESS}
 
 
@@ -199,7 +180,7 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Check how much higher the hand has come to a stop than where a difference was saved (m): else error 9."""
+    """Check how much higher the hand stopped than where a difference was saved (m): error 9 outside the range."""
 
     family: ClassVar = "test"
     raising: ClassVar = action(errors.WRONG_HEIGHT)

@@ -1,4 +1,4 @@
-"""Facts that every operation tells of itself, so that nobody who walks a program has to know the operations by name."""
+"""The base of all operations: what each reads, writes, raises and needs, so that readers need not know it by name."""
 
 from collections.abc import Mapping
 from typing import ClassVar, Literal, NamedTuple, Self
@@ -8,32 +8,30 @@ from handeye.core.record import Record, Vector3
 from handeye.program.guards import Bounds, Guards
 
 Kind = Literal["position", "part", "target", "picture", "difference", "counter", "search", "goal", "travel"]
-"""Kinds of what a run keeps: where things are (a target is a position or a part), pictures taken, differences saved,
-counters; the search that is set up, the goal of the last Move, and how far the last Change went."""
+"""What a run remembers.
+
+A target is a position or part; `goal` is that of the last Move, `travel` of the last Change.
+"""
 Family = Literal["motion", "hand", "sight", "test", "search", "other"]
 Device = Literal["hand", "screwdriver", "camera"]
 Fields = Mapping[Kind, tuple[str, ...]]
-"""Fields of an operation that hold names of some kinds; no field: there is only one of that kind, without a name."""
+"""Fields of an operation that name things of each kind; empty for kinds with a single, unnamed value."""
 
 
 class Use(NamedTuple):
-    """Something that an operation reads or writes."""
+    """Something an operation reads or writes; `level`: only its horizontal components."""
 
     kind: Kind
     name: str = ""
     level: bool = False
-    """Only its horizontal components count."""
 
 
 class Branch(NamedTuple):
-    """Another way than to the next step, and when it is gone."""
+    """A branch to `target` (None: the end), if the last action raised `error`, or while `counter` is positive."""
 
     target: int | None
-    """None ends the program."""
     error: int | None = None
-    """When the last action raised this error."""
     counter: str | None = None
-    """While this counter is still positive."""
 
 
 class Operation(
@@ -41,106 +39,100 @@ class Operation(
 ):
     """Base of the operations; the class name in lower case is the tag on disk.
 
-    A default is always nothing: what is left out of a plan means the same for ever.
+    A default is always absence: what is left out of a plan keeps its meaning.
     """
 
     family: ClassVar[Family] = "other"
-    moves: ClassVar[bool] = False
-    """It leaves the arm, or its hand, in another place."""
+    moves: ClassVar[bool] = False  # moves the arm or the hand
     takes_time: ClassVar[bool] = False
-    needs: ClassVar[Device | None] = None
-    """The device that it is carried out with, if the arm is not enough."""
-    planned: ClassVar[bool] = False
-    """It cannot be carried out without a planned motion."""
-    only_checks: ClassVar[bool] = False
-    """An action that changes nothing of what the one before has done."""
-    branches: ClassVar[bool] = False
-    """It may lead elsewhere than to the next step."""
-    raising: ClassVar[frozenset[int]] = frozenset()
-    """Errors that any operation of its class can raise; none: it is no action."""
+    needs: ClassVar[Device | None] = None  # needed besides the arm
+    planned: ClassVar[bool] = False  # needs a planned motion
+    only_checks: ClassVar[bool] = False  # an action without an effect
+    branches: ClassVar[bool] = False  # may continue elsewhere than at the next step
+    raising: ClassVar[frozenset[int]] = (
+        frozenset()
+    )  # errors that any of its class can raise; empty: no action
     reading: ClassVar[Fields] = {}
     writing: ClassVar[Fields] = {}
-    bounds: ClassVar[Mapping[str, Bounds]] = {}
-    """Of its numbers, and of the sizes of its vectors."""
-    choices: ClassVar[Mapping[str, tuple[float, ...]]] = {}
-    """The only values of some of its numbers, SI."""
+    bounds: ClassVar[Mapping[str, Bounds]] = {}  # of numbers, and sizes of vectors
+    choices: ClassVar[Mapping[str, tuple[float, ...]]] = {}  # allowed values, SI
 
     @property
     def raises(self) -> frozenset[int]:
-        """The numbers of the errors it can raise."""
+        """Error numbers it can raise."""
         return self.raising
 
     @property
     def guards(self) -> Guards:
-        """The guards that may end it."""
+        """Guards that may end it."""
         return ()
 
     @property
     def press(self) -> Vector3 | None:
-        """The force that it exerts while it moves, N, table coordinates."""
+        """Force it exerts while moving, N, table axes."""
         return None
 
     @property
     def complies(self) -> bool:
-        """True if force or moment moves the hand on the way."""
+        """True if force or moment shifts the hand."""
         return False
 
     @property
     def feels(self) -> bool:
-        """True if the force or moment of the hand decides how it goes."""
+        """True if its course depends on the hand's force or moment."""
         return self.complies or any(guard.exerted((0.0, 0.0, 1.0)) is not None for guard in self.guards)
 
     @property
     def straight_way(self) -> Vector3 | None:
-        """The way of the hand, m, table coordinates, if it goes straight from where it is."""
+        """Displacement (m, table axes) if it moves straight from the present place."""
         return None
 
     @property
     def examines(self) -> str | None:
-        """The picture in which it looks for something, if it does."""
+        """The picture it examines."""
         return None
 
     @property
     def reads(self) -> tuple[Use, ...]:
-        """Everything that decides how it is carried out."""
+        """Everything it depends on."""
         return self.used(self.reading)
 
     @property
     def writes(self) -> tuple[Use, ...]:
-        """Everything that it may change."""
+        """Everything it may change."""
         return self.used(self.writing)
 
     @property
     def calls(self) -> str | None:
-        """The words with which it calls the operator, if it does."""
+        """Its message to the operator."""
         return None
 
     @property
     def undoes(self) -> int:
-        """How often, at most, it has the arm undo its stage and begin it anew; then the program goes on behind it."""
+        """How often, at most, it reverses its stage and starts it anew."""
         return 0
 
     @property
     def branch(self) -> Branch | None:
-        """The other way it may lead, if there is one."""
+        """Its branch."""
         return None
 
     def leading_to(self, target: int | None) -> Self:
-        """The same with another target of its branch."""
+        """A copy with another branch target."""
         raise NotImplementedError(f"{type(self).__name__} has no branch")
 
     @property
     def goal_position(self) -> str | None:
-        """The position that it leads the hand to, if it leads it to one."""
+        """The named position it leads the hand to."""
         return None
 
     @property
     def knots(self) -> int | None:
-        """Number of knots of its planned motion; None: it moves no joint along a plan."""
+        """Number of knots of its planned motion; None if it has none."""
         return None
 
     def used(self, fields: Fields) -> tuple[Use, ...]:
-        """Everything that some of its fields name."""
+        """Everything that these fields name."""
         found: list[Use] = []
         for kind, names in fields.items():
             if not names:
@@ -152,5 +144,5 @@ class Operation(
 
 
 def action(*numbers: int) -> frozenset[int]:
-    """The errors of an action: these, and what the watchdog raises in any."""
+    """Errors of an action: these, and the watchdog's."""
     return frozenset({errors.WATCHDOG, *numbers})

@@ -1,7 +1,7 @@
 """A checked program: labelled operations with symbolic goals, in SI units, of no particular language.
 
-This is the first waist of the system: every arm language ends here, and the planner starts here. The same
-operations, joined by planned motions, make the plan.
+This is the first waist: every arm language ends here, and the planner starts here. The same operations,
+joined by planned motions, make the plan.
 """
 
 from collections.abc import Collection
@@ -16,57 +16,45 @@ from handeye.program.operation import Device, Kind
 from handeye.program.operations import AnyOperation
 
 Columns = tuple[int, int]
-"""Characters of a line, from 0: the first, and the one behind the last. They are those of the line, so that a change in
-one line of a script leaves what the others have become as it was."""
+"""Start and end columns on a line, from 0, end exclusive; independent of all other lines."""
 
 
 class SourcePlace(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """Where some words of the source stand."""
+    """A place in the source; `file` is empty for the main text, `line` counts from 1."""
 
     file: str = ""
-    """The required file they stand in; empty: the source itself."""
     line: int
-    """Line of that text, from 1."""
     span: Columns
 
 
 class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """One step of the graph. Steps are numbered by their place in the list."""
+    """One step of the graph, numbered by its index."""
 
     operation: AnyOperation
-    stage: int
-    """Index of the stage it belongs to."""
-    labels: tuple[str, ...] = ()
-    """Labels that jumps to it name."""
-    macro: str = ""
-    """The macro whose call it comes from; empty: none."""
-    file: str = ""
-    """The required file it stands in; empty: the source itself."""
+    stage: int  # index
+    labels: tuple[str, ...] = ()  # labels that jumps name
+    macro: str = ""  # the macro it comes from, if any
+    file: str = ""  # a required file; empty: the main text
     line: int
-    """Line of that text, from 1."""
-    span: Columns = (0, 0)
-    """Where on that line its statement stands."""
-    text: str
-    """That statement, for people."""
-    modifiers: tuple[SourcePlace, ...] = ()
-    """The statements that say more of its operation."""
-    next: int | None
-    """Step that follows; None ends the program."""
+    span: Columns = (0, 0)  # columns of its statement
+    text: str  # its statement
+    modifiers: tuple[SourcePlace, ...] = ()  # places of its modifiers
+    next: int | None  # the next step; None ends the program
 
     @property
     def ways(self) -> tuple[int | None, ...]:
-        """The steps that may follow, `next` first."""
+        """Steps that may follow, `next` first."""
         branch = self.operation.branch
         return (self.next,) if branch is None else (self.next, branch.target)
 
     @property
     def needs(self) -> Device | None:
-        """The device that its operation works, if there is one besides the arm."""
+        """The device it needs besides the arm."""
         return self.operation.needs
 
     @property
     def place(self) -> str:
-        """Its line, as people are told: `12`, or `pins.al:12`."""
+        """Its line, as `12` or `pins.al:12`."""
         return line_name(self.line, self.file)
 
     @property
@@ -76,20 +64,19 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def word(self) -> str:
-        """The word that its statement begins with."""
+        """The first word of its statement."""
         return next(iter(self.text.split()), "")
 
 
 class Position(Record, frozen=True, kw_only=True):
-    """A taught or written hand position."""
+    """A taught or written hand position: x, y, z (m) and angles O, A, T (rad), relative to the part `of`, if any."""
 
     at: tuple[float, float, float, float, float, float]
-    """x, y, z (m) of the tool centre point and the angles O, A, T (rad); relative to the part if `of`."""
     of: str | None = None
 
 
 class Hole(Record, frozen=True, kw_only=True):
-    """A round hole in a part's upper face, in part coordinates."""
+    """A round hole in a part's upper face, in part coordinates, m."""
 
     x: float
     y: float
@@ -97,32 +84,29 @@ class Hole(Record, frozen=True, kw_only=True):
 
 
 class Part(Record, frozen=True, kw_only=True):
-    """A part as the program knows it: where it is planned to be, and what it looks like from above."""
+    """A part as the program knows it: where it is planned to be, and what it looks like from above.
 
-    at: tuple[float, float, float, float]
-    """Planned x, y, z (m) and yaw (rad) of its reference point and reference direction."""
-    face: float = 0.0
-    """Height (m) of its upper face over its reference point."""
-    holes: tuple[Hole, ...] = ()
-    """Large convex holes, largest first; the reference point is the centre of the first, and the reference
-    direction points from it to the second."""
+    The reference point is the centre of the first hole; the reference direction points from it to the second.
+    """
+
+    at: tuple[float, float, float, float]  # planned x, y, z (m), yaw (rad)
+    face: float = 0.0  # height of the upper face over the reference point, m
+    holes: tuple[Hole, ...] = ()  # large convex holes, largest first
     screw_holes: tuple[Hole, ...] = ()
-    region: tuple[float, float] | None = None
-    """Half width and half depth (m) of where its reference point may be, about the planned place."""
+    region: tuple[float, float] | None = None  # half width and depth of where it may be, m
     outline: tuple[float, float, float, float] | None = None
-    """Box around it in part coordinates: x from, y from, x to, y to (m)."""
+    """Bounding box in part coordinates, m: x, y from, x, y to."""
 
 
 class Fixture(Record, frozen=True, kw_only=True):
-    """A thing that stands fast in the cell, as boxes."""
+    """A fixed obstacle in the cell, as boxes in its frame, which is at x, y, z (m) and yaw (rad)."""
 
     at: tuple[float, float, float, float]
-    """x, y, z (m) and yaw (rad) of its frame on the table."""
     boxes: tuple[Box, ...]
 
 
 class Held(Record, frozen=True, kw_only=True):
-    """A thing that the hand holds when it has closed at one of some positions, as boxes in the hand's frame T."""
+    """An object that the hand holds after closing at one of `positions`, as boxes in the hand frame T."""
 
     positions: tuple[str, ...]
     boxes: tuple[Box, ...]
@@ -132,30 +116,25 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
     """A checked program."""
 
     name: str
-    language: str
-    """The language it was written in, by the name that this has (`program/language.py`)."""
-    source: str
-    """The text it was made from."""
-    required: dict[str, str] = field(default_factory=dict)
-    """Texts of the files that it requires, by their paths from its folder."""
+    language: str  # name of its language
+    source: str  # its text
+    required: dict[str, str] = field(default_factory=dict)  # required texts, by path from its folder
     stages: tuple[str, ...]
     steps: tuple[Step, ...]
     positions: dict[str, Position]
     parts: dict[str, Part]
-    fixtures: dict[str, Fixture] = field(default_factory=dict)
-    """Things that no motion may lead through."""
-    held: dict[str, Held] = field(default_factory=dict)
-    """Things that are carried, by name."""
+    fixtures: dict[str, Fixture] = field(default_factory=dict)  # obstacles
+    held: dict[str, Held] = field(default_factory=dict)  # carried objects by name
 
     @property
     def whole(self) -> Source:
-        """The text with those it requires."""
+        """The text with the texts it requires."""
         required = tuple(Source(name=key, key=key, text=text) for key, text in self.required.items())
         return Source(name=self.name, text=self.source, required=required)
 
     @property
     def labels(self) -> dict[str, list[int]]:
-        """The steps of each label; a label in a macro has one for each call."""
+        """Steps by label; a label in a macro has one for each call."""
         found: dict[str, list[int]] = {}
         for number, step in enumerate(self.steps):
             for label in step.labels:
@@ -169,9 +148,9 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def feels(self) -> bool:
-        """True if a step goes by the force or moment of the hand."""
+        """True if a step depends on the force or moment of the hand."""
         return any(step.operation.feels for step in self.steps)
 
     def written(self, kind: Kind) -> set[str]:
-        """The names of what its steps write of a kind."""
+        """Names of a kind that its steps write."""
         return {use.name for step in self.steps for use in step.operation.writes if use.kind == kind}

@@ -1,4 +1,4 @@
-"""Sentences for reasons: the one place that makes them."""
+"""Sentences for reach failures."""
 
 from collections.abc import Sequence
 from typing import Protocol, assert_never
@@ -20,11 +20,11 @@ from handeye.program.reasons import (
 
 
 class NamedJoint(Protocol):
-    """A joint, as people are told of it."""
+    """A joint with a name."""
 
     @property
     def name(self) -> str:
-        """The part of the arm that it moves, as people call it."""
+        """The link it moves, as people call it."""
         ...
 
     @property
@@ -34,21 +34,21 @@ class NamedJoint(Protocol):
 
 
 class NamedArm(Protocol):
-    """An arm, as people are told of it."""
+    """An arm with a name."""
 
     @property
     def name(self) -> str:
-        """The name people know it by."""
+        """Its name."""
         ...
 
     @property
     def joints(self) -> Sequence[NamedJoint]:
-        """From the base to the hand."""
+        """Joints from base to hand."""
         ...
 
 
 def sentence(arm: NamedArm, reason: Reason) -> str:
-    """A reason for people: inches and degrees, joints by number and name."""
+    """The sentence of a reach failure: inches and degrees, joints by number and name."""
     match reason:
         case OutOfReach() | TooNear() | JointLimit():
             return _beyond(arm, reason)

@@ -1,28 +1,23 @@
-"""Why an arm cannot be, or go, where it is wanted: facts, which `handeye.program.reason_text` puts into words.
-
-Joints are counted from 0; SI units.
-"""
+"""Reach failures: why an arm cannot take up a pose or make a motion. Joints count from 0; SI units."""
 
 from handeye.core.record import Record
 
 
 class ReasonRecord(Record, frozen=True, tag_field="reason", tag=True):
-    """Base of the reasons."""
+    """Base of the reach failures."""
 
     @property
     def named_joints(self) -> tuple[int, ...]:
-        """Joints that people are told of by name."""
+        """Joints named in its sentence."""
         return ()
 
 
 class BeyondRange(ReasonRecord, frozen=True):
-    """Base of the reasons in which a joint would have to stand beyond its range, rad or m."""
+    """Base of failures with a joint at `amount`, beyond the end `limit` of its range (rad, m)."""
 
     joint: int
     amount: float
-    """Where it would have to be."""
     limit: float
-    """The end of its range that this passes."""
 
     @property
     def named_joints(self) -> tuple[int, ...]:
@@ -30,50 +25,45 @@ class BeyondRange(ReasonRecord, frozen=True):
 
     @property
     def excess(self) -> float:
-        """The distance beyond that end."""
+        """Distance beyond the limit."""
         return abs(self.amount - self.limit)
 
 
 class OutOfReach(BeyondRange, frozen=True):
-    """A sliding joint would have to stand beyond its range, and no other branch can mend it."""
+    """A sliding joint beyond its range, on every branch."""
 
 
 class TooNear(BeyondRange, frozen=True):
-    """A boom would have to be drawn in farther than it can: the hand would be too near to the column."""
+    """A boom retracted too far: the hand is too near to the column."""
 
 
 class JointLimit(BeyondRange, frozen=True):
-    """A turning joint would have to stand beyond its range."""
+    """A turning joint beyond its range."""
 
 
 class InnerCylinder(ReasonRecord, frozen=True):
-    """The wrist would come nearer to the axis of the column than the shoulder's offset."""
+    """The wrist nearer to the column's axis (m) than the shoulder's offset allows."""
 
     radius: float
-    """How near, m."""
     least: float
-    """How near it can come, m."""
 
     @property
     def excess(self) -> float:
-        """How much too near, m."""
+        """Distance too near, m."""
         return self.least - self.radius
 
 
 class FixedOrientation(ReasonRecord, frozen=True):
-    """The hand would have to be turned, and no joint turns it."""
+    """The hand turned by `angle` (rad), which no joint can do."""
 
     angle: float
-    """By how much, rad."""
 
 
 class FixedDirection(ReasonRecord, frozen=True):
-    """The hand would have to leave the line or plane that the sliding joints span."""
+    """The hand `off` (m) the line or plane spanned by the sliding joints."""
 
     joints: tuple[int, ...]
-    """Those that move it."""
     off: float
-    """How far, m."""
 
     @property
     def named_joints(self) -> tuple[int, ...]:
@@ -81,11 +71,10 @@ class FixedDirection(ReasonRecord, frozen=True):
 
 
 class HeldJoint(ReasonRecord, frozen=True):
-    """A joint would have to move that is held where it is."""
+    """A joint that would have to move, held at `at` (rad, m)."""
 
     joint: int
     at: float
-    """rad or m"""
 
     @property
     def named_joints(self) -> tuple[int, ...]:
@@ -93,17 +82,16 @@ class HeldJoint(ReasonRecord, frozen=True):
 
 
 class InLine(ReasonRecord, frozen=True):
-    """The axes of two joints come into line on the way, where the hand cannot keep its orientation."""
+    """Two joint axes that come into line on the way, where the orientation cannot be kept."""
 
     joints: tuple[int, int]
 
 
 class TooFast(ReasonRecord, frozen=True):
-    """A joint would have to move faster than it can."""
+    """A joint that would exceed its rate limit (rad/s, m/s)."""
 
     joint: int
     rate: float
-    """rad/s or m/s"""
     limit: float
 
     @property
@@ -112,14 +100,13 @@ class TooFast(ReasonRecord, frozen=True):
 
 
 class BelowTable(ReasonRecord, frozen=True):
-    """The hand would be below the table top."""
+    """The hand `depth` (m) below the table top."""
 
     depth: float
-    """m"""
 
 
 Reason = (
     OutOfReach | TooNear | JointLimit | InnerCylinder | FixedOrientation | FixedDirection
     | HeldJoint | InLine | TooFast | BelowTable
 )  # fmt: skip
-"""All there are: the first six of poses, the others of motions."""
+"""The first six are failures of poses, the others of motions."""

@@ -1,4 +1,4 @@
-"""Stages as people name them: by number, by name, by a piece of the name."""
+"""Finds stages by number, name or part of a name."""
 
 import re
 from collections.abc import Sequence
@@ -11,11 +11,7 @@ _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 
 
 def stage_index(text: str, stages: Sequence[str]) -> int:
-    """The index of a stage given by its number from 1, its name, or a piece of it that no other name has.
-
-    Raises:
-        InvalidInput: there is no such stage, or more than one.
-    """
+    """Index of a stage given by number from 1, name, or unique part of a name."""
     if _NUMBER.fullmatch(text.strip()):
         if not 1 <= int(text) <= len(stages):
             raise NoSuchName(f"there is no stage {int(text)}; the program has stages 1 to {len(stages)}")
@@ -27,11 +23,7 @@ def stage_index(text: str, stages: Sequence[str]) -> int:
 
 
 def stage_called(text: str, stages: Sequence[str]) -> int | None:
-    """The index of the stage that has this name, or else begins so, or else has it somewhere; None if none does.
-
-    Raises:
-        InvalidInput: several begin so, or have it somewhere.
-    """
+    """Index of the one stage of this name, else the one that starts with it, else the one that contains it, or None."""
     wanted = text.strip().casefold()
     names = [name.casefold() for name in stages]
     if not wanted:
@@ -47,7 +39,7 @@ def stage_called(text: str, stages: Sequence[str]) -> int | None:
 
 
 def _meant(text: str, stages: Sequence[str]) -> str:
-    """`; did you mean ...` with the stages that have a name or a word like this one, or else all there are."""
+    """`; did you mean ...` with stages of similar names, else all names."""
     typed = text.strip().casefold()
     words = {word for name in stages for word in (name, *name.split())}
     near = nearest(typed, words, len(typed) // 3)

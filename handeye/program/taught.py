@@ -1,4 +1,4 @@
-"""Given from outside a program: what the teacher stored by moving the arm, and the cell around it, as TOML.
+"""Taught files: positions that the teacher stored by moving the arm, and the cell around it, as TOML.
 
 [positions.PIN]
 at = [18, 44, 3, 0, 90, 0]         # x, y, z in inches, angles O, A, T in degrees
@@ -20,36 +20,173 @@ boxes = [[-1, -1, -1, 1, 1, 4]]    # across the fingers, along the finger line, 
 
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeVar
 
 import msgspec
 
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import BadFile
+from handeye.core.obb import Box
 from handeye.core.source import Source, read_source
-from handeye.program.program import Fixture, Held, Part, Position
-from handeye.program.taught_tables import (
-    FixtureTable,
-    HeldTable,
-    PartTable,
-    PositionTable,
-    UnfitEntry,
-    read_tables,
-    unfit,
-)
+from handeye.core.units import DEGREE, INCH
+from handeye.program.program import Fixture, Held, Hole, Part, Position
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Taught:
-    """Positions, parts and fixtures by name, in SI units. Parts and positions that are referred to are there."""
+    """Taught positions, parts and fixtures by name, in SI units; references between them are resolved."""
 
     positions: dict[str, Position] = field(default_factory=dict)
     parts: dict[str, Part] = field(default_factory=dict)
     fixtures: dict[str, Fixture] = field(default_factory=dict)
     held: dict[str, Held] = field(default_factory=dict)
+
+
+class PositionTable(msgspec.Struct, forbid_unknown_fields=True):
+    """`[positions.NAME]`"""
+
+    at: tuple[float, float, float, float, float, float]
+    of: str | None = None
+
+    def si(self) -> Position:
+        x, y, z, o, a, t = self.at
+        return Position(at=(x * INCH, y * INCH, z * INCH, o * DEGREE, a * DEGREE, t * DEGREE), of=self.of)
+
+
+Circle = tuple[float, float, float]
+
+
+class PartTable(msgspec.Struct, forbid_unknown_fields=True):
+    """`[parts.NAME]`"""
+
+    at: tuple[float, float, float, float]
+    face: float = 0.0
+    holes: tuple[Circle, ...] = ()
+    screw_holes: tuple[Circle, ...] = ()
+    region: tuple[float, float] | None = None
+    outline: tuple[float, float, float, float] | None = None
+
+    def si(self) -> Part:
+        x, y, z, yaw = self.at
+        box = self.outline
+        return Part(
+            at=(x * INCH, y * INCH, z * INCH, yaw * DEGREE),
+            face=self.face * INCH,
+            holes=_holes(self.holes),
+            screw_holes=_holes(self.screw_holes),
+            region=None if self.region is None else (self.region[0] * INCH, self.region[1] * INCH),
+            outline=None if box is None else (box[0] * INCH, box[1] * INCH, box[2] * INCH, box[3] * INCH),
+        )
+
+
+class FixtureTable(msgspec.Struct, forbid_unknown_fields=True):
+    """`[fixtures.NAME]`"""
+
+    boxes: tuple[Box, ...]
+    at: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+
+    def si(self) -> Fixture:
+        x, y, z, yaw = self.at
+        return Fixture(at=(x * INCH, y * INCH, z * INCH, yaw * DEGREE), boxes=_boxes(self.boxes))
+
+
+class HeldTable(msgspec.Struct, forbid_unknown_fields=True):
+    """`[held.NAME]`"""
+
+    positions: tuple[str, ...]
+    boxes: tuple[Box, ...]
+
+    def si(self) -> Held:
+        return Held(positions=self.positions, boxes=_boxes(self.boxes))
+
+
+Entry = TypeVar("Entry", PositionTable, PartTable, FixtureTable, HeldTable)
+
+
+class UnfitEntry(Exception):
+    """An entry that cannot be used."""
+
+    def __init__(self, kind: str, name: str, said: str) -> None:
+        super().__init__(said)
+        self.kind, self.name = kind, name
+
+    @property
+    def key(self) -> str:
+        """`positions.NAME`"""
+        return f"{self.kind}.{self.name}"
+
+
+def read_tables(
+    kind: str, tables: dict[str, dict[str, object]], type: type[Entry]
+) -> Iterator[tuple[str, Entry]]:
+    """Tables of a kind by name; raises UnfitEntry."""
+    for name, table in tables.items():
+        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
+            said = "a name consists of letters, digits and _, and does not start with a digit"
+            raise UnfitEntry(kind, name, said)
+        yield name, _read(kind, name, table, type)
+
+
+def _read(kind: str, name: str, table: dict[str, object], type: type[Entry]) -> Entry:
+    try:
+        entry: Entry = msgspec.convert(table, type)
+    except msgspec.ValidationError as error:
+        raise UnfitEntry(kind, name, unfit(error)) from None
+    for key in type.__struct_fields__:
+        if not all(abs(x) < 1e6 for x in _numbers(getattr(entry, key))):
+            raise UnfitEntry(kind, name, f"{key} has a number that is not below a million")
+    if isinstance(entry, PartTable):
+        for x, y, diameter in (*entry.holes, *entry.screw_holes):
+            if diameter <= 0:
+                raise UnfitEntry(kind, name, f"the hole at ({x:g}, {y:g}) has diameter {diameter:g}")
+    if isinstance(entry, FixtureTable | HeldTable):
+        for box in entry.boxes:
+            if not all(low < high for low, high in zip(box[:3], box[3:], strict=True)):
+                corners = " to ".join(f"({x:g}, {y:g}, {z:g})" for x, y, z in (box[:3], box[3:]))
+                raise UnfitEntry(kind, name, f"the box from {corners} is empty")
+    return entry
+
+
+def _numbers(value: object) -> Iterable[float]:
+    if isinstance(value, tuple):
+        for item in value:
+            yield from _numbers(item)
+    elif isinstance(value, float):
+        yield value
+
+
+def _holes(circles: Iterable[Circle]) -> tuple[Hole, ...]:
+    return tuple(Hole(x=x * INCH, y=y * INCH, diameter=d * INCH) for x, y, d in circles)
+
+
+def _boxes(boxes: Iterable[Box]) -> tuple[Box, ...]:
+    return tuple((a * INCH, b * INCH, c * INCH, d * INCH, e * INCH, f * INCH) for a, b, c, d, e, f in boxes)
+
+
+_KINDS: Final = {
+    "array": "a list", "object": "a table", "str": "a text", "float": "a number", "int": "a whole number",
+    "bool": "true or false", "null": "nothing",
+}  # fmt: skip
+
+
+def unfit(error: msgspec.ValidationError) -> str:
+    """What does not fit, and where, as the rest of a sentence; parsed from `msgspec`'s message."""
+    said, _, where = str(error).partition(" - at `$")
+    where = where.rstrip("`").lstrip(".")
+    about = f"{where}: " if where else ""
+    if size := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", said):
+        return f"{about}{size[2]} entries, and needs {size[1]}"
+    if kinds := re.fullmatch(r"Expected `(\w+)(?: \| null)?`, got `(\w+)`", said):
+        wanted, got = (_KINDS.get(kind, kind) for kind in kinds.groups())
+        return f"{about}{got} instead of {wanted}"
+    if key := re.fullmatch(r"Object missing required field `(.*)`", said, re.DOTALL):
+        return f"{about}{quoted(key[1])} is missing"
+    if key := re.fullmatch(r"Object contains unknown field `(.*)`", said, re.DOTALL):
+        return f"{about}{quoted(key[1])} is not a key of it"
+    return f"{about}{said[:1].lower()}{said[1:]}"
 
 
 class _File(msgspec.Struct, forbid_unknown_fields=True):
@@ -59,25 +196,16 @@ class _File(msgspec.Struct, forbid_unknown_fields=True):
     held: dict[str, dict[str, object]] = {}
 
 
-MOST_BOXES: Final = 500
-"""Of a file. The check of the motions takes time for each of them."""
+MAX_BOXES: Final = 500  # in a file: checking motions takes time for each
 
 
 def load_taught(path: str | Path) -> Taught:
-    """Read what is taught from a TOML file (inches and degrees).
-
-    Raises:
-        InvalidInput: the file cannot be read, or what is in it cannot be used; the sentence names the key.
-    """
+    """Read a taught TOML file (inches and degrees); raises BadFile, naming the key."""
     return read_taught(read_source(path))
 
 
 def read_taught(source: Source) -> Taught:
-    """What a text in TOML teaches (inches and degrees).
-
-    Raises:
-        InvalidInput: what is in it cannot be used; the sentence names the key.
-    """
+    """Parse a taught TOML text (inches and degrees)."""
     path = source.name
     try:
         tables = msgspec.convert(tomllib.loads(source.text), _File)
@@ -108,13 +236,13 @@ def _taught(tables: _File) -> Taught:
 
 
 def _spoilt(error: tomllib.TOMLDecodeError) -> str:
-    """The words of a TOML reader, as the rest of a sentence."""
+    """A TOML parser's message as the rest of a sentence."""
     said = str(error).replace("Cannot overwrite a value", "a name is used twice")
     return said[:1].lower() + said[1:]
 
 
 def _line(source: Source, fault: UnfitEntry) -> int | None:
-    """The line, from 1, on which an entry begins, if it is written as people write it."""
+    """The line, from 1, on which an entry begins, if it is in the usual form."""
     kind, name = map(re.escape, (fault.kind, fault.name))
     header = rf"\[\s*{kind}\s*\.\s*[\"']?{name}[\"']?\s*\]"
     found = re.search(rf"^[ \t]*(?:{header}|[\"']?{name}[\"']?[ \t]*=)", source.text, re.MULTILINE)
@@ -122,7 +250,7 @@ def _line(source: Source, fault: UnfitEntry) -> int | None:
 
 
 def _faults(taught: Taught) -> Iterator[UnfitEntry]:
-    """Faults between the entries of a file."""
+    """Inconsistencies between entries."""
     for name, position in taught.positions.items():
         if position.of is not None and position.of not in taught.parts:
             meant = suggestion(position.of, taught.parts)
@@ -139,5 +267,5 @@ def _faults(taught: Taught) -> Iterator[UnfitEntry]:
     for kind, solids in (("fixtures", taught.fixtures), ("held", taught.held)):
         for name, solid in solids.items():
             count += len(solid.boxes)
-            if count > MOST_BOXES:
-                yield UnfitEntry(kind, name, f"more than {MOST_BOXES} boxes, the limit")
+            if count > MAX_BOXES:
+                yield UnfitEntry(kind, name, f"more than {MAX_BOXES} boxes, the limit")

@@ -1,8 +1,7 @@
-"""A taught position put into the text of its file, in which nothing else changes: no comment, order or key.
+"""Edits a taught position in the text of its file, leaving all else as it is.
 
-It understands what people and the teacher write: `A = { at = [...] }` under `[positions]`, on a line of its own, and
-`at = [...]` under `[positions.A]`. The new text is read again before it is taken; what would change
-anything else is refused.
+It understands the usual forms: `A = { at = [...] }` under `[positions]`, on a line of its own, and
+`at = [...]` under `[positions.A]`. The new text is parsed again; a change of anything else is refused.
 """
 
 import re
@@ -18,15 +17,10 @@ _NEXT: Final = re.compile(r"^[ \t]*\[", re.MULTILINE)
 _AT: Final = r"\bat\s*=\s*\[[^\]#\n]*\]"
 _OF: Final = r"\bof\s*=\s*(?:\"[^\"\n]*\"|'[^'\n]*')"
 _OF_ALONE: Final = rf"[ \t]*,[ \t]*{_OF}|{_OF}[ \t]*,[ \t]*|{_OF}"
-"""With the comma that goes when it goes."""
 
 
 def with_position(text: str, name: str, position: Position) -> str:
-    """The text of a file of taught positions with one more, or with one taught anew.
-
-    Raises:
-        InvalidInput: it is written in a way that cannot be edited without touching something else.
-    """
+    """A taught text with a position added or replaced; raises BadFile if anything else would change."""
     before = tomllib.loads(text)
     wanted = {**before, "positions": {**before.get("positions", {}), name: _entry(position)}}
     edited = (
@@ -65,7 +59,7 @@ def _line(name: str, position: Position) -> str:
 
 
 def _added(text: str, name: str, position: Position) -> str:
-    """A line behind the last entry of the table, or behind everything."""
+    """Text with a line after the table's last entry, or at the end."""
     header, line_end = _HEADER.search(text), "\r\n" if "\r\n" in text else "\n"
     if header is None:
         gap = "" if not text else line_end if text.endswith("\n") else 2 * line_end
@@ -81,7 +75,7 @@ def _added(text: str, name: str, position: Position) -> str:
 
 
 def _replaced(text: str, name: str, position: Position) -> str:
-    """The line, or table, of a name with other figures; what else stands there stays."""
+    """Text with other figures in the line or table of a name."""
     key = rf"[\"']?{re.escape(name)}[\"']?"
     line = re.compile(rf"^[ \t]*(?:positions\s*\.\s*)?{key}[ \t]*=[ \t]*\{{.*$", re.MULTILINE)
     table = re.compile(rf"^[ \t]*\[\s*positions\s*\.\s*{key}\s*\].*(?:\n(?![ \t]*\[).*)*", re.MULTILINE)

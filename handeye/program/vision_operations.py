@@ -1,4 +1,4 @@
-"""Operations of the camera, and of vision."""
+"""Operations of camera and vision."""
 
 from typing import ClassVar
 
@@ -41,12 +41,11 @@ class Look(Operation, frozen=True, kw_only=True):
     writing: ClassVar = {"picture": ("picture",)}
 
     picture: str
-    hold_target: bool = False
-    """Keep the target voltage of the picture before, as differencing needs."""
+    hold_target: bool = False  # keep the target voltage of the picture before, for differencing
 
 
 class General(Operation, frozen=True, kw_only=True):
-    """General location: find the part's outline in the picture; measures where it is, roughly. Else error 30."""
+    """Locate a part roughly by its outline in a picture; error 30 if it is not seen."""
 
     family: ClassVar = "sight"
     raising: ClassVar = action(errors.PART_NOT_SEEN)
@@ -58,12 +57,11 @@ class General(Operation, frozen=True, kw_only=True):
 
     @property
     def examines(self) -> str | None:
-        """Its picture."""
         return self.picture
 
 
 class Specific(Operation, frozen=True, kw_only=True):
-    """Specific location: find the part's holes in the picture; measures its pose. Else error 31."""
+    """Measure a part's pose by its holes in a picture; error 31 if they are not found."""
 
     family: ClassVar = "sight"
     raising: ClassVar = action(errors.FEATURES_NOT_SEEN)
@@ -75,12 +73,11 @@ class Specific(Operation, frozen=True, kw_only=True):
 
     @property
     def examines(self) -> str | None:
-        """Its picture."""
         return self.picture
 
 
 class Comparison(Operation, frozen=True, kw_only=True):
-    """Base of what compares two pictures of a part."""
+    """Base of comparisons of two pictures of a part."""
 
     family: ClassVar = "sight"
     reading: ClassVar = {"part": ("part",), "picture": ("before", "after")}
@@ -91,18 +88,17 @@ class Comparison(Operation, frozen=True, kw_only=True):
 
     @property
     def examines(self) -> str | None:
-        """The later of its pictures."""
         return self.after
 
 
 class Inspect(Comparison, frozen=True, kw_only=True):
-    """Difference pictures of a part before and after its gasket was put on; error 32 if that lies wrong."""
+    """Compare pictures before and after a gasket was put on; error 32 if it lies wrong."""
 
     raising: ClassVar = action(errors.GASKET_WRONG)
 
 
 class Match(Comparison, frozen=True, kw_only=True):
-    """Compare two pictures of a part; error 33 if it does not stand in the later one as in the earlier."""
+    """Compare two pictures of a part; error 33 if it has moved."""
 
     raising: ClassVar = action(errors.PART_ASTRAY)
 

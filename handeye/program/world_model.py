@@ -1,4 +1,4 @@
-"""The world as the program believes it: for each part a planned pose and, once seen or felt, a measured one."""
+"""The world model: for each part a planned pose and, once seen or felt, a measured one."""
 
 from dataclasses import dataclass, field
 
@@ -11,28 +11,26 @@ from handeye.program.program import Part, Position, Program
 
 
 def planned_pose(part: Part) -> Pose:
-    """`X_WP` as the drawing has it."""
+    """Planned `X_WP`."""
     return planar(*part.at)
 
 
-def place(X: Pose) -> tuple[float, float, float, float, float, float]:
-    """x, y, z (m) and the angles O, A, T (rad) of a hand, to a millionth of each."""
+def rounded_place(X: Pose) -> tuple[float, float, float, float, float, float]:
+    """x, y, z (m) and angles O, A, T (rad) of a hand pose, rounded to 1e-6."""
     x, y, z, o, a, t = (round(float(value), 6) + 0.0 for value in (*X[:3, 3], *hand_angles(X)))
     return x, y, z, o, a, t
 
 
 class WorldState(MutableRecord, kw_only=True):
-    """Departures from the plan: what was measured, and what was defined anew."""
+    """Departures from the plan: measured part poses `X_WP`, and redefined positions."""
 
     measured: dict[str, Pose] = msgspec.field(default_factory=dict)
-    """`X_WP` of each part that was seen or felt."""
     moved: dict[str, Position] = msgspec.field(default_factory=dict)
-    """Positions that `HERE`, or somebody for an experiment, has put elsewhere."""
 
 
 @dataclass(slots=True, kw_only=True)
 class WorldModel:
-    """The one mutable picture of the cell; only the executor writes to it."""
+    """The world as the program believes it; only the executor changes it."""
 
     parts: dict[str, Part]
     positions: dict[str, Position]
@@ -40,32 +38,32 @@ class WorldModel:
 
     @classmethod
     def of(cls, program: Program, state: WorldState | None = None) -> "WorldModel":
-        """The world as planned, with these departures; by default nothing is measured yet."""
+        """The world of a program with these departures, by default none."""
         return cls(parts=program.parts, positions=program.positions, state=state or WorldState())
 
     def measure(self, part: str, X_WP: Pose) -> None:
-        """A part has been seen or felt at this pose."""
+        """Record a measured part pose."""
         if part not in self.parts:
             raise NoSuchName(f"no part {part}; there are {', '.join(self.parts)}")
         self.state.measured[part] = X_WP
 
     def part(self, name: str) -> Pose:
-        """`X_WP`, measured if it has been, else planned."""
+        """`X_WP`, measured or else planned."""
         measured = self.state.measured.get(name)
         return planned_pose(self.parts[name]) if measured is None else measured
 
     def position(self, name: str) -> Pose:
-        """`X_WT` of a hand position, by the measured pose of the part it belongs to."""
+        """`X_WT` of a hand position, by the present pose of its part."""
         position = self.state.moved.get(name) or self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else self.part(position.of) @ X_PT
 
     def seen_from(self, part: str | None, X_WT: Pose) -> Position:
-        """The hand position `X_WT`, relative to a part where that is now, or in table coordinates."""
-        return Position(at=place(X_WT if part is None else inverse(self.part(part)) @ X_WT), of=part)
+        """The hand pose `X_WT` as a position relative to a part, or in table coordinates."""
+        return Position(at=rounded_place(X_WT if part is None else inverse(self.part(part)) @ X_WT), of=part)
 
     def planned_position(self, name: str) -> Pose:
-        """`X_WT` of a hand position, by planned poses alone."""
+        """`X_WT` of a hand position, by planned poses only."""
         position = self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else planned_pose(self.parts[position.of]) @ X_PT

@@ -24,7 +24,7 @@ from handeye.program.events import (
     UndoOrdered,
     beginning,
 )
-from handeye.program.senses import BELIEFS
+from handeye.program.senses import ASSUMPTIONS
 from handeye.results.pauses import pause_sentence
 from handeye.results.result import CameraReport, Check, Result, Stage, Status, Timing
 from handeye.runs.advance import Pause
@@ -98,7 +98,7 @@ def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:
     place = ""
     for event in events:
         if isinstance(event, RunStarted):
-            yield from (f"without {sense}: {BELIEFS[sense]}" for sense in event.lacking)
+            yield from (f"without {sense}: {ASSUMPTIONS[sense]}" for sense in event.lacking)
         elif isinstance(event, StepStarted):
             place = event.place
         elif isinstance(event, GuardFaint):

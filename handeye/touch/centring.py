@@ -10,46 +10,39 @@ from typing import Final
 from handeye.core.errors import NOTHING_HELD
 from handeye.touch.hold import least_gap
 
-SPARE: Final = 0.005
-"""How much farther than the opening the fingers are told to close before they count as stalled, m.
-Placeholder."""
+OVERDRIVE: Final = 0.005  # m driven beyond the opening before the fingers count as stalled; placeholder
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CentringStep:
-    """Shifts of fingers and hand in one servo period."""
+    """Set-point changes in one servo period: finger gap (m), and hand along its y axis (m)."""
 
     gap: float = 0.0
-    """Change of the finger gap set-point, m."""
     hand: float = 0.0
-    """Motion of the hand along its y axis, m."""
 
 
 @dataclass(slots=True, kw_only=True)
 class Centring:
-    """One centring: ask for a step each servo period until it is `done`.
+    """One centring: call `step` each servo period until `done`.
 
-    The switches are the state: when a finger loses its object both close on until one touches again.
+    The switches are the state: when a finger loses the object, both close on until one touches again.
     """
 
-    minimum: float = 0.0
-    """Gap (m) beyond which there is nothing, or too thin a thing, to centre on; 0: anything will do."""
-    speed: float
-    """Rate at which the gap closes, m/s. The hand moves with half of it."""
+    minimum: float = 0.0  # m; a smaller gap holds nothing, or something too thin; 0: anything
+    speed: float  # m/s of the gap; the hand moves at half of it
     done: bool = field(default=False, init=False)
-    error: int = field(default=0, init=False)
-    """When done: 0, or the error that nothing is held."""
+    error: int = field(default=0, init=False)  # when done: 0, or nothing held
     _left: float | None = field(default=None, init=False)
 
     def step(self, *, touch: tuple[bool, bool], gap: float, period: float) -> CentringStep:
-        """Shifts of the next period.
+        """Set-point changes of the next period.
 
         Args:
-            touch: switches of the finger on the +y side of the hand and of the one on the -y side.
-            gap: opening between the finger tips now, m.
+            touch: switches of the fingers on the hand's +y and -y side.
+            gap: opening between the finger tips, m.
             period: s.
         """
-        left = gap + SPARE if self._left is None else self._left
+        left = gap + OVERDRIVE if self._left is None else self._left
         if all(touch):
             self.done = True
         elif gap <= least_gap(self.minimum) or left <= 0:

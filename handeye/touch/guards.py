@@ -1,4 +1,4 @@
-"""Guards at work: each monitor watches for what a guard names, and ends the motion when it is met."""
+"""Monitors: each watches for a guard, and ends the motion when it is met."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -10,29 +10,23 @@ from handeye.core.pose import Array
 from handeye.program import guards as g
 from handeye.program.guards import GuardKind, Guards
 
-HELD: Final = 4
-"""Servo periods for which a torque has to last. Placeholder: the spindle is up to speed in less."""
+HOLD_PERIODS: Final = 4  # servo periods that a torque must last; placeholder: the spindle spins up in fewer
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Reading:
-    """Forces and switches that a monitor looks at in a servo period."""
+    """Sensor readings of a servo period; vectors have shape (3,) and world axes."""
 
-    force: Array
-    """Force the hand exerts on the world, shape (3,), N, world axes."""
-    direction: Array
-    """Unit vector of the motion, shape (3,), or zero."""
-    moment: Array = field(default_factory=lambda: np.zeros(3))
-    """Moment the hand exerts about its tool centre point, shape (3,), N m, world axes."""
-    touch: tuple[bool, bool] = (False, False)
-    """The finger switches, as `Sensed` has them."""
-    tool_torque: float = 0.0
-    """Torque of the screwdriver's motor, N m."""
+    force: Array  # that the hand exerts on the world, N
+    direction: Array  # unit vector of the motion, or zero
+    moment: Array = field(default_factory=lambda: np.zeros(3))  # about the tool centre point, N m
+    touch: tuple[bool, bool] = (False, False)  # as `Sensed.touch`
+    tool_torque: float = 0.0  # N m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trip:
-    """The guard that ended a motion, what it saw and what it allowed (N, N m, or finger switches as a mask)."""
+    """The guard that ended a motion, with its value and limit (N, N m, or a mask of finger switches)."""
 
     guard: GuardKind
     value: float
@@ -41,60 +35,51 @@ class Trip:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ActiveGuard:
-    """A guard that watches in a servo period, and what it allows."""
+    """A guard that is active in a servo period.
+
+    `axis` is the unit vector of the force or moment it watches, shape (3,), world axes, or None.
+    """
 
     guard: GuardKind
     limit: float
-    """As `Trip.limit`."""
     axis: Array | None = None
-    """Unit vector along which it looks at the force of the hand, or about which at its moment, shape (3,), world
-    axes; None: it looks at neither."""
 
 
 class Monitor(Protocol):
-    """Watches for a guard; made anew for each motion."""
+    """Watches for a guard; one for each motion."""
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        """The guards it watches for while the motion goes along a unit vector, shape (3,)."""
+        """Guards active while the motion goes along a unit vector, shape (3,)."""
         ...
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip, or None; to be asked once a servo period."""
+        """The trip, or None; called once a servo period."""
         ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ForceMonitor:
-    """Trips when the hand presses along a vector with more than the vector's length.
-
-    A force to the side, or the other way, does not count.
-    """
+    """Trips when the hand exerts more than a force (shape (3,), N, world axes) along it."""
 
     force: Array
-    """Shape (3,), N, world axes; not zero."""
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        """Its guard."""
         return (_active(GuardKind.FORCE, self.force),)
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip, or None."""
         return _along(GuardKind.FORCE, reading.force, self.force)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class MomentMonitor:
-    """Trips when the hand turns something about a vector with more than the vector's length."""
+    """Trips when the hand exerts more than a moment (shape (3,), N m, world axes) about it."""
 
     moment: Array
-    """Shape (3,), N m, world axes; not zero."""
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        """Its guard."""
         return (_active(GuardKind.MOMENT, self.moment),)
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip, or None."""
         return _along(GuardKind.MOMENT, reading.moment, self.moment)
 
 
@@ -111,56 +96,51 @@ def _along(guard: GuardKind, felt: Array, vector: Array) -> Trip | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AgainstMonitor:
-    """Trips when the motion, whichever way it goes, is opposed with more than a force."""
+    """Trips when the motion is opposed by more than `limit` (N), whatever its direction."""
 
     limit: float
-    """N"""
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        """Its guard."""
         return (ActiveGuard(guard=GuardKind.AGAINST, limit=self.limit, axis=direction),)
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip, or None."""
         value = float(reading.force @ reading.direction)
         return Trip(guard=GuardKind.AGAINST, value=value, limit=self.limit) if value > self.limit else None
 
 
 @dataclass(slots=True, kw_only=True)
 class TorqueMonitor:
-    """Trips when the screwdriver's motor holds a torque, in either sense of turning.
+    """Trips when the screwdriver's motor holds a torque (N m), turning either way.
 
-    A motor that starts, or takes up a screw, shows a current for an instant that is not yet a tight screw.
+    Starting, or taking up a screw, causes a current peak that is not yet a tight screw.
     """
 
     limit: float
-    """N m"""
     _held: int = field(default=0, init=False)
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        """Its guard."""
         return (ActiveGuard(guard=GuardKind.TORQUE, limit=self.limit),)
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip, or None."""
         value = abs(reading.tool_torque)
         self._held = self._held + 1 if value >= self.limit else 0
-        return Trip(guard=GuardKind.TORQUE, value=value, limit=self.limit) if self._held >= HELD else None
+        return (
+            Trip(guard=GuardKind.TORQUE, value=value, limit=self.limit)
+            if self._held >= HOLD_PERIODS
+            else None
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TouchMonitor:
-    """Trips when a finger touches something."""
+    """Trips when a finger touches: 1 the first of `Sensed.touch`, 2 the second, 3 either."""
 
     mask: int
-    """1: the first finger of `Sensed.touch`, 2: the second, 3: either."""
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        """Its guard."""
         return (ActiveGuard(guard=GuardKind.TOUCH, limit=float(self.mask)),)
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip, or None; its value is the mask of all fingers that touch."""
         first, second = reading.touch
         closed = first + 2 * second
         if not closed & self.mask:
@@ -175,11 +155,9 @@ class FirstOf:
     monitors: tuple[Monitor, ...]
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        """All guards of its monitors."""
         return tuple(guard for one in self.monitors for guard in one.active(direction))
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip of the first that trips, or None."""
         return next((trip for one in self.monitors if (trip := one.check(reading)) is not None), None)
 
 
@@ -193,6 +171,6 @@ _MONITORS: Final[dict[type[g.Guard], Callable[[Any], Monitor]]] = {
 
 
 def monitor(guards: Guards) -> Monitor | None:
-    """The monitor of all of some guards; None if there are none."""
+    """One monitor for all guards; None if there are none."""
     found = tuple(_MONITORS[type(guard)](guard) for guard in guards)
     return found[0] if len(found) == 1 else FirstOf(monitors=found) if found else None

@@ -1,14 +1,14 @@
-"""The square spiral, and the line, in which nearby places are searched."""
+"""Search patterns: the square spiral, and the line."""
 
 import math
 from collections.abc import Callable
 
 SearchPattern = Callable[[int], tuple[float, float] | None]
-"""The place of a number, from 0, in steps of the search along x and y of the table; None: there are no more."""
+"""Offset of place k, from 0, in search steps along table x and y; None after the last."""
 
 
 def spiral(k: int) -> tuple[int, int]:
-    """Grid place number `k`, from 0: (0,0) (1,0) (1,1) (0,1) (-1,1) (-1,0) (-1,-1) (0,-1) (1,-1) (2,-1) ...
+    """Grid place `k`, from 0: (0,0) (1,0) (1,1) (0,1) (-1,1) (-1,0) (-1,-1) (0,-1) (1,-1) (2,-1) ...
 
     The straight runs are 1, 1, 2, 2, 3, 3, ... long, turning left. On a grid of step s every point of the
     plane is within s / sqrt(2) of a place.
@@ -28,6 +28,6 @@ def spiral(k: int) -> tuple[int, int]:
 
 
 def line(k: int, direction: float) -> tuple[float, float]:
-    """Place number `k`, from 0, on a line in a direction (rad from x): 0, then 1, -1, 2, -2 ... steps along it."""
+    """Place `k`, from 0, on a line in a direction (rad from x): at 0, 1, -1, 2, -2 ... steps."""
     along = (k + 1) // 2 * (1 if k % 2 else -1)
     return along * math.cos(direction), along * math.sin(direction)

@@ -6,7 +6,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.core.resources import plans
 from handeye.core.units import INCH
 from handeye.planfile.store import read_plan
-from handeye.planning.first_grasp import FirstGrasp, first_grasp
+from handeye.planning.grasp_state import FirstGrasp, first_grasp
 from handeye.program.program import Program
 from handeye.program.vision_operations import Specific
 

@@ -10,7 +10,7 @@ from handeye.arm.kinematics import jacobian
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import hand
 from handeye.core.units import INCH, OUNCE_FORCE
-from handeye.planning.strength import weakness
+from handeye.planning.motion_checks import weakness
 
 DOWN = (np.pi / 2, np.pi / 2, 0.0)
 

@@ -1,5 +1,6 @@
-"""Checks of control flow, on the graph of steps.\n\nA statement of a macro becomes several steps; it is reported only
-if it is wrong in every call with the same operands.
+"""Checks of control flow, on the graph of steps.
+
+A statement of a macro becomes several steps; it is reported only if it is wrong in every call with the same operands.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence

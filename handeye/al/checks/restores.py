@@ -1,5 +1,6 @@
-"""RESTOREs of differences that no path to them saves.\n\nA difference saved for the goal it is restored to follows
-something that moves: it starts at zero.
+"""RESTOREs of differences that no path to them saves.
+
+A difference saved for the goal it is restored to follows something that moves: it starts at zero.
 """
 
 from collections.abc import Iterator
@@ -60,8 +61,9 @@ def _follows(graph: Graph, move: int, name: str) -> bool:
 
 
 def _saved(graph: Graph, bits: dict[int, int]) -> list[int | None]:
-    """For each step, the bit set of names that may have been saved before it; None if it is unreachable.\n\nPropagates
-    forwards through the steps until nothing changes.
+    """For each step, the bit set of names that may have been saved before it; None if it is unreachable.
+
+    Propagates forwards through the steps until nothing changes.
     """
     before: list[int | None] = [None] * len(graph.steps)
     before[0] = 0

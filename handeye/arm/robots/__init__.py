@@ -16,11 +16,7 @@ def robot(name: str) -> ArmModel | None:
 
 
 def register(arm: ArmModel) -> None:
-    """Make an arm known by its name; one with the same figures may be known already.
-
-    Raises:
-        InvalidInput: it is no arm, has no name, or another arm has it.
-    """
+    """Make an arm known by its name; one with the same figures may be known already."""
     if not isinstance(arm, ArmModel):
         raise BadArgument(f"an arm is an ArmModel, not {arm!r}")
     if not arm.name:

@@ -30,7 +30,7 @@ from handeye.program.guards import GuardKind
 from handeye.program.motion_operations import Center, Close, Move, Open
 from handeye.program.operation import Operation
 from handeye.touch.guards import FirstOf, Monitor
-from handeye.touch.hold import NEARLY_ZERO, SAME_HOLD, SKEW, as_before, at_least
+from handeye.touch.hold import EMPTY_GAP, SAME_HOLD, SKEW, as_before, at_least
 
 STANDS: Final = 0.5
 """Of the force with which a screw was taken: so much has to bear the hand that brings it back."""
@@ -272,7 +272,7 @@ def _lost(run: ExecutionContext, kept: float) -> Stopped | None:
     much thicker or thinner is another thing, and so is nothing.
     """
     held = kept if run.state.held is None else run.state.held
-    most = STRAIGHTER if at_least(min(held, kept), NEARLY_ZERO) else 0.0
+    most = STRAIGHTER if at_least(min(held, kept), EMPTY_GAP) else 0.0
     straighter = min(max(held - kept, -most), most)
     return _off_hold(run, kept, SKEW + max(-straighter, 0.0), SAME_HOLD + max(straighter, 0.0))
 

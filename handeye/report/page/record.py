@@ -7,7 +7,7 @@ from handeye.core.markup import Markup
 from handeye.core.variation import World
 from handeye.core.versions import HANDEYE
 from handeye.program.events import ExperimentMade, OperatorAnswered
-from handeye.program.senses import BELIEFS
+from handeye.program.senses import ASSUMPTIONS
 from handeye.report.facts.again import command
 from handeye.report.facts.faults import told_faults
 from handeye.report.page.elements import (
@@ -58,7 +58,7 @@ def _facts(run: Recorded) -> Markup:
         ("plan", element("code", head.plan)),
         ("arm", joined_code(head.arm, head.arm_digest)),
         ("pictures by", renderer_name(head.camera)),
-        *((f"without {sense}", BELIEFS[sense]) for sense in head.lacking),
+        *((f"without {sense}", ASSUMPTIONS[sense]) for sense in head.lacking),
         *((f"{part} by", name) for part, name in head.own_parts.items()),
         ("versions", ", ".join(f"{name} {version}" for name, version in head.versions.items())),
         ("trace", f"format {run.trace.version}{', thinned' if run.trace.thinned else ''}"),
