@@ -44,8 +44,8 @@ MODULES = sorted(".".join(p.relative_to(PACKAGE).with_suffix("").parts) for p in
 SKILLS = {"arm", "vision", "touch", "al"}
 WORKING_PHASE = {"execution", "planning", *SKILLS}
 ARITHMETIC = {
-    "abc", "collections", "contextlib", "cv2", "dataclasses", "enum", "functools", "hashlib", "itertools", "math",
-    "msgspec", "numpy", "scipy", "types", "typing", "zlib",
+    "abc", "collections", "contextlib", "cv2", "dataclasses", "enum", "fractions", "functools", "hashlib",
+    "itertools", "math", "msgspec", "numpy", "scipy", "types", "typing", "zlib",
 }  # fmt: skip
 MAKERS = {
     "__init__": {"importlib.import_module"},  # a name of the API when it is used

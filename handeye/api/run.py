@@ -244,7 +244,7 @@ class Run:
         try:
             pause = attend(self._runner, operator, [], self._hands.kept)
         except BaseException:
-            self._runner.undo()
+            self._runner.rollback()
             raise
         return self._stand(reason(pause))
 

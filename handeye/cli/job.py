@@ -199,7 +199,7 @@ class _Work:
             words = runner.task.words
             note(words.apart if runner.undone else words.done)
             if part == "dismantle":
-                runner.have_undone(0, halts=True)
+                runner.order_reversal(0, halts=True)
             else:
                 runner.answer("proceed")
             pause = self._attended(runner)

@@ -115,7 +115,7 @@ class DebugSession:
         """
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")
-        self.runner.have_undone(left, halts=halts)
+        self.runner.order_reversal(left, halts=halts)
         return self._go([Undone()], None)
 
     def _go(self, stops: Sequence[AnyStop], steps: int | None) -> Pause:
@@ -124,10 +124,10 @@ class DebugSession:
             with self._attended("on", self.pace, self.face, self.ear):
                 pause = advance(self.runner, wanted, steps, lambda: self._pause_asked)
         except BaseException:  # whatever broke it off: Ctrl-C, or code of a caller
-            self.runner.undo()
+            self.runner.rollback()
             raise
         if pause.kind == "panic":
-            self.runner.undo()
+            self.runner.rollback()
         return pause
 
     def ask_pause(self) -> None:
@@ -184,7 +184,7 @@ class DebugSession:
             with self._attended("back", self.ear):
                 self.runner.back_to(position, self.kept)
         except Halted:
-            self.runner.undo()
+            self.runner.rollback()
             done = self.runner.position
             raise Refused(
                 f"stopped by the panic button on the way back to {position} steps done; {done} are done"

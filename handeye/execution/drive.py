@@ -1,6 +1,6 @@
 """Drives an arm: motions of its servo loop, with time passing."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
@@ -8,36 +8,13 @@ from handeye.arm.dynamics import Dynamics
 from handeye.arm.samples import Samples
 from handeye.core.pose import Array, Pose
 from handeye.execution.compliance import Course
+from handeye.execution.scheduler import run
 from handeye.execution.servo import Motion, T
 from handeye.execution.servo_loop import Outcome, ServoLoop
-from handeye.ports.clock import Clock
 from handeye.touch.guards import Monitor
 
 _STANDS: Final = 0.1
 """s in which the brakes bring the arm to rest. Chosen."""
-_DUE: Final = 1e-9
-"""s that count as none: what floating-point numbers lose."""
-
-
-def run(clock: Clock, motions: Sequence[Motion[T]]) -> list[T]:
-    """Let motions of arms under one clock go on together, each when it is due; how each ended.
-
-    An arm whose motion has ended is no longer driven while others move on, so that its watchdog sets its brakes.
-    """
-    ended: dict[int, T] = {}
-    waits = dict.fromkeys(range(len(motions)), 0.0)
-    while True:
-        for number in [number for number, wait in waits.items() if wait < _DUE]:
-            try:
-                waits[number] = next(motions[number])
-            except StopIteration as end:
-                ended[number] = end.value
-                del waits[number]
-        if not waits:
-            return [ended[number] for number in range(len(motions))]
-        passed = min(waits.values())
-        clock.advance(passed)
-        waits = {number: wait - passed for number, wait in waits.items()}
 
 
 @dataclass(slots=True, kw_only=True)

@@ -2,6 +2,7 @@
 
 import math
 from abc import ABC, abstractmethod
+from fractions import Fraction
 from typing import Final
 
 from handeye.core.errors import BadArgument
@@ -24,6 +25,12 @@ class Clock(ABC):
     @abstractmethod
     def now(self) -> float:
         """s since the cell was switched on."""
+
+    @property
+    def tick(self) -> Fraction | None:
+        """The time, s, of which everything that passes is a multiple, where others are rounded up to it; None: they
+        are refused."""
+        return None
 
     @abstractmethod
     def advance(self, seconds: float) -> None:

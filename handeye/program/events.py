@@ -1,13 +1,14 @@
 """Events of a run, as plain records. Simulated time only, so that two runs with one seed give the same bytes."""
 
 from collections.abc import Iterable
-from typing import Literal
+from typing import ClassVar, Literal
 
 import msgspec
 from msgspec import UNSET, UnsetType
 
 from handeye.core.record import Record
 from handeye.core.source import line_name
+from handeye.core.units import Measures
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.program.causes import Cause, InspectionCause, JointName, Recorded
@@ -16,6 +17,7 @@ from handeye.program.senses import Sense
 
 AskedBy = Literal["person", "program", "job"]
 """Who has the arm undo what it did; a job does so by itself where its program has ended."""
+Importance = Literal["debug", "info", "warning", "error"]
 Choice = Literal["proceed", "retry", "skip"]
 """Choices of an operator after a stop: proceed after it, retry the stage, or skip the rest of the stage."""
 
@@ -24,6 +26,16 @@ class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
     """Base of the events; `time` is the cell's clock in seconds, which runs while the camera is calibrated too."""
 
     time: float
+
+
+class SystemEvent(Event, frozen=True, kw_only=True):
+    """Base of the kinds of events that one system adds to those of all; its `System.events` lists them."""
+
+    importance: ClassVar[Importance] = "info"
+
+    def sentence(self, measures: Measures) -> str:
+        """What happened, without the time, in the units of the system's task."""
+        raise NotImplementedError
 
 
 class RunStarted(Event, frozen=True, kw_only=True):
@@ -39,7 +51,7 @@ class RunStarted(Event, frozen=True, kw_only=True):
     arm_digest: str
     world: WorldSpec
     task: str = "water_pump"
-    """Its name; recordings of before there were any others have none."""
+    """Its name."""
     camera: Renderer
     """How pictures are made."""
     versions: dict[str, str]
@@ -266,6 +278,14 @@ class ExperimentMade(Event, frozen=True, kw_only=True):
     value: tuple[float, ...]
 
 
+class LineTyped(Event, frozen=True, kw_only=True):
+    """A person typed a line at the console of a system, for one of its tasks: the run is no longer the plan's alone."""
+
+    text: str
+    task: str = ""
+    """Name of the task it was typed to; empty: the only one, or the one that reads the console."""
+
+
 class PanicStopped(Event, frozen=True, kw_only=True):
     """The operator hit the panic button: drives off, brakes set, at this servo period."""
 
@@ -318,14 +338,16 @@ class RunFinished(Event, frozen=True, kw_only=True):
     completed: bool
 
 
-AnyEvent = (
+CommonEvent = (
     RunStarted | FrictionMeasured | StageStarted | StageFinished | StepStarted | StepFinished | Adjusted
     | GuardFaint | GuardTripped
     | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | PositionDefined | Restored
     | PictureTaken | PartSeen | PartInspected | PartMatched | CameraStarted | CameraBusy
-    | OperatorCalled | OperatorAnswered | ExperimentMade | PanicStopped | WentBack
+    | OperatorCalled | OperatorAnswered | ExperimentMade | LineTyped | PanicStopped | WentBack
     | UndoOrdered | UndoStarted | UndoFinished | StageUndone | UndoEnded | RunFinished
 )  # fmt: skip
+"""The kinds of events that runs of every system have."""
+AnyEvent = CommonEvent | SystemEvent
 
 
 def beginning(events: Iterable[AnyEvent]) -> float:

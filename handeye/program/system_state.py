@@ -1,6 +1,6 @@
 """Place in a listing: what every system remembers, whatever else it does."""
 
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import msgspec
 
@@ -8,6 +8,17 @@ from handeye.core.mutable_records import MutableRecord
 from handeye.program.events import OperatorCalled
 
 Natural = Annotated[int, msgspec.Meta(ge=0)]
+
+
+class TaskPlace(NamedTuple):
+    """Where one task of a system stands."""
+
+    task: str
+    """Its name; empty: that of the only one."""
+    step: int
+    """The step that it does next."""
+    waits_for: str = ""
+    """What it waits for, in words; empty: its turn."""
 
 
 class SystemState(MutableRecord, kw_only=True):
@@ -21,3 +32,11 @@ class SystemState(MutableRecord, kw_only=True):
     """The call of the operator that has not been answered."""
     onward: Natural | None = None
     """After a stop: the step that would have been next."""
+
+    @property
+    def places(self) -> tuple[TaskPlace, ...]:
+        """Where each task that has not ended stands, in the order of the tasks; a system of several tells its own.
+
+        The one that goes on next stands at `at`.
+        """
+        return () if self.at is None else (TaskPlace("", self.at),)

@@ -20,6 +20,7 @@ from handeye.core.packed import decoded, encoded, packed, sealed, unpacked
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.core.versions import versions
+from handeye.program.event_reading import read_packed
 from handeye.program.events import AnyEvent, RunStarted, StageFinished, StageStarted
 from handeye.program.senses import Sense
 from handeye.runs.setup import Setup
@@ -82,7 +83,7 @@ class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):
 class _Body(Record, frozen=True, kw_only=True):
     plan: str
     snapshot: _Snapshot | None
-    events: tuple[AnyEvent, ...]
+    events: msgspec.Raw
 
 
 def head_of(checkpoint: Checkpoint) -> Head:
@@ -117,7 +118,7 @@ def encode(checkpoint: Checkpoint) -> bytes:
     body = _Body(
         plan=written(setup).decode(),
         snapshot=None if snapshot is None else _on_disk(snapshot),
-        events=checkpoint.events,
+        events=msgspec.Raw(encoded(checkpoint.events)),
     )
     head = msgspec.json.encode(head_of(checkpoint))
     return sealed(MAGIC, VERSION, head + b"\n" + packed(body))
@@ -150,18 +151,21 @@ def decode(data: bytes, name: str) -> Checkpoint:
         kind.check(setup)
     except InvalidInput as error:
         raise BadFile(f"{name} cannot be used: {error}") from None
+    try:
+        events = read_packed(body.events, kind.name)
+    except ValueError as error:
+        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None
     if body.snapshot is not None and (
-        body.snapshot.happened != len(body.events)
-        or not isinstance(next(iter(body.events), None), RunStarted)
+        body.snapshot.happened != len(events) or not isinstance(next(iter(events), None), RunStarted)
     ):
         raise BadFile(f"{name} is not a sound checkpoint: it does not hold all that has happened")
     checkpoint = Checkpoint(
         setup=setup,
         snapshot=None if body.snapshot is None else _in_memory(body.snapshot, kind, name),
-        events=body.events,
+        events=events,
     )
     listing = kind.listing(plan)
-    begun = {event.stage for event in body.events if isinstance(event, StageStarted | StageFinished)}
+    begun = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}
     if not begun <= set(listing.stages):
         raise BadFile(f"{name} is not a sound checkpoint: it has stages that its plan lacks")
     told = (head.task, head.program, head.plan, head.position, head.touched)

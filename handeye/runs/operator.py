@@ -203,7 +203,7 @@ def _carry_out(
             return Pause(kind="panic", next=runner.at, back=True)
         return None
     if isinstance(answer, Unwind):
-        runner.have_undone(stage_began(runner.system.executed, runner.listing, answer.stage))
+        runner.order_reversal(stage_began(runner.system.executed, runner.listing, answer.stage))
         return None
     runner.answer(answer)
     return None if runner.ended else paused_before(runner, stops)

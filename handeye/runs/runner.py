@@ -24,6 +24,7 @@ from handeye.program.events import (
     AskedBy,
     Choice,
     ExperimentMade,
+    LineTyped,
     OperatorAnswered,
     OperatorCalled,
     PanicStopped,
@@ -34,6 +35,7 @@ from handeye.program.events import (
     UndoOrdered,
     beginning,
 )
+from handeye.program.system_state import TaskPlace
 from handeye.runs.observer import Observer
 from handeye.runs.parts import OWN, Parts
 from handeye.runs.snapshot import Checkpoint, Snapshot, interfered
@@ -191,6 +193,11 @@ class Runner:
         return self.system.state.at
 
     @property
+    def places(self) -> tuple[TaskPlace, ...]:
+        """Where each task that has not ended stands; that of `at` goes on next."""
+        return self.system.state.places
+
+    @property
     def next(self) -> StepFacts | None:
         """The step to be done next."""
         return None if self.at is None else self.listing.steps[self.at]
@@ -223,7 +230,7 @@ class Runner:
 
     @property
     def touched(self) -> bool:
-        """Somebody has interfered: an experiment, an answer of the operator, or an order to undo."""
+        """People have interfered: an experiment, a typed line, an answer of the operator, or an order to undo."""
         return interfered(self.events)
 
     def checkpoint(self, snapshot: Snapshot | None = None) -> Checkpoint:
@@ -241,7 +248,7 @@ class Runner:
         """Do the next step.
 
         Raises:
-            Halted: the panic button was hit; the step is not done, and `undo` takes back what it has done.
+            Halted: the panic button was hit; the step is not done, and `rollback` takes back what it has done.
         """
         assert not self.ended
         try:
@@ -260,7 +267,7 @@ class Runner:
         self.system.answer(choice)
         self._settle()
 
-    def have_undone(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
+    def order_reversal(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
         """From now on each step has the arm undo one that was executed, until so many are left.
 
         Args:
@@ -271,7 +278,7 @@ class Runner:
             InvalidInput: so much was not executed, or the system cannot undo anything.
         """
         self.require("undo")
-        self.system.undo(Undoing(left=left, halts=halts, asked_by=asked_by))
+        self.system.reverse(Undoing(left=left, halts=halts, asked_by=asked_by))
         self._settle()
 
     def finish(self) -> bool:
@@ -289,7 +296,9 @@ class Runner:
             if isinstance(then, OperatorAnswered) and (self.call is not None or self.undone):
                 self.answer(then.choice)
             elif isinstance(then, UndoOrdered):
-                self.have_undone(then.left, halts=then.halts, asked_by=then.asked_by)
+                self.order_reversal(then.left, halts=then.halts, asked_by=then.asked_by)
+            elif isinstance(then, LineTyped):
+                self.type_line(then.text, then.task)
             elif isinstance(then, ExperimentMade):
                 self.experiment(then.what, then.name, then.value)
             elif self.ended:
@@ -300,8 +309,8 @@ class Runner:
 
     # -- going back -----------------------------------------------------------------------------------
 
-    def undo(self) -> None:
-        """Be again where the last step ended, whatever a step that was broken off has done."""
+    def rollback(self) -> None:
+        """Return the simulation to where the last step ended, whatever a step that was broken off has done."""
         self._return_to(self.history[-1])
 
     def back_to(self, position: int, kept: Callable[[int], Checkpoint | None] = lambda _: None) -> None:
@@ -360,6 +369,15 @@ class Runner:
         """
         self.system.set_value(what, name, value)
         self._emit(ExperimentMade(time=self.time, what=what, name=name, value=value))
+        self._settle()
+
+    def type_line(self, text: str, task: str = "") -> None:
+        """Type a line at the console of the system, for one of its tasks.
+
+        Raises:
+            InvalidInput: the system has no console, or no such task.
+        """
+        self.system.type_line(text, task)
         self._settle()
 
     # -- inside ---------------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ import msgspec
 
 from handeye.cell.state import CellState
 from handeye.core.record import Record
-from handeye.program.events import AnyEvent, ExperimentMade, OperatorAnswered, UndoOrdered
+from handeye.program.events import AnyEvent, ExperimentMade, LineTyped, OperatorAnswered, UndoOrdered
 from handeye.program.system_state import SystemState
 from handeye.runs.setup import Setup
 from handeye.runs.systems import listing_of
@@ -48,7 +48,7 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
     @property
     def touched(self) -> bool:
-        """Somebody has interfered: an experiment, an answer of the operator, or an order to undo."""
+        """People have interfered: an experiment, a typed line, an answer of the operator, or an order to undo."""
         return interfered(self.events)
 
     @property
@@ -71,10 +71,10 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
 
 def interfered(events: Iterable[AnyEvent]) -> bool:
-    """See whether somebody has taken a hand in what happened."""
+    """True if people had a hand in what happened."""
     return any(
         event.asked_by == "person"
         if isinstance(event, UndoOrdered)
-        else isinstance(event, ExperimentMade | OperatorAnswered)
+        else isinstance(event, ExperimentMade | LineTyped | OperatorAnswered)
         for event in events
     )

@@ -15,7 +15,7 @@ import numpy as np
 from handeye.cell.kept import KeptCell
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.entries import Entry, entry_named, refusal
-from handeye.core.errors import BadFile
+from handeye.core.errors import BadFile, Refused
 from handeye.core.record import Record
 from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_period import ServoPeriod
@@ -197,7 +197,7 @@ class RunningSystem(Protocol):
         """Steps that were executed and that the arm has not undone, in order; none of a system that cannot undo."""
         return ()
 
-    def undo(self, undoing: Undoing) -> None:
+    def reverse(self, undoing: Undoing) -> None:
         """From now on each step undoes one that was executed, the last first; raises InvalidInput without any."""
 
     def finish(self) -> bool:
@@ -247,6 +247,14 @@ class RunningSystem(Protocol):
         """Its state, for people who look at it."""
         shown: dict[str, Any] = msgspec.to_builtins(self.state, enc_hook=np.ndarray.tolist)
         return shown
+
+    def type_line(self, text: str, task: str) -> None:
+        """Give a task a line typed at the console, and emit `LineTyped` before all that comes of it.
+
+        Raises:
+            InvalidInput: this system has no console, or no such task; nothing has happened then.
+        """
+        raise Refused("this system has no console to type at")
 
     def settables(self) -> Mapping[str, Settable]:
         """Things that a person can set, by kind."""

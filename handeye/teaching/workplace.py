@@ -193,7 +193,7 @@ class Workplace:
     def _go(self) -> Pause:
         pause = advance(self.runner)
         if pause.kind == "panic":
-            self.runner.undo()
+            self.runner.rollback()
         return pause
 
     def mark(self) -> None:

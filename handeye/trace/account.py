@@ -94,7 +94,12 @@ class _Teller:
                 self.lines.append(f"{self.clock(event)}  *** {sentence(event)}")
             case happened.StageUndone() | happened.UndoEnded():
                 self.lines += ["", f"{self.clock(event)}  {sentence(event)}"]
-            case happened.ExperimentMade() | happened.WentBack() | happened.UndoOrdered():
+            case (
+                happened.ExperimentMade()
+                | happened.LineTyped()
+                | happened.WentBack()
+                | happened.UndoOrdered()
+            ):
                 self.lines.append(f"{self.clock(event)}  *** {sentence(event)}")
             case _:
                 self._beneath(sentence(event))

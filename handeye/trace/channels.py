@@ -3,7 +3,8 @@
 The typed ones are those robotics tools show by themselves; `/events` is the lossless copy of each event, for us.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any, Final
 
 import msgspec
@@ -16,7 +17,8 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from google.protobuf.descriptor_pb2 import FileDescriptorSet
 from google.protobuf.message import Message
 
-from handeye.program.events import AnyEvent
+from handeye.program.event_reading import event_type
+from handeye.program.events import CommonEvent
 from handeye.trace.hand_message import hand_schema
 
 FORMAT: Final = "handeye trace"
@@ -84,6 +86,10 @@ def _typed(topic: str, kind: type[Message]) -> Channel:
     )
 
 
+def _schema(kind: Any) -> bytes:
+    return msgspec.json.encode(msgspec.json.schema(kind), order="sorted")
+
+
 CHANNELS: Final = (
     _typed(JOINTS, JointStates),
     _typed(FRAMES, FrameTransforms),
@@ -95,7 +101,7 @@ CHANNELS: Final = (
         encoding="json",
         schema_name="handeye.Event",
         schema_encoding="jsonschema",
-        schema=msgspec.json.encode(msgspec.json.schema(AnyEvent), order="sorted"),
+        schema=_schema(CommonEvent),
     ),
     Channel(
         topic=HAND,
@@ -107,6 +113,14 @@ CHANNELS: Final = (
     _typed(ANNOTATIONS, ImageAnnotations),
 )
 """All channels, in the order of their numbers in the file, which begin with 1."""
+
+
+@cache
+def channels_of(system: str) -> tuple[Channel, ...]:
+    """The channels of a run of a system, which may have kinds of events of its own."""
+    own = _schema(event_type(system))
+    return tuple(replace(each, schema=own) if each.topic == EVENTS else each for each in CHANNELS)
+
 
 NUMBERS: Final = {channel.topic: number for number, channel in enumerate(CHANNELS, 1)}
 

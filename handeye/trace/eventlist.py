@@ -7,8 +7,8 @@ import msgspec
 
 from handeye.core.errors import BadFile
 from handeye.core.files import read_whole
+from handeye.program.event_reading import EventReader
 from handeye.program.events import AnyEvent, WentBack
-from handeye.trace.events_read import read_event
 
 
 def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
@@ -23,13 +23,13 @@ def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
     text = read_whole(path)
     if growing:
         text = text[: text.rfind(b"\n") + 1]
-    events = []
+    events, reader = [], EventReader()
     for number, line in enumerate(text.splitlines(keepends=True), 1):
         if not line.endswith(b"\n"):
             raise BadFile(f"line {number} of {path} is cut short")
         try:
-            events.append(read_event(line))
-        except (msgspec.DecodeError, UnicodeDecodeError) as error:
+            events.append(reader.read(line))
+        except msgspec.DecodeError as error:
             raise BadFile(f"line {number} of {path} is not an event: {error}") from None
     return events
 

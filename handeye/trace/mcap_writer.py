@@ -15,7 +15,6 @@ from handeye.core.errors import CannotWrite
 from handeye.core.versions import HANDEYE
 from handeye.program.events import RunStarted
 from handeye.trace.channels import (
-    CHANNELS,
     FORMAT,
     METADATA,
     NUMBERS,
@@ -23,6 +22,7 @@ from handeye.trace.channels import (
     PLAN,
     THINNED,
     VERSION,
+    channels_of,
     nanoseconds,
 )
 
@@ -101,7 +101,7 @@ class GrowingFile:
                 )
             else:
                 self._writer.add_attachment(0, time, PLAN, "application/json", plan)
-            for channel in CHANNELS:
+            for channel in channels_of(head.system):
                 schema = self._writer.register_schema(
                     channel.schema_name, channel.schema_encoding, channel.schema
                 )

@@ -7,9 +7,9 @@ import numpy as np
 from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
 
 from handeye.ports.camera import Picture
+from handeye.program.event_reading import EventReader
 from handeye.program.events import PictureTaken
 from handeye.trace.channels import EVENTS, PICTURE
-from handeye.trace.events_read import read_event
 from handeye.trace.messages import LEVEL
 from handeye.trace.records import RawMessage
 
@@ -32,12 +32,13 @@ def read_pictures(messages: Iterable[RawMessage]) -> Iterator[TakenPicture]:
         DecodeError, ValueError: a message is not what its channel says.
     """
     picture: Picture | None = None
+    reader = EventReader()
     for message in messages:
         if message.topic == PICTURE:
             picture = _levels(message.data)
-        elif message.topic == EVENTS and picture is not None:
-            event = read_event(message.data)
-            if isinstance(event, PictureTaken):
+        elif message.topic == EVENTS:
+            event = reader.read(message.data)
+            if isinstance(event, PictureTaken) and picture is not None:
                 yield TakenPicture(time=event.time, name=event.picture, picture=picture)
                 picture = None
 

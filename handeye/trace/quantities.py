@@ -15,7 +15,6 @@ from handeye.core.record import Record
 from handeye.program.events import AnyEvent, FrictionMeasured
 from handeye.trace.annotations import read_annotations
 from handeye.trace.channels import ANNOTATIONS, EVENTS, FRAMES, HAND, JOINTS, PICTURE
-from handeye.trace.events_read import read_event
 from handeye.trace.messages import GAP, LEVEL
 from handeye.trace.records import RawMessage
 
@@ -68,11 +67,12 @@ def differing(a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None =
 
 def differing_events(a: AnyEvent, b: AnyEvent) -> Differing | None:
     """The first quantity of which two events of a kind tell different values, their times left out; None: none."""
-    found = next(_differing(_event(a), _event(b)), None)
+    plain = msgspec.to_builtins(a)
+    found = next(_differing(_event(plain), _event(msgspec.to_builtins(b))), None)
     if found is None:
         return None
     quantity, one, other = found
-    return Differing(quantity=quantity, unit=_event_unit(a, quantity), a=one, b=other)
+    return Differing(quantity=quantity, unit=_event_unit(plain, quantity), a=one, b=other)
 
 
 def _differing(a: Any, b: Any, name: tuple[str, ...] = ()) -> Iterator[Found]:
@@ -130,15 +130,14 @@ def _mark(mark: Any) -> dict[str, Any]:
     return {"kind": type(mark).__name__} | {name: getattr(mark, name) for name in mark.__slots__}
 
 
-def _event(event: AnyEvent) -> dict[str, Any]:
-    if isinstance(event, FrictionMeasured):
-        joints = {each.joint.name: {"friction": each.friction} for each in event.joints}
-        links = {f"{number}": {"weight": weight} for number, weight in enumerate(event.links, 1)}
-        return {"joint": joints, "link": links, "friction": {"seconds": event.seconds}}
-    told = msgspec.to_builtins(event)
-    kind = told.pop("event")
-    del told["time"]
-    return {kind: {name: _named(value) for name, value in told.items()}}
+def _event(event: dict[str, Any]) -> dict[str, Any]:
+    """What an event tells, by the names of the quantities; it is made of dictionaries and lists."""
+    if event["event"] == FrictionMeasured.__name__:
+        joints = {each["joint"]["name"]: {"friction": each["friction"]} for each in event["joints"]}
+        links = {f"{number}": {"weight": weight} for number, weight in enumerate(event.get("links", ()), 1)}
+        return {"joint": joints, "link": links, "friction": {"seconds": event["seconds"]}}
+    told = {name: _named(value) for name, value in event.items() if name not in ("event", "time")}
+    return {event["event"]: told}
 
 
 def _named(value: Any) -> Any:
@@ -156,7 +155,7 @@ _TELLERS: Final[Mapping[str, Callable[[bytes], dict[str, Any]]]] = {
     FRAMES: _frames,
     PICTURE: _picture,
     ANNOTATIONS: _marks,
-    EVENTS: lambda data: _event(read_event(data)),
+    EVENTS: lambda data: _event(msgspec.json.decode(data)),
 }
 
 
@@ -185,16 +184,16 @@ def _unit(message: RawMessage, quantity: tuple[str, ...], arm: ArmModel | None) 
             return _GUARD_UNITS.get(_hand(message.data)["hand"]["guards"][int(number) - 1]["guard"], "")
         case ("hand", what, *_):
             return _HAND_UNITS.get(what, "")
-    return _event_unit(read_event(message.data), quantity) if message.topic == EVENTS else ""
+    return _event_unit(msgspec.json.decode(message.data), quantity) if message.topic == EVENTS else ""
 
 
-def _event_unit(event: AnyEvent, quantity: tuple[str, ...]) -> str:
+def _event_unit(event: dict[str, Any], quantity: tuple[str, ...]) -> str:
     """The unit of a quantity of an event."""
     match quantity:
         case (_, "value" | "limit" | "friction"):
-            return _GUARD_UNITS.get(str(getattr(event, "guard", "")), "")
-        case ("joint", name, what) if isinstance(event, FrictionMeasured):
-            kinds = {each.joint.name: each.joint.kind for each in event.joints}
+            return _GUARD_UNITS.get(event.get("guard", ""), "")
+        case ("joint", name, what):
+            kinds = {each["joint"]["name"]: each["joint"]["kind"] for each in event["joints"]}
             return _JOINT_UNITS[kinds[name]][what] if name in kinds else ""
         case (_, "at", axis):
             return "m" if axis in _AXES[:3] else "rad"

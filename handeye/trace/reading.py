@@ -11,9 +11,9 @@ from mcap.writer import MCAP0_MAGIC
 from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole
 from handeye.planfile.store import written_digest
+from handeye.program.event_reading import EventReader
 from handeye.program.events import RunStarted
 from handeye.trace.channels import EVENTS, FORMAT, THINNED, VERSION
-from handeye.trace.events_read import read_event
 from handeye.trace.records import Unsound, check, front, is_ended, is_mcap, read_messages
 from handeye.trace.trace import Trace
 
@@ -37,13 +37,13 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
         if not lenient:
             check(data)
         messages = tuple(read_messages(data, lenient=lenient))
-        events = []
+        events, reader = [], EventReader()
         for message in messages:
             if message.topic == EVENTS:
-                events.append(read_event(message.data))
+                events.append(reader.read(message.data))
     except Unsound as error:
         raise BadFile(f"{path} {error}") from None
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+    except msgspec.DecodeError as error:
         raise BadFile(f"{path}: event {len(events) + 1} cannot be understood: {error}") from None
     if not events or not isinstance(events[0], RunStarted):
         raise BadFile(f"{path} is a trace without the start of a run")

@@ -6,14 +6,20 @@ from typing import Final
 
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
-from handeye.core.plain_text import counted, told_apart
+from handeye.core.plain_text import counted, printable, told_apart
 from handeye.core.units import DEGREE, INCH, INCHES, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH, Measures
 from handeye.ports.camera import Renderer
 from handeye.program import events as happened
 from handeye.program.cause_text import call_sentence, error_sentence, inspection_sentence, match_sentence
-from handeye.program.events import Event
+from handeye.program.events import Event, SystemEvent
 from handeye.program.guards import GuardKind
 
+_IMPORTANCE: Final[dict[happened.Importance, Log.Level.ValueType]] = {
+    "debug": Log.DEBUG,
+    "info": Log.INFO,
+    "warning": Log.WARNING,
+    "error": Log.ERROR,
+}
 LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.RunStarted: Log.INFO,
     happened.StageStarted: Log.INFO,
@@ -33,6 +39,7 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.OperatorCalled: Log.ERROR,
     happened.OperatorAnswered: Log.INFO,
     happened.ExperimentMade: Log.WARNING,
+    happened.LineTyped: Log.WARNING,
     happened.PanicStopped: Log.ERROR,
     happened.UndoOrdered: Log.WARNING,
     happened.UndoStarted: Log.DEBUG,
@@ -41,6 +48,12 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.RunFinished: Log.INFO,
 }
 """Events that a person would log, and how much they matter."""
+
+
+def level_of(event: Event) -> Log.Level.ValueType | None:
+    """How much an event matters; None: no person would log it."""
+    return _IMPORTANCE[event.importance] if isinstance(event, SystemEvent) else LEVELS.get(type(event))
+
 
 _CAMERA: Final = {
     "lens": "turns its lenses",
@@ -82,7 +95,8 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
     """Tell what happened, without the time.
 
     Args:
-        measures: the units in which the end of a step is told; all else is of the arm language.
+        measures: the units in which the end of a step and events of the system's own are told; all else is in those of
+            the arm language.
     """
     match event:
         case happened.RunStarted():
@@ -152,6 +166,8 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
         case happened.ExperimentMade():
             value = _value(event.value) if event.what in _PLACES else ", ".join(f"{x:g}" for x in event.value)
             return f"experiment: {event.what} {event.name} is set to {value}"
+        case happened.LineTyped():
+            return f"typed{f' to {event.task}' if event.task else ''}: {printable(event.text)}"
         case happened.PanicStopped():
             return "panic button: drives off, brakes set"
         case happened.UndoOrdered():
@@ -167,6 +183,8 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
             return (
                 "the program came to its end" if event.completed else "the run ended before the program did"
             )
+        case SystemEvent():
+            return event.sentence(measures)
     raise AssertionError(event)
 
 

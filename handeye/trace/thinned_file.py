@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 
 from handeye.core.errors import Refused
+from handeye.program.event_reading import EventReader
 from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, SCENE, VERSION
-from handeye.trace.events_read import read_event
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import FramesMessage
 from handeye.trace.records import RawMessage
@@ -34,8 +34,9 @@ def write_thinned(trace: Trace, path: Path) -> int:
     file = GrowingFile(path.with_name(f".{path.name}.new"))
     try:
         file.begin(trace.head, trace.plan, thinned=True)
+        reader = EventReader(trace.head.system)
         for message in _messages(trace, frozenset(kept.tolist())):
-            event = read_event(message.data) if message.topic == EVENTS else None
+            event = reader.read(message.data) if message.topic == EVENTS else None
             file.write(message.topic, message.time, message.data, boundary=isinstance(event, BOUNDARIES))
         file.finish()
         file.move(path)

@@ -8,6 +8,7 @@ from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
 from handeye.execution.servo_period import ServoPeriod
 from handeye.ports.camera import Picture
+from handeye.program.event_reading import EventReader
 from handeye.program.events import Event, PictureTaken, RunStarted, StageFinished, StepStarted
 from handeye.trace import messages
 from handeye.trace.annotations import annotations
@@ -22,14 +23,13 @@ from handeye.trace.channels import (
     SCENE,
     nanoseconds,
 )
-from handeye.trace.events_read import read_event
 from handeye.trace.frames import Frames, Mask
 from handeye.trace.hand_message import hand_message
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
 from handeye.trace.records import RawMessage
 from handeye.trace.resuming import event_data
-from handeye.trace.sentences import LEVELS, sentence
+from handeye.trace.sentences import level_of, sentence
 from handeye.vision.marks import Mark
 
 MOVED: Final = 1e-6
@@ -53,6 +53,7 @@ class Writing:
         self.events = 0
         """How many have been written."""
         self.head: RunStarted | None = None
+        self._reader = EventReader()
         self._place = "", 0  # required file and line of the step under way
         self._taken: dict[str, int] = {}  # when the picture of each name was taken last, ns
         self._sent: Poses = np.full(
@@ -74,8 +75,9 @@ class Writing:
             self.file.write(SCENE, time, self._frames.scene(time))
         self._note(event)
         assert self.head is not None
-        if type(event) in LEVELS:
-            level, name = LEVELS[type(event)], self.head.program
+        level = level_of(event)
+        if level is not None:
+            name = self.head.program
             file, line = self._place[0] or name, self._place[1]
             said = messages.log(time, level, sentence(event), name=name, file=file, line=line)
             self.file.write(LOG, time, said)
@@ -128,7 +130,7 @@ class Writing:
 
     def copy(self, message: RawMessage) -> None:
         """Write a message of another file."""
-        event = read_event(message.data) if message.topic == EVENTS else None
+        event = self._reader.read(message.data) if message.topic == EVENTS else None
         self.file.write(message.topic, message.time, message.data, boundary=isinstance(event, BOUNDARIES))
         if event is not None:
             self.events += 1

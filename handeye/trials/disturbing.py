@@ -92,7 +92,7 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturbed
         return Disturbed(name=name, built=False)
     change.make(runner.arm_cell)
     begun, moved, part = len(runner.events), 0.0, ""
-    runner.have_undone(0, halts=True)
+    runner.order_reversal(0, halts=True)
     while not runner.ended:
         moved, part = max((moved, part), _moved(runner))
     result = finished(runner, advance(runner), Meter(), judged=True)

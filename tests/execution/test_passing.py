@@ -8,10 +8,10 @@ from handeye.core.errors import NO_SOLUTION
 from handeye.core.pose import Array, planar
 from handeye.core.units import INCH
 from handeye.program.causes import BeyondArm
+from handeye.program.event_reading import EventReader
 from handeye.program.events import Adjusted, ErrorRaised, to_line
 from handeye.program.program import Part, Position
 from handeye.program.reasons import InnerCylinder
-from handeye.trace.events_read import read_event
 
 pytestmark = pytest.mark.slow
 
@@ -60,4 +60,4 @@ def test_a_place_that_has_come_out_of_reach_is_told_by_its_name() -> None:
     assert isinstance(raised.cause, BeyondArm)
     assert isinstance(raised.cause.reason, InnerCylinder)
     assert raised.cause == run.called.cause
-    assert read_event(to_line(raised)) == raised
+    assert EventReader().read(to_line(raised)) == raised

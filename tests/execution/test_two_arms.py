@@ -15,7 +15,7 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.core.pose import Array
 from handeye.core.resources import scenes
 from handeye.core.units import INCH, JIFFY
-from handeye.execution.drive import run
+from handeye.execution.scheduler import run
 from handeye.execution.servo_loop import REACHED, ServoLoop
 from handeye.execution.state import DriveState
 from handeye.ports.arm import ArmPort

@@ -109,7 +109,7 @@ def undone(start: Checkpoint, left: int = 0, meddle: Callable[[Runner], None] = 
     """The run, undone until so many steps are left."""
     runner = Runner(start)
     meddle(runner)
-    runner.have_undone(left)
+    runner.order_reversal(left)
     while not runner.ended and runner.context.state.undoing is not None:
         runner.step()
     return runner
@@ -304,7 +304,7 @@ def test_a_memory_that_cannot_be_the_programs_stops_the_arm_before_it_moves() ->
 
 def test_a_lift_that_was_stopped_goes_on_as_a_lift(monkeypatch: pytest.MonkeyPatch) -> None:
     run = Runner(done(SEARCH))
-    run.have_undone(0)
+    run.order_reversal(0)
 
     def lifts() -> list[int]:
         return [event.steps for event in run.events if isinstance(event, UndoStarted) and event.steps > 1]
@@ -333,7 +333,7 @@ def test_an_undo_that_was_stopped_goes_on_from_where_the_arm_is() -> None:
 
 def test_undoing_is_the_same_to_the_byte_when_it_is_taken_up_again() -> None:
     run = Runner(done())
-    run.have_undone(0)
+    run.order_reversal(0)
     for _ in range(6):
         run.step()
     again = Runner(run.checkpoint())
@@ -361,4 +361,4 @@ def test_one_can_go_back_in_time_through_what_was_undone() -> None:
 def test_no_more_can_be_undone_than_was_done() -> None:
     run = Runner(begin(TAKE))
     with pytest.raises(InvalidInput, match=r"^there is nothing to undo$"):
-        run.have_undone(0)
+        run.order_reversal(0)

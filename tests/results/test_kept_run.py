@@ -98,7 +98,7 @@ def test_a_result_stands_until_its_run_goes_on(
     folder, newest, _ = open_again(copy)
     runner = Runner(newest, observers=lambda r: [folder.watch(r, newest, again=True)])
     if goes_on:
-        runner.undo()
+        runner.rollback()
     folder.close()
     assert (copy / RESULT).exists() is stands
 

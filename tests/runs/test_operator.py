@@ -148,7 +148,7 @@ def test_where_the_arm_cannot_undo_something_nothing_is_retried(runner: Runner) 
     attend(runner, Abort())
     state = runner.context.state
     state.done[-1] = replace(state.done[-1], way=b"no way")
-    runner.have_undone(0, halts=True)
+    runner.order_reversal(0, halts=True)
     assert attend(runner, Retry(3)).kind == "operator"
     assert answers(runner) == []
     assert runner.kind.choices(runner)["proceed"] == "proceed: go on undoing"
@@ -156,7 +156,7 @@ def test_where_the_arm_cannot_undo_something_nothing_is_retried(runner: Runner) 
 
 def test_a_part_that_begins_when_all_is_undone_is_retried_on_its_own_account(runner: Runner) -> None:
     attend(runner, Retry(1))
-    runner.have_undone(0, halts=True)
+    runner.order_reversal(0, halts=True)
     attend(runner, Retry(1))
     runner.answer("proceed")  # built again
     attend(runner, Retry(1))

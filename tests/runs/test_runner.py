@@ -116,7 +116,7 @@ def test_the_panic_button_sets_the_brakes_at_the_next_tick_and_the_step_can_be_d
     assert isinstance(stopped, PanicStopped)
     assert stopped.time == pytest.approx(braked[-1][0], abs=1e-5)
     runner.context.drive.watch = watch
-    runner.undo()
+    runner.rollback()
     assert history(through(runner).events) == history(whole.events)
 
 

@@ -236,7 +236,7 @@ def in_format_2() -> Iterator[None]:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(mcap_writer, "VERSION", 2)
-        patch.setattr(mcap_writer, "CHANNELS", [c for c in CHANNELS if c.topic not in NEWER])
+        patch.setattr(mcap_writer, "channels_of", lambda _: [c for c in CHANNELS if c.topic not in NEWER])
         patch.setattr(GrowingFile, "write", known)
         yield
 

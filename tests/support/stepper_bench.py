@@ -52,6 +52,6 @@ def before_pins() -> Checkpoint:
 def reset(runner: Runner) -> Runner:
     """The run as it was before anything was done in it."""
     del runner.history[1:]
-    runner.undo()
+    runner.rollback()
     runner.observers.clear()
     return runner

@@ -10,11 +10,11 @@ from handeye.core.variation import Overrides, WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.program import events as happened
 from handeye.program.causes import ArmNames, BeyondArm, JointName
-from handeye.program.events import AnyEvent, Event
+from handeye.program.events import CommonEvent, Event
 from handeye.program.reasons import BelowTable, HeldJoint, JointLimit
 from handeye.trace.sentences import LEVELS, inches, sentence
 
-KINDS = typing.get_args(AnyEvent)
+KINDS = typing.get_args(CommonEvent)
 overrides = st.builds(Overrides, without=st.just(("arm",)), set=st.dictionaries(st.text(), st.floats()))
 arms = st.builds(ArmNames, joints=st.tuples(*[st.builds(JointName)] * 6))
 placed = st.builds(JointLimit, joint=st.integers(0, 5)) | st.builds(HeldJoint, joint=st.integers(0, 5))

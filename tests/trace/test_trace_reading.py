@@ -1,26 +1,20 @@
 """What is not a whole, sound trace of ours is refused with one sentence."""
 
-import hashlib
 import io
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import pytest
-from conftest import Command
 from hypothesis import given
 from hypothesis import strategies as st
 from mcap.writer import Writer
 from recordings import BOUNDARIES, EVENTS, PLAN, Recording, record
 
 from handeye.core.errors import InvalidInput
-from handeye.core.variation import WorldSpec
 from handeye.trace.channels import FORMAT, METADATA
-from handeye.trace.events_read import read_event
 from handeye.trace.reading import read_trace
 from handeye.trace.records import Unsound, check
-from handeye.trace.sentences import sentence
 
 
 @pytest.fixture(scope="module")
@@ -175,92 +169,3 @@ def test_reading_leniently_ends_before_a_damaged_chunk(path: Path) -> None:
     other.write_bytes(data)
     events: list[Any] = list(read_trace(other, lenient=True).events)
     assert events == EVENTS[: BOUNDARIES[-1]]
-
-
-PLAN_1 = (Path(__file__).parent.parent / "planfile" / "versions" / "1.plan.json").read_bytes()
-OLD = (
-    b'{"event":"RunStarted","time":10.0,"program":"short","steps":3,"plan":"%s","arm":"stanford","arm_digest":"y",'
-    b'"seed":3,"camera":"ray casting","versions":{}}' % hashlib.sha256(PLAN_1).hexdigest()[:16].encode()
-)
-"""How a run was said to begin before a world had a level, and the plan of one."""
-
-
-@pytest.fixture
-def old(tmp_path: Path) -> Path:
-    """A trace in format version 1."""
-    path = tmp_path / "old.mcap"
-    with path.open("wb") as file:
-        writer = Writer(file, enable_data_crcs=True)
-        writer.start()
-        writer.add_metadata(METADATA, {"format": FORMAT, "version": "1"})
-        writer.add_attachment(0, 0, "plan.json", "application/json", PLAN_1)
-        channel = writer.register_channel(
-            "/events", "json", writer.register_schema("event", "jsonschema", b"{}")
-        )
-        writer.add_message(channel, 10**10, OLD, 10**10)
-        writer.finish()
-    return path
-
-
-def test_a_trace_of_an_older_handeye_is_told_and_counted(command: Command, old: Path) -> None:
-    code, out, _ = command("trace", "show", str(old))
-    assert (code, "short: 3 steps on the stanford arm, the world of seed 3" in out) == (0, True)
-    assert command("trace", "stats", str(old))[0] == 0
-    assert read_trace(old).head.world == WorldSpec(seed=3, drawing=1)
-
-
-@pytest.mark.parametrize("words", [("verify",), ("photograph", "--at", "10", "-o", "it.png")])
-def test_the_cell_of_a_trace_of_an_older_handeye_is_not_built_again(
-    command: Command, old: Path, words: tuple[str, ...]
-) -> None:
-    code, out, err = command("trace", words[0], str(old), *words[1:])
-    assert (code, out) == (2, "")
-    assert err == (
-        f"handeye: {old} was recorded by an older handeye, whose cell this one cannot build again: `trace show` and "
-        "`trace stats` read it; for the rest, run the plan again\n"
-    )
-
-
-@pytest.mark.parametrize(
-    ("data", "said"),
-    [
-        (
-            b'{"event":"ErrorRaised","time":1.0,"number":2,"detail":"the gap is 0.02 in"}',
-            "error 2: the fingers closed beyond the minimum gap: nothing, or something too thin, is between them "
-            "(the gap is 0.02 in)",
-        ),
-        (
-            b'{"event":"ErrorRaised","time":1.0,"number":5,"detail":""}',
-            "error 5: the computer missed a servo period: drives cut, brakes set",
-        ),
-        (
-            b'{"event":"PartInspected","time":1.0,"part":"BASE","ok":true,"sentence":"the gasket is on properly"}',
-            "BASE: the gasket is on properly",
-        ),
-        (
-            b'{"event":"PartInspected","time":1.0,"part":"BASE","ok":false,"sentence":"no gasket: none"}',
-            "BASE: no gasket: none",
-        ),
-        (
-            b'{"event":"OperatorCalled","time":1.0,"message":"nothing is held (0.02 in)","error":2}',
-            "brakes set, the operator is called: nothing is held (0.02 in) (error 2)",
-        ),
-    ],
-)
-def test_an_event_that_was_recorded_with_its_words_is_told_in_them(data: bytes, said: str) -> None:
-    assert sentence(read_event(data)) == said
-
-
-@pytest.mark.parametrize(
-    "data",
-    [
-        b'{"event":"RunStarted","seed":-1}',
-        b'{"event":"Gone"}',
-        b'{"event":"ErrorRaised","time":1.0,"number":2,"detail":3}',
-        b"[3]",
-        b"{",
-    ],
-)
-def test_what_never_was_an_event_is_none_either(data: bytes) -> None:
-    with pytest.raises(msgspec.DecodeError):
-        read_event(data)

@@ -200,7 +200,7 @@ class RunningPlan(RunningSystem):
     def executed(self) -> Sequence[Done]:
         return self.state.done
 
-    def undo(self, undoing: Undoing) -> None:
+    def reverse(self, undoing: Undoing) -> None:
         self.executor.undo(undoing)
 
     def finish(self) -> bool:

@@ -42,7 +42,7 @@ class DismantlingTrial(Trial):
         pause = advance(runner, self._stops())
         built = _built(runner, pause)
         if built:
-            runner.have_undone(0, halts=True)
+            runner.order_reversal(0, halts=True)
             pause = advance(runner)
         done = Finished(result=finished(runner, pause, Meter(timer=timer), judged=True), runner=runner)
         ended = "not built" if not built and watch.ended == "ended" else watch.ended

@@ -65,7 +65,7 @@ def test_a_job_that_is_undone_and_not_as_it_was_taught_is_not_right() -> None:
 def test_a_job_that_is_undone_because_somebody_says_so_is_not_judged_by_what_it_had_built() -> None:
     runner = low_job(1, seed=1)
     advance(runner)
-    runner.have_undone(0, halts=True)
+    runner.order_reversal(0, halts=True)
     result = outcome(runner, advance(runner), Meter(), judged=True)
     assert (result.assembled, result.apart) == (None, True)
     assert len(result.interventions) == 1

@@ -65,7 +65,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path, start = tmp_path_factory.mktemp("whole") / "run", low_setup(1, seed=1)
     folder = open_new(path, start)
     runner = driven(folder, start, again=False)
-    runner.have_undone(0, halts=True)
+    runner.order_reversal(0, halts=True)
     advance(runner)
     runner.finish()
     folder.close()
@@ -81,7 +81,7 @@ def test_a_run_that_is_taken_up_from_disk_leaves_the_same_bytes(
     folder, start, faults = open_again(tmp_path / "run")
     assert not faults
     runner = driven(folder, start, again=True)
-    runner.have_undone(0, halts=True)
+    runner.order_reversal(0, halts=True)
     advance(runner, steps=5)
     kept(folder, runner)
     folder, start, _ = open_again(tmp_path / "run")
@@ -160,7 +160,7 @@ def test_a_run_of_another_day_is_undone_from_its_checkpoint() -> None:
 def test_what_the_arm_meets_calls_the_operator_and_is_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
     runner = low_job(0, seed=1)
     advance(runner)
-    runner.have_undone(0, halts=True)
+    runner.order_reversal(0, halts=True)
     monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
     assert advance(runner).kind == "operator"
     assert isinstance(runner.events[-1], OperatorCalled)
@@ -178,7 +178,7 @@ def test_a_step_that_somebody_halts_is_as_if_it_had_not_begun() -> None:
     halt[0] = True
     with pytest.raises(Halted):
         runner.step()
-    runner.undo()
+    runner.rollback()
     assert encode(runner.checkpoint()) == before
     halt[0] = False
     assert advance(runner).kind == "end"
@@ -302,7 +302,7 @@ def test_no_step_is_skipped_that_the_arm_undoes(monkeypatch: pytest.MonkeyPatch)
     runner = low_job(0, seed=1)
     advance(runner)
     monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
-    runner.have_undone(0, halts=True, asked_by="job")
+    runner.order_reversal(0, halts=True, asked_by="job")
     stepper = Stepper(runner)
     stepper.do("continue")
     events = [*runner.events]

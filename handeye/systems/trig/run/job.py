@@ -92,7 +92,7 @@ def carry_out(
         tell(_way(runner, pause)[1])
         if not _turns(runner, pause, after):
             return pause
-        runner.have_undone(0, halts=True, asked_by="job")
+        runner.order_reversal(0, halts=True, asked_by="job")
     pause = go(None)
     tell(_way(runner, pause)[1])
     return pause

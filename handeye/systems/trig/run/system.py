@@ -259,7 +259,7 @@ class RunningJob(RunningSystem):
     def executed(self) -> Sequence[Executed]:
         return self._state.executed(self._plan)
 
-    def undo(self, undoing: Undoing) -> None:
+    def reverse(self, undoing: Undoing) -> None:
         turn = Turn(steps=len(self.executed), ended=self._state.at is None, time=self.time)
         self._state.order(self._plan, undoing)
         if undoing.asked_by == "job":

@@ -1,0 +1,162 @@
+"""Tasks that go on together under one clock: each waits for a time or for a condition, and the same one is always next.
+
+Time is counted exactly, in rational seconds or whole microseconds: periods of 10 ms and 1/60 s do not drift apart.
+"""
+
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from math import ceil
+from typing import Final, Generic, TypeVar
+
+import msgspec
+
+from handeye.core.errors import HandeyeError
+from handeye.core.mutable_records import MutableRecord
+from handeye.ports.clock import Clock
+
+Time = TypeVar("Time", int, Fraction)
+T = TypeVar("T")
+_FINEST: Final = 1_000_000
+"""Largest denominator of a duration, s, that is given in floating point."""
+_ROUNDING_S: Final = 1e-12
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Until:
+    """Wait for a condition, which is looked at whenever another task has done something or time has passed."""
+
+    met: Callable[[], bool]
+    name: str
+    """What is waited for, as a deadlock tells it: `flag 2`."""
+
+
+Wait = float | Fraction | Until
+"""A duration in s (`microseconds` makes exact ones), or a condition."""
+Task = Generator[Wait, None, T]
+
+
+class Deadlock(HandeyeError):
+    """All tasks that are left wait for conditions, and none is met."""
+
+    def __init__(self, waiting: dict[str, str]) -> None:
+        said = ", ".join(f"{task} waits for {what}" for task, what in waiting.items())
+        super().__init__(f"no task can go on: {said}")
+        self.waiting = waiting
+
+
+class Agenda(MutableRecord, Generic[Time], kw_only=True):
+    """Who goes on next, and when: a record, so that a system whose tasks are data can keep it in its state.
+
+    The task that is due first goes on; of those due at once, the first in `due`, but none twice before the others.
+    """
+
+    now: Time
+    due: dict[str, tuple[Time, int]] = msgspec.field(default_factory=dict)
+    """By task: since when it is due or waits, and how often it has gone on at that very time."""
+    waits: dict[str, str] = msgspec.field(default_factory=dict)
+    """The tasks that wait for a condition, with its name."""
+
+    def add(self, task: str) -> None:
+        """Let another task begin now, behind those there are."""
+        self.due[task] = self.now, 0
+
+    def turn(self, met: Callable[[str], bool], pass_until: Callable[[Time], Time]) -> str | None:
+        """The task whose turn it is: call `sleep`, `wait` or `end` for it then. None: all have ended.
+
+        Args:
+            met: tells whether what a task waits for has come about.
+            pass_until: lets time pass at least until a time; when it then is.
+
+        Raises:
+            Deadlock: all wait for conditions.
+        """
+        while self.due:
+            ready = [
+                (self._since(task), number, task)
+                for number, task in enumerate(self.due)
+                if (met(task) if task in self.waits else self.due[task][0] <= self.now)
+            ]
+            if ready:
+                since, _, task = min(ready)
+                self.due[task] = since
+                self.waits.pop(task, None)
+                return task
+            times = [time for task, (time, _) in self.due.items() if task not in self.waits]
+            if not times:
+                raise Deadlock(dict(self.waits))
+            self.now = pass_until(min(times))
+        return None
+
+    def _since(self, task: str) -> tuple[Time, int]:
+        return max(self.due[task], (self.now, 0)) if task in self.waits else self.due[task]
+
+    def sleep(self, task: str, duration: Time) -> None:
+        """Let a task go on so long after it was due, however late it was served."""
+        time, again = self.due[task]
+        self.due[task] = (time + duration, 0) if duration else (time, again + 1)
+
+    def wait(self, task: str, name: str) -> None:
+        """Let a task wait for a condition."""
+        self.sleep(task, self.now - self.now)
+        self.waits[task] = name
+
+    def end(self, task: str) -> None:
+        """Take a task out."""
+        del self.due[task]
+
+
+def microseconds(count: int) -> Fraction:
+    """Whole microseconds as a duration, s."""
+    return Fraction(count, 1_000_000)
+
+
+def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> list[T]:
+    """Let tasks under one clock go on together, each when it is due; how each ended.
+
+    An arm whose motion has ended is no longer driven while others move on, so that its watchdog sets its brakes.
+
+    Args:
+        names: of the tasks, as a deadlock tells them; by default `task 1`, `task 2` and so on.
+
+    Raises:
+        Deadlock: all that are left wait for conditions.
+    """
+    running = dict(zip(names or [f"task {number + 1}" for number in range(len(tasks))], tasks, strict=True))
+    agenda: Agenda[Fraction] = Agenda(now=Fraction(0))
+    until: dict[str, Until] = {}
+    ended: dict[str, T] = {}
+
+    def pass_until(time: Fraction) -> Fraction:
+        passed, tick = time - agenda.now, clock.tick
+        if tick is not None:
+            passed = ceil(passed / tick) * tick
+        clock.advance(float(passed))
+        return agenda.now + passed
+
+    for name in running:
+        agenda.add(name)
+    while (turn := agenda.turn(lambda task: until[task].met(), pass_until)) is not None:
+        try:
+            wait = next(running[turn])
+        except StopIteration as end:
+            ended[turn] = end.value
+            agenda.end(turn)
+            continue
+        if isinstance(wait, Until):
+            until[turn] = wait
+            agenda.wait(turn, wait.name)
+        else:
+            agenda.sleep(turn, _exact(wait))
+    return [ended[name] for name in running]
+
+
+@lru_cache(maxsize=64)
+def _exact(seconds: float | Fraction) -> Fraction:
+    """The rational duration that a number stands for: 1/60 s for 0.016666666666666666."""
+    if isinstance(seconds, Fraction):
+        return seconds
+    exact = Fraction(seconds)
+    near = exact.limit_denominator(_FINEST)
+    return near if abs(float(near) - seconds) < _ROUNDING_S else exact

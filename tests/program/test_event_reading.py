@@ -1,0 +1,110 @@
+"""A system adds kinds of events to those of all; a reader learns from the start of a run which they are."""
+
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from handeye.core import entries
+from handeye.core.errors import InvalidInput
+from handeye.core.units import MILLIMETRES, Measures
+from handeye.core.variation import WorldSpec
+from handeye.ports.camera import Renderer
+from handeye.program.event_reading import EventReader, own_kinds, read_packed
+from handeye.program.events import AnyEvent, RunFinished, RunStarted, SystemEvent, to_line
+from handeye.trace.eventlist import read_events
+from handeye.trace.sentences import level_of, sentence
+
+
+class LimitCrossed(SystemEvent, frozen=True, kw_only=True):
+    """A sensor has crossed a limit."""
+
+    limit: float
+    importance = "warning"
+
+    def sentence(self, measures: Measures) -> str:
+        return f"the limit of {measures.distance(self.limit)} is crossed"
+
+
+CROSSED = LimitCrossed(time=1.0, limit=0.02)
+EVENTS: list[AnyEvent] = [
+    RunStarted(
+        time=0.0, system="machine", program="p", steps=1, plan="", arm="", arm_digest="", world=WorldSpec(seed=0),
+        camera=Renderer(method="none"), versions={},
+    ),
+    CROSSED,
+    RunFinished(time=2.0, completed=True),
+]  # fmt: skip
+
+
+KINDS = (LimitCrossed,)
+
+
+class Saved(SystemEvent, frozen=True, kw_only=True):
+    """A kind of a name that all systems have."""
+
+
+WRONG = (Saved,)
+
+
+def entry(kinds: str) -> entries.Entry:
+    """The entry of a machine that adds some kinds of events."""
+    return entries.Entry(
+        name="machine", title="the machine", help="", system="", events=f"{__name__}:{kinds}"
+    )
+
+
+@pytest.fixture
+def machine(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(entries, "_registered", {})
+    entries.register(entry("KINDS"))
+
+
+@pytest.fixture
+def written(tmp_path: Path) -> Path:
+    path = tmp_path / "events.jsonl"
+    path.write_bytes(b"".join(map(to_line, EVENTS)))
+    return path
+
+
+@pytest.mark.usefixtures("machine")
+def test_a_list_with_events_of_a_system_is_read_by_the_start_of_its_run(written: Path) -> None:
+    assert read_events(written) == EVENTS
+
+
+@pytest.mark.usefixtures("machine")
+def test_events_of_a_system_are_packed_into_a_checkpoint() -> None:
+    packed = msgspec.Raw(msgspec.msgpack.encode(EVENTS))
+    assert read_packed(packed, "machine") == tuple(EVENTS)
+    with pytest.raises(
+        ValueError, match=r"^events of the kind `LimitCrossed` are not known here: the system"
+    ):
+        read_packed(packed, "other")
+
+
+def test_a_system_tells_its_events_in_the_measures_of_its_task() -> None:
+    assert sentence(CROSSED, MILLIMETRES) == "the limit of 20.0 mm is crossed"
+    assert level_of(CROSSED) == level_of(msgspec.structs.replace(CROSSED)) is not None
+
+
+def test_a_kind_that_is_not_known_is_told_with_the_system_it_takes(written: Path) -> None:
+    with pytest.raises(InvalidInput) as refused:
+        read_events(written)
+    assert str(refused.value) == (
+        f"line 2 of {written} is not an event: events of the kind `LimitCrossed` are not known here: the system "
+        "`machine` is not installed"
+    )
+
+
+@pytest.mark.usefixtures("machine")
+def test_a_kind_of_another_version_is_told_as_such() -> None:
+    with pytest.raises(
+        msgspec.DecodeError, match="known here: another version of handeye, or of its system, wrote it"
+    ):
+        EventReader("machine").read(b'{"event":"Sneezed","time":1.0}')
+
+
+def test_no_system_can_give_another_meaning_to_a_common_kind(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(entries, "_registered", {"machine": entry("WRONG")})
+    with pytest.raises(InvalidInput, match=r"WRONG calls a kind of event Saved, which all systems have$"):
+        own_kinds("machine")
