@@ -14,7 +14,6 @@ from handeye.cli.common import (
     Camera,
     Json,
     WholeNumber,
-    compiled,
     complain,
     notes,
     positive,
@@ -22,6 +21,7 @@ from handeye.cli.common import (
     say,
     screen,
 )
+from handeye.cli.programs import compiled
 from handeye.cli.usage import usage_sentence
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.core.errors import HandeyeError, InvalidInput

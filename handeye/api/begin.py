@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from handeye import tasks
 from handeye.api.arguments import given_file, given_place
 from handeye.api.parts import Camera, limits_of, parts_of, referee_of
 from handeye.api.plans import FileName, Planned
@@ -42,7 +41,7 @@ def begin(
     referee: Referee | Limits | None = None,
     judge: bool | None = None,
     taught: FileName | None = None,
-    task: str = tasks.DEFAULT,
+    task: str | None = None,
     out: FileName | None = None,
     overwrite: bool = False,
 ) -> Run:
@@ -69,7 +68,7 @@ def begin(
             was kept is judged again by `handeye.begin(folder, referee=...).result`.
         judge: the referee is called at the end; by default if one is given, or the run was begun so.
         taught: as for `handeye.plan`.
-        task: name of the task.
+        task: name of the task; by default that of the plan, program, run or world, else the water pump.
         out: folder for plan, events, trace, checkpoints, pictures and result; nothing else is written to. To go on in
             the folder of a run, give it here as well.
         overwrite: a run that is in that folder may be lost.
@@ -121,7 +120,7 @@ def assemble(
     search: SearchPattern | None = None,
     referee: Referee | Limits | None = None,
     taught: FileName | None = None,
-    task: str = tasks.DEFAULT,
+    task: str | None = None,
     out: FileName | None = None,
     overwrite: bool = False,
     on_stop: str = "abort",

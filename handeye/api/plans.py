@@ -11,7 +11,7 @@ from handeye.api.arguments import given_file, given_place
 from handeye.api.diagnostic import Diagnostic, ScriptError
 from handeye.api.flow import FlowDrawing, flow_drawing
 from handeye.api.plan_page import plan_page
-from handeye.core.diagnostics import has_errors
+from handeye.core.diagnostics import has_errors, quoted
 from handeye.core.errors import BadArgument, BadFile
 from handeye.core.files import read_whole
 from handeye.core.plain_text import counted
@@ -21,7 +21,7 @@ from handeye.planfile import plan as planfile
 from handeye.planfile.store import decode, plan_digest, write_plan
 from handeye.program.stage_names import stage_index
 from handeye.program.taught import Taught, load_taught, read_taught
-from handeye.runs.scripts import plan_script, plan_text
+from handeye.runs.scripts import plan_script, plan_text, program_named
 
 DRAWN: Final = 30
 """Steps of a plan up to which a notebook shows its flow with it; of a longer one it shows `flow(stage)`."""
@@ -120,14 +120,16 @@ Planned = Plan | planfile.Plan
 """A plan, or its record."""
 
 
-def plan(script: FileName | Planned, *, taught: FileName | None = None, task: str = tasks.DEFAULT) -> Plan:
+def plan(script: FileName | Planned, *, taught: FileName | None = None, task: str | None = None) -> Plan:
     """Compile and plan a script; nothing moves.
 
     Args:
-        script: a file (`.al`), with what is taught for it beside it (`.toml`); or a text, which is a `str` with a
-            line end in it; or a plan that was saved, whose name ends in .json.
+        script: a file (`.al`), with what is taught for it beside it (`.toml`); or the name of a program that a task
+            comes with, where there is no such file; or a text, which is a `str` with a line end in it; or a plan that
+            was saved, whose name ends in .json.
         taught: positions (in, deg) of the script: a TOML file, or the text of one. A text has none by default.
-        task: name of the task whose arm is planned for.
+        task: name of the task whose arm is planned for; by default that of the plan or the program, else the water
+            pump.
 
     Raises:
         ScriptError: the script has errors; they are its `diagnostics`.
@@ -138,22 +140,31 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
     """
     if isinstance(script, Plan | planfile.Plan):
         _check_untaught(script, taught)
-        return script if isinstance(script, Plan) else Plan(record=script)
-    work, known = tasks.task(task), None if taught is None else _taught(taught)
+        return _for_task(script if isinstance(script, Plan) else Plan(record=script), task)
+    work, known = None if task is None else tasks.task(task), None if taught is None else _taught(taught)
     if isinstance(script, str) and "\n" in script:
-        made = plan_text(script, known or Taught(), work)
+        made = plan_text(script, known or Taught(), work or tasks.task())
     else:
         file = given_file(script, "a script is a file or a text")
         if file.suffix == ".json":
             _check_untaught(file, taught)
-            return Plan(record=decode(read_whole(file), str(file)))
-        if isinstance(script, str) and not file.exists():
+            return _for_task(Plan(record=decode(read_whole(file), str(file))), task)
+        if isinstance(script, str) and not file.exists() and (program := program_named(script)) is not None:
+            file, work = program[0], work or program[1]
+        elif isinstance(script, str) and not file.exists():
             raise BadFile(f"{script}: there is no such file; a text has a line end in it")
         made = plan_script(file, known, work)
     found = tuple(Diagnostic.of(each, made.source) for each in made.diagnostics)
     if made.plan is None or has_errors(made.diagnostics):
         raise ScriptError(found)
     return Plan(record=made.plan, diagnostics=found)
+
+
+def _for_task(made: Plan, task: str | None) -> Plan:
+    """The plan itself; raises InvalidInput if it is for another task than was named."""
+    if task not in (None, made.record.task):
+        raise BadArgument(f"the plan is for the task {quoted(made.record.task)}, not for {quoted(str(task))}")
+    return made
 
 
 def _check_untaught(made: object, taught: object) -> None:

@@ -35,12 +35,17 @@ class Wanted:
     seed: object
     world: object
     camera: str | None
-    task: str
+    task: str | None
     judged: bool
     limits: dict[str, float] | None
     """Limits for the findings of the task's referee."""
     replaced: dict[str, str]
     """Parts of the caller's own, with the names of their code."""
+
+    @property
+    def of_task(self) -> str | None:
+        """Name of the task that was named, or whose world was given; None: neither."""
+        return self.world.task if self.task is None and isinstance(self.world, World) else self.task
 
     @property
     def spec(self) -> WorldSpec | None:
@@ -93,7 +98,9 @@ def start_of(
         return Start(state=_kept(script, stage, wanted))
     timer = HostTimer()
     made = plan(
-        default_script(tasks.task(wanted.task)) if script is None else script, taught=taught, task=wanted.task
+        default_script(tasks.task(wanted.of_task or tasks.DEFAULT)) if script is None else script,
+        taught=taught,
+        task=wanted.of_task,
     )
     return Start(state=_new(made.record, wanted), planning_cpu_s=timer.cpu_s)
 
@@ -158,6 +165,9 @@ def _again(given: FileName, wanted: Wanted) -> Start:
 def _check_same(path: Path, begun: Setup, wanted: Wanted) -> None:
     """Raises InvalidInput unless a run carries out a plan, in the world and with the camera that are wanted."""
     require(begun.system, "plans", str(path))
+    if wanted.of_task not in (None, begun.task):
+        told = f"{quoted(begun.task)}, not of {quoted(str(wanted.of_task))}"
+        raise Refused(f"the run in {path} is of the task {told}")
     if wanted.spec is not None and wanted.spec != begun.world:
         raise Refused(f"the run in {path} is in the world of {begun.world}, not of {wanted.spec}")
     if wanted.camera is not None and wanted.camera != begun.camera:

@@ -82,6 +82,11 @@ class World:
         return self._spec
 
     @property
+    def task(self) -> str:
+        """Name of the task whose cell it is."""
+        return self._task
+
+    @property
     def seed(self) -> int:
         """The seed."""
         return self.spec.seed

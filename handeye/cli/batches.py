@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, screen
+from handeye.cli.common import Camera, Json, WholeNumber, note, positive, put_json, screen
+from handeye.cli.programs import plan_or_own
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
 from handeye.core.errors import BadArgument
 from handeye.core.files import check_place, write_over
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
-from handeye.planfile.store import read_plan
 from handeye.runs.operator import parse_policy
-from handeye.runs.scripts import default_script
+from handeye.tasks import planned
 
 if TYPE_CHECKING:
     from handeye.core.variation import WorldSpec
@@ -50,7 +50,10 @@ def assembly_trials(
     errors: ErrorOptions = ANY_ERRORS,
     fault: Faults = None,
     plan: Annotated[
-        Path | None, Parameter(help="A plan made by `handeye plan`; by default that of the water pump.")
+        Path | None,
+        Parameter(
+            help="A plan made by `handeye plan`, or the name of a program; by default that of the task."
+        ),
     ] = None,
     only: Annotated[WholeNumber | None, Parameter(help="Carry out trial K alone, from 0.")] = None,
     workers: Annotated[WholeNumber, Parameter(name=["--workers", "--jobs"], help="Trials at a time.")] = 2,
@@ -111,9 +114,11 @@ def assembly_trials(
     positive(workers, "worker")
     _limits(simulated_limit, wall_limit)
     senses, errors = errors.senses, errors.errors()
+    record = plan_or_own(plan, errors.task)
+    errors = errors.of(record.task)
     errors.spec(chosen[-1])
-    record = compiled(default_script()) if plan is None else read_plan(plan)
-    world = broken(errors.spec(chosen[0]), fault, record.program)
+    world = broken(errors.spec(chosen[0]), fault, errors.work, record.program)
+    planned(errors.work).check_arm(record)
     if parse_policy(on_stop, record.program.stages) is None:
         raise BadArgument(
             "nobody can be asked in a batch: --on-stop takes abort, retry:N, unwind or unwind:STAGE"

@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from handeye.cli.common import Camera, compiled, notes, screen
+from handeye.cli.common import Camera, notes, screen
+from handeye.cli.programs import plan_or_own
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
-from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
     pass
@@ -26,7 +26,7 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
 
     spec = world.spec
     started = time.process_time()
-    plan = compiled(default_script())
+    plan = plan_or_own(None, world.task)
     planning = time.process_time() - started
     with Progress(plan.program.stages, notes) as progress:
         finished = run_plan(

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, say
+from handeye.cli.common import Camera, Json, TaskWords, WholeNumber, note, positive, put_json, say
+from handeye.cli.programs import plan_or_own
 from handeye.cli.tally import Tally
 from handeye.core.plain_text import counted
 from handeye.core.variation import checked_seed
-from handeye.runs.scripts import default_script
+from handeye.tasks import task as known_task
 
 if TYPE_CHECKING:
     from handeye.planfile.plan import Plan
@@ -39,6 +40,7 @@ def chaos_trials(
             help="Folder for the sound runs that schedules begin in: made where they are not there, and kept."
         ),
     ] = None,
+    task: TaskWords = None,
     workers: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
     camera: Camera = "auto",
     json: Json = False,
@@ -65,7 +67,7 @@ def chaos_trials(
         positive(number, what)
     checked_seed(seed + worlds)
     given = [parse_schedule(text) for text in schedule or ()]
-    plan = compiled(default_script())
+    plan = plan_or_own(None, task)
     with _folder(checkpoints) as folder:
         drawn = given or _drawn(plan, folder, seed, count, worlds, camera, workers)
         return _tried(drawn, plan, folder, camera=camera, workers=workers, json=json)
@@ -91,7 +93,7 @@ def _drawn(
     ended = trials.sound_runs(plan, folder, specs, camera, workers)
     tally = Tally(len(specs), "worlds carried out")
     runs = sorted(tally.counting(ended), key=lambda run: run.world.seed)
-    return list(trials.schedules(seed, count, runs))
+    return list(trials.schedules(seed, count, runs, known_task(plan.task)))
 
 
 def _tried(

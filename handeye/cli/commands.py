@@ -6,8 +6,8 @@ from cyclopts import App
 from cyclopts.command_spec import CommandSpec
 
 COMMANDS: Final = """
-assemble = runs:assemble: Assemble the water pump: plan, work, judge.
-run = runs:run: Carry out a plan in the work cell, or stages of it, or step by step.
+assemble = runs:assemble: Assemble the water pump, or do another task with its own program: plan, work, judge.
+run = runs:run: Carry out a plan in the work cell of its task, or stages of it, or step by step.
 resume = runs:resume: Resume an interrupted run.
 dismantle = dismantling:dismantle: Have the arm undo what it did in a run: take the pump apart again.
 show = records:show: Show what a run came to, or how far it has come; its folder stays as it is.

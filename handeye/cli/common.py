@@ -12,12 +12,9 @@ from rich.console import Console
 
 from handeye.core.diagnostics import LIMIT, Diagnostic, as_json, quoted, visible
 from handeye.core.diagnostics import render as render_diagnostic
-from handeye.core.errors import BadArgument, BadFile, InvalidInput
+from handeye.core.errors import BadArgument, InvalidInput
 from handeye.core.plain_text import folded
 from handeye.core.source import Source
-from handeye.planfile.plan import Plan
-from handeye.runs.scripts import plan_script
-from handeye.tasks.interface import Task
 
 MOST: Final = 1_000_000
 """Trials, worlds, times and processes that a command takes."""
@@ -25,8 +22,28 @@ LONGEST: Final = 99
 """Characters of a whole number."""
 _USUAL_WIDTH: Final = 80
 
-Script = Annotated[Path, Parameter(help="A script (.al), with its taught file (.toml) beside it.")]
-PlanFile = Annotated[Path, Parameter(help="A plan made by `handeye plan` (.plan.json).")]
+Script = Annotated[
+    Path,
+    Parameter(
+        help="A script (.al), with its taught file (.toml) beside it; or the name of a program that a task comes with, "
+        "such as `insertion`."
+    ),
+]
+PlanFile = Annotated[
+    Path,
+    Parameter(
+        help="A plan made by `handeye plan` (.plan.json); or the name of a program that a task comes with, such as "
+        "`insertion`."
+    ),
+]
+TaskWords = Annotated[
+    str | None,
+    Parameter(
+        name="--task",
+        help="The task: its name, or MODULE:NAME for one of your own, in a module on the path or in this folder. By "
+        "default that of the plan, program or run, else the water pump.",
+    ),
+]
 CameraKind = Literal["auto", "gl", "ray"]
 
 
@@ -124,21 +141,6 @@ def note(text: str) -> None:
 def complain(error: object) -> None:
     """Say why nothing comes of a command."""
     say(f"handeye: {error}", notes, style="red")
-
-
-def compiled(file: Path, work: Task | None = None) -> Plan:
-    """The plan of a script for a task, by default its own; or its diagnostics and the end.
-
-    Raises:
-        InvalidInput: the script has errors; they have been shown.
-    """
-    made = plan_script(file, work=work)
-    show(made.diagnostics, made.source, json=False)
-    if made.plan is not None:
-        return made.plan
-    errors = sum(d.severity == "error" for d in made.diagnostics)
-    count = "1 error" if errors == 1 else f"{errors}{' or more' if errors == LIMIT else ''} errors"
-    raise BadFile(f"{file} has {count}; there is no plan")
 
 
 def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, note, put_json, say
+from handeye.cli.common import Json, TaskWords, note, put_json, say
+from handeye.cli.programs import made_known
 from handeye.cli.reports import read_recorded
 from handeye.cli.trace_files import TraceFile
 from handeye.core.errors import InvalidInput
@@ -21,6 +22,7 @@ def compare(
     b: TraceFile,
     /,
     *,
+    task: TaskWords = None,
     output: Annotated[
         Path | None,
         Parameter(name=["--output", "-o"], help="A page with both views under one slider, .html."),
@@ -37,6 +39,7 @@ def compare(
     from handeye.comparison.comparison import as_json, comparison
     from handeye.comparison.text import comparison_text
 
+    made_known(task)
     if output is None:
         found = comparison(read_recorded(a), read_recorded(b))
     else:

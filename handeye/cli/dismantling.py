@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Final
 from cyclopts import Parameter
 
 from handeye.cli.batches import kept_batch, progress
-from handeye.cli.common import Camera, Json, Out, WholeNumber, compiled, note, positive, put_json, screen
+from handeye.cli.common import Camera, Json, Out, TaskWords, WholeNumber, note, positive, put_json, screen
+from handeye.cli.programs import check_task, made_known, plan_or_own
 from handeye.cli.runs import Overwrite
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
 from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
-from handeye.planfile.store import read_plan
-from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
     from handeye.core.variation import WorldSpec
@@ -31,6 +30,7 @@ def dismantle(
     path: Path,
     /,
     *,
+    task: TaskWords = None,
     to: Annotated[
         str | None, Parameter(help="Go back to the beginning of this stage, and no farther.")
     ] = None,
@@ -58,7 +58,9 @@ def dismantle(
     from handeye.runs.undo_orders import to_be_undone
 
     _check_apart(path, out)
+    wanted = made_known(task)
     kept = _newest(path)
+    check_task(wanted, kept.setup.task, path)
     stage = None if to is None else stage_number(to, listing_of(kept.setup))
     start = to_be_undone(kept, str(path), stage)
     return work(Job(start=start, out=out, overwrite=overwrite, json=json, referee=True, on_stop="abort"))
@@ -111,7 +113,10 @@ def dismantling_trials(
     errors: ErrorOptions = ANY_ERRORS,
     fault: Faults = None,
     plan: Annotated[
-        Path | None, Parameter(help="A plan made by `handeye plan`; by default that of the water pump.")
+        Path | None,
+        Parameter(
+            help="A plan made by `handeye plan`, or the name of a program; by default that of the task."
+        ),
     ] = None,
     to: Annotated[
         str | None, Parameter(help="Build as far as the end of this stage, and take that apart.")
@@ -144,9 +149,10 @@ def dismantling_trials(
     positive(n, "trial")
     positive(workers, "worker")
     senses, errors = errors.senses, errors.errors()
+    record = plan_or_own(plan, errors.task)
+    errors = errors.of(record.task)
     errors.spec(seed + n - 1)
-    record = compiled(default_script()) if plan is None else read_plan(plan)
-    world = broken(errors.spec(seed), fault, record.program)
+    world = broken(errors.spec(seed), fault, errors.work, record.program)
     stage = "" if to is None else record.program.stages[stage_number(to, record.program)]
     trial = DismantlingTrial(plan=record, camera=camera, without=senses, to=stage)
     fresh: list[Row] = []

@@ -4,13 +4,14 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, say
+from handeye.cli.common import Camera, Json, WholeNumber, note, positive, put_json, say
+from handeye.cli.programs import plan_or_own
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import NoSuchName
 from handeye.core.plain_text import counted
-from handeye.runs.scripts import default_script
+from handeye.tasks import planned
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -39,23 +40,22 @@ def disturbed_trials(
 
     Exit code 0: every one was stopped in time; 3: one was not; 2: bad input; 130: interrupted.
     """
-    from handeye.tasks import task
     from handeye.trials.disturbing import Disturbed, disturbances_of, try_disturbances
 
-    chosen = _chosen(task().disturbances(), only)
+    chosen = _chosen(planned(world.work).disturbances(), only)
     positive(workers, "process")
     if listed:
         for each in chosen:
             say(f"{each.name:16} {each.meaning}")
         return 0
     tried: list[Disturbed] = []
-    names, plan = [each.name for each in chosen], compiled(default_script())
+    names, plan = [each.name for each in chosen], plan_or_own(None, world.task)
     ended = try_disturbances(plan, world.spec, names, camera=camera, workers=workers)
     try:
         for found in Tally(len(chosen), "disturbances").counting(ended, None if json else _tell):
             tried.append(found)
     finally:
-        figures = disturbances_of(tried)
+        figures = disturbances_of(tried, planned(world.work))
         if json:
             put_json(figures)
         elif tried:

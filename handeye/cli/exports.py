@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from handeye.cli.common import Json, note, put_json, say
+from handeye.cli.programs import check_task, made_known
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.core.errors import BadArgument
+from handeye.tasks import planned
 
 if TYPE_CHECKING:
     from handeye.results.export import Export
@@ -72,13 +74,15 @@ def _exhibit(run: Path | None, world: WorldOptions) -> "Exhibit":
     """
     from handeye.runs.exhibit import drawn, kept
 
+    wanted = made_known(world.task)
     if run is None:
-        return drawn(world.spec)
-    if world != ANY_WORLD:
+        return drawn(world.spec, planned(world.work).name)
+    if world.chosen:
         raise BadArgument(
             f"{run} brings its own world; --seed, --level, --without and --set do not go with it"
         )
     exhibit, faults = kept(run)
+    check_task(wanted, exhibit.task, run)
     for fault in faults:
         note(f"left out: {fault}")
     if exhibit.moment == "unfinished":

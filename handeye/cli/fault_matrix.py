@@ -5,14 +5,13 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put, put_json, say, screen
+from handeye.cli.common import Camera, Json, WholeNumber, note, positive, put, put_json, say, screen
 from handeye.cli.kept_records import KeptRecords
+from handeye.cli.programs import plan_or_own
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions, stage_of
 from handeye.core.errors import BadArgument
 from handeye.core.files import Kind
-from handeye.runs.scripts import default_script
-from handeye.tasks import task
 
 if TYPE_CHECKING:
     from handeye.core.faults import Catalogue, FaultKind
@@ -63,7 +62,7 @@ def faults(
     from handeye.trials.faults import chosen, with_panic
 
     spec = world.spec
-    catalogue = with_panic(task().faults(spec.seed))
+    catalogue = with_panic(world.work.faults(spec.seed))
     if every and only:
         raise BadArgument("--all excludes --only")
     if listed and (stage is not None or out is not None):
@@ -74,7 +73,7 @@ def faults(
     if listed:
         return _list(catalogue, kinds, json=json)
     tried = KeptRecords(out, OUTCOMES, by="name", overwrite=overwrite)
-    plan = compiled(default_script())
+    plan = plan_or_own(None, world.task)
     number = None if stage is None else stage_of(plan.program)(stage)
     return _tried(plan, spec, kinds, number, workers=workers, camera=camera, json=json, tried=tried)
 

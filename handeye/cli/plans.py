@@ -7,9 +7,9 @@ import msgspec
 from cyclopts import Parameter
 
 from handeye.cli.common import Json, PlanFile, put, put_json, say
+from handeye.cli.programs import plan_at
 from handeye.core.errors import BadArgument
 from handeye.core.files import Kind, write_over
-from handeye.planfile.store import read_plan
 
 StageName = Annotated[str | None, Parameter(help="One stage only: its number, its name, or a piece of it.")]
 DRAWINGS: Final = {"svg": Kind("SVG drawing", rb"<svg ", ending=".svg"), "dot": Kind("graph", rb"digraph ")}
@@ -35,7 +35,7 @@ def inspect(
 
     if graph is not None and json:
         raise BadArgument("--graph and --json do not go together")
-    plan = read_plan(file)
+    plan = plan_at(file)
     number = None if stage is None else stage_number(stage, plan.program) + 1
     if graph is not None:
         shown = flow(plan, number)
@@ -60,7 +60,7 @@ def diff(old: PlanFile, new: PlanFile, /, *, json: Json = False) -> int:
     from handeye.inspection.difference import difference
     from handeye.inspection.difference_text import difference_text
 
-    found = difference(read_plan(old), read_plan(new))
+    found = difference(plan_at(old), plan_at(new))
     if json:
         put_json(found)
     else:

@@ -5,6 +5,7 @@ from typing import Final
 
 from handeye.cli.common import CameraKind
 from handeye.cli.trace_files import trace_file
+from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, BadFile, Refused
 from handeye.core.plain_text import counted
 from handeye.core.variation import DRAWING
@@ -31,6 +32,10 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
     _check_drawing(path, begun)
     _check_parts(path, begun)
     _check_faults(path, begun, plan)
+    if begun.task != plan.task:
+        raise BadArgument(
+            f"the run in {path} is of the task {quoted(begun.task)}, and the plan for {quoted(plan.task)}"
+        )
     camera = _CAMERAS.get(begun.camera.method, "auto")
     return Setup(plan=plan, world=begun.world, camera=camera, judged=judged)
 

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import note, say
+from handeye.cli.common import TaskWords, note, say
+from handeye.cli.programs import made_known
 from handeye.cli.trace_files import TraceFile, motion_file
 from handeye.core.errors import BadArgument
 
@@ -24,6 +25,7 @@ def report(
     ] = None,
     /,
     *,
+    task: TaskWords = None,
     output: Annotated[
         Path | None,
         Parameter(
@@ -44,6 +46,7 @@ def report(
     from handeye.cli.comparisons import write_comparison
     from handeye.core import resources
 
+    made_known(task)
     if (run is None) != demo or (demo and other is not None):
         raise BadArgument("a report is of one run: give its folder or its trace, or --demo")
     if run is None:

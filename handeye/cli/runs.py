@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Calibrate, Camera, Json, Out, PlanFile, compiled, note
+from handeye.cli.common import Calibrate, Camera, Json, Out, PlanFile, TaskWords, note
+from handeye.cli.programs import check_task, is_program, made_known, plan_at, plan_or_own
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.errors import BadArgument, CannotWrite
 from handeye.core.plain_text import counted
-from handeye.planfile.store import read_plan
-from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
     from handeye.runs.snapshot import Checkpoint
@@ -70,7 +69,7 @@ def assemble(
         ),
     ] = None,
 ) -> int:
-    """Assemble the water pump: plan, work, judge.
+    """Assemble the water pump, or do another task with its own program: plan, work, judge.
 
     Exit code 0: assembled; 1: the program stopped and called the operator; 3: the program ended, but the
     referee disagrees; 2: bad input; 130: interrupted.
@@ -84,12 +83,12 @@ def assemble(
     if report and out is None:
         raise BadArgument("--report needs --out, the folder that the page is left in")
     world, senses = world.apart()
-    spec = world.spec
+    spec, done = world.spec, world.work
     started = time.process_time()
-    plan = compiled(default_script())
+    plan = plan_or_own(None, world.task)
     planning = time.process_time() - started
     setup = Setup(
-        plan=plan, world=broken(spec, fault, plan.program), camera=camera, judged=True, without=senses
+        plan=plan, world=broken(spec, fault, done, plan.program), camera=camera, judged=True, without=senses
     )
     return work(
         Job(
@@ -120,7 +119,13 @@ def run(
             "made as they were there."
         ),
     ] = None,
-    judge: Annotated[bool, Parameter(help="Let the referee judge the result.")] = False,
+    judge: Annotated[
+        bool | None,
+        Parameter(
+            negative="--no-judge",
+            help="Let the referee judge the result; by default that of a program that was named.",
+        ),
+    ] = None,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -141,7 +146,7 @@ def run(
     ] = None,
     on_stop: OnStop = None,
 ) -> int:
-    """Carry out a plan in the work cell, or stages of it, or step by step.
+    """Carry out a plan in the work cell of its task, or stages of it, or step by step.
 
     Give a stage by its number, its name, or a piece of its name. A later stage begins at its
     checkpoint; without one, the stages before it come first.
@@ -156,15 +161,15 @@ def run(
     from handeye.runs.snapshot import Checkpoint
 
     _check_live(live, step)
-    plan = read_plan(file)
+    plan, judge = plan_at(file, world.task), is_program(file) if judge is None else judge
     wanted = world
-    world, senses = world.apart()
+    world, senses = world.of(plan.task).apart()
     if stage is not None and (first is not None or to is not None):
         raise BadArgument("--stage excludes --from and --to")
     if world_of is None:
-        spec = broken(world.spec, fault, plan.program)
+        spec = broken(world.spec, fault, world.work, plan.program)
         setup = Setup(plan=plan, world=spec, camera=camera, judged=judge, without=senses)
-    elif wanted != ANY_WORLD or fault or camera != "auto":
+    elif wanted.chosen or fault or camera != "auto":
         others = "--seed, --level, --without, --set, --fault and --camera"
         raise BadArgument(f"{world_of} brings its own world; {others} do not go with --world-of")
     else:
@@ -201,6 +206,7 @@ def resume(
     path: Path,
     /,
     *,
+    task: TaskWords = None,
     judge: Annotated[
         bool | None,
         Parameter(
@@ -237,7 +243,7 @@ def resume(
     from handeye.runs.systems import listing_of
 
     _check_live(live, step)
-    folder = None
+    folder, wanted_task = None, made_known(task)
     if path.name == CHECKPOINTS and (path.parent / PLAN).is_file():
         path = path.parent
     if path.is_dir():
@@ -250,6 +256,7 @@ def resume(
             note(f"left out: {fault}")
     else:
         start = read_checkpoint(path)
+    check_task(wanted_task, start.setup.task, path)
     stops = _stops(listing_of(start.setup), to=to, until=until, breaks=breaks or [])
     _check_order(listing_of(start.setup), start.stage, to)
     _check_ahead(start, stops, breaks or [])

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -11,7 +11,7 @@ from handeye.al import extensions
 from handeye.cli.common import (
     PlanFile,
     Script,
-    compiled,
+    TaskWords,
     complain,
     note,
     put_json,
@@ -19,14 +19,17 @@ from handeye.cli.common import (
     show,
     show_unreadable,
 )
+from handeye.cli.programs import compiled, plan_at, script_at
 from handeye.core.diagnostics import arranged, has_errors
 from handeye.core.errors import InvalidInput
 from handeye.core.files import beside
 from handeye.core.plain_text import counted
-from handeye.planfile.store import read_plan, write_plan
+from handeye.planfile.store import write_plan
 from handeye.program.language import language_of
-from handeye.runs.scripts import LANGUAGES, taught
-from handeye.tasks import task
+from handeye.runs.scripts import LANGUAGES, planned, taught_beside
+
+if TYPE_CHECKING:
+    from handeye.tasks.interface import Task
 
 Version = tuple[int, int, int] | None
 
@@ -35,6 +38,7 @@ def check(
     file: Script,
     /,
     *,
+    task: TaskWords = None,
     json: Annotated[bool, Parameter(help="Diagnostics as JSON.")] = False,
     strict: Annotated[
         bool,
@@ -50,10 +54,11 @@ def check(
 
     Exit code 0: no errors; 2: errors, or bad input. Ctrl-C ends watching, with the code of the last check.
     """
+    file, work = script_at(file, task)
 
     def once() -> int:
         try:
-            return _check(file, json=json, strict=strict)
+            return _check(file, work, json=json, strict=strict)
         except InvalidInput as error:
             if not json:
                 raise
@@ -111,12 +116,10 @@ def _version(path: Path) -> Version:
     return status.st_mtime_ns, status.st_size, status.st_ino
 
 
-def _check(file: Path, *, json: bool, strict: bool) -> int:
-    from handeye.planning.scripts import plan_source
-
+def _check(file: Path, work: "Task", *, json: bool, strict: bool) -> int:
     language = language_of(file, LANGUAGES)
     source = language.read(file)
-    diagnostics = plan_source(source, taught(file), task().arm, language, task=task().name).diagnostics
+    diagnostics = planned(source, taught_beside(file), work, language).diagnostics
     if strict:
         diagnostics = arranged([*diagnostics, *extensions(source)])
     show(diagnostics, source, json=json)
@@ -128,17 +131,23 @@ def _check(file: Path, *, json: bool, strict: bool) -> int:
 
 
 def plan(
-    file: Script, /, *, output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None
+    file: Script,
+    /,
+    *,
+    task: TaskWords = None,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
 ) -> int:
     """Compile a script into a plan.
 
     Parameters
     ----------
     output
-        File for the plan; by default beside the script, with the ending .plan.json.
+        File for the plan; by default beside the script, with the ending .plan.json; of a program by its name, in this
+        folder.
     """
+    script, work = script_at(file, task)
     target = output or beside(file, ".plan.json")
-    made = compiled(file)
+    made = compiled(script, work)
     write_plan(target, made)
     counts = {"step": made.program.steps, "motion": made.motions, "stage": made.program.stages}
     said = ", ".join(counted(len(items), name) for name, items in counts.items())
@@ -152,7 +161,7 @@ def stages(
     """List the stages of a plan and their steps, with lines of the source."""
     from handeye.debugger.listing import listing, listing_text
 
-    made = read_plan(file)
+    made = plan_at(file)
     if json:
         put_json(listing(made.program))
     else:

@@ -16,6 +16,7 @@ from handeye.core.source import read_source
 from handeye.program.taught import Taught, load_taught
 from handeye.runs.scripts import default_script
 from handeye.runs.scripts import taught as taught_for
+from handeye.tasks import planned
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -223,18 +224,20 @@ def _workplace(
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.teaching.workplace import Workplace
 
-    if first is not None and (world != ANY_WORLD or fault):
+    if first is not None and (world.chosen or fault):
         raise BadArgument(
             f"{first} brings its own world; --seed, --level, --without, --set and --fault do not go with --from"
         )
     if first is not None:
         return Workplace.at(read_checkpoint(first), taught, panic, observers)
-    known = taught_for(default_script()) if taught is None else taught
+    work = planned(world.work)
+    known = taught_for(default_script(work), work) if taught is None else taught
     try:
         return Workplace(
-            world=broken(world.spec, fault),
+            world=broken(world.spec, fault, work),
             camera=camera,
             taught=known,
+            task=work.name,
             look=look,
             calibrate=calibrate,
             halt=panic,

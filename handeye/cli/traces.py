@@ -11,6 +11,7 @@ from handeye.cli.common import (
     Json,
     PictureFile,
     SceneCamera,
+    TaskWords,
     Width,
     note,
     notes,
@@ -20,6 +21,7 @@ from handeye.cli.common import (
     screen,
 )
 from handeye.cli.photographs import PLAIN, FineOptions
+from handeye.cli.programs import made_known
 from handeye.cli.trace_files import File, TraceFile, trace_file
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.files import check_place, write_over
@@ -62,6 +64,7 @@ def photograph(
     *,
     at: Annotated[float, Parameter(help="Seconds since the run began, as `show` prints them.")],
     output: PictureFile,
+    task: TaskWords = None,
     camera: SceneCamera = "studio",
     width: Width = 1280,
     height: Height = 960,
@@ -72,6 +75,7 @@ def photograph(
     from handeye.cell.posed import posed
     from handeye.trace.trace import SHOWN
 
+    made_known(task)
     check_place(output, PNG)
     trace, _ = _read(file)
     if trace is None:
@@ -88,7 +92,7 @@ def photograph(
     return 0
 
 
-def verify(file: TraceFile, /) -> int:
+def verify(file: TraceFile, /, *, task: TaskWords = None) -> int:
     """Carry out a recorded run again and compare.
 
     It repeats what operators and experimenters did, and compares an interrupted run up to its last whole
@@ -99,6 +103,7 @@ def verify(file: TraceFile, /) -> int:
     from handeye.core.versions import versions
     from handeye.runs.verify import difference, settled
 
+    made_known(task)
     trace, events = _read(file)
     if trace is None:
         raise Refused(f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too")

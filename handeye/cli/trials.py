@@ -9,8 +9,9 @@ from handeye.cli.world_options import (
     ANY_WORLD,
     WorldOptions,
 )
-from handeye.core.variation import WorldSpec
-from handeye.tasks import task
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import NoSuchName
+from handeye.tasks import planned
 from handeye.tasks.trial import Known
 
 Eye = Annotated[
@@ -49,7 +50,7 @@ def base_vision_trials(
     count
         Poses to try: the one that a world has, then fresh ones.
     """
-    return _vision_trial("base", count, world.spec, worlds, eye, camera, jobs, json)
+    return _vision_trial("base", count, world, worlds, eye, camera, jobs, json)
 
 
 def gasket_vision_trials(
@@ -74,13 +75,13 @@ def gasket_vision_trials(
     count
         Gaskets of each kind.
     """
-    return _vision_trial("gasket", count, world.spec, worlds, eye, camera, jobs, json)
+    return _vision_trial("gasket", count, world, worlds, eye, camera, jobs, json)
 
 
 def _vision_trial(
     name: str,
     count: int,
-    first: WorldSpec,
+    world: WorldOptions,
     worlds: int | None,
     eye: Known,
     camera: str,
@@ -94,10 +95,12 @@ def _vision_trial(
     worlds = count if worlds is None else worlds
     for each, what in ((count, "world"), (worlds, "world"), (jobs, "process")):
         positive(each, what)
-    number = min(count, worlds)
+    number, first, work = min(count, worlds), world.spec, planned(world.work)
+    if name not in work.trials:
+        raise NoSuchName(f"the task {quoted(work.name)} has no trial {quoted(name)}")
     specs = [replace(first, seed=seed) for seed in range(first.seed, first.seed + number)]
-    trial, tell, tried = task().trials[name], note if json else say, []
-    for its in try_in(name, specs, count, camera=camera, known=eye, jobs=jobs):
+    trial, tell, tried = work.trials[name], note if json else say, []
+    for its in try_in(work.name, name, specs, count, camera=camera, known=eye, jobs=jobs):
         tried.append(its)
         for attempt in its.attempts:
             tell(f"seed {attempt.seed:4}  {trial.sentence(attempt)}")

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import note, notes, say
+from handeye.cli.common import TaskWords, note, notes, say
+from handeye.cli.programs import made_known
 from handeye.cli.trace_files import TraceFile, motion_file
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument
@@ -22,6 +23,7 @@ def video(
     run: TraceFile,
     /,
     *,
+    task: TaskWords = None,
     output: Annotated[
         Path | None,
         Parameter(
@@ -68,6 +70,7 @@ def video(
     from handeye.video.making import make_video
     from handeye.video.wanted import Wanted
 
+    made_known(task)
     width, height = _size(size)
     wanted = Wanted(
         camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,

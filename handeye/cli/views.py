@@ -6,15 +6,14 @@ from typing import Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Out, WholeNumber, compiled, note, say
+from handeye.cli.common import Camera, Out, WholeNumber, note, say
 from handeye.cli.panic_button import PanicButton
+from handeye.cli.programs import compiled, made_known, plan_or_own
 from handeye.cli.reports import page_of
 from handeye.cli.runs import Overwrite
 from handeye.cli.teaching import left_unsaved, teacher_of
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.errors import BadArgument
-from handeye.planfile.store import read_plan
-from handeye.runs.scripts import default_script
 
 DEMO: Final = ("pace 1x", "continue")
 """What is said to the run of the demo at first."""
@@ -71,17 +70,17 @@ def view(
             )
         return _teach(teach, port, world, fault, camera)
     if file is not None and (file.is_dir() or file.suffix in _RECORDED):
-        if world != ANY_WORLD or fault or camera != "auto" or out is not None or overwrite:
+        made_known(world.task)
+        if world.chosen or fault or camera != "auto" or out is not None or overwrite:
             raise BadArgument(
                 f"{file} is a run that was carried out; of the options, only --port goes with it"
             )
         return _play(file, port)
     link = Link()
     with Server(link, port) as server:
-        plan = (
-            read_plan(file) if file else compiled(resources.demo() / "live.al" if demo else default_script())
-        )
-        setup = Setup(plan=plan, world=broken(world.spec, fault, plan.program), camera=camera)
+        plan = compiled(resources.demo() / "live.al") if demo else plan_or_own(file, world.task)
+        world = world.of(plan.task)
+        setup = Setup(plan=plan, world=broken(world.spec, fault, world.work, plan.program), camera=camera)
         for line in DEMO if demo else ():
             link.say(line)
         start = Checkpoint(setup=setup)

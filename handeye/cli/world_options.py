@@ -1,21 +1,22 @@
 """Options that choose a world, the same on every command that builds one."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Final, Literal, Self
 
 import msgspec
 from cyclopts import Group, Parameter
 
-from handeye.cli.common import whole
+from handeye.cli.common import TaskWords, whole
 from handeye.core.errors import BadArgument
 from handeye.core.fault_options import StageNumber, faults, from_start_only
 from handeye.core.variation import WorldSpec, checked_seed
 from handeye.core.world_options import overrides
 from handeye.program.senses import SENSES, Sense
-from handeye.tasks import task
+from handeye.tasks import DEFAULT, any_task, named
 
 if TYPE_CHECKING:
     from handeye.runs.system import Listing
+    from handeye.tasks.interface import AnyTask
 
 WORLD: Final = Group("World", sort_key=1)
 
@@ -34,8 +35,9 @@ Faults = Annotated[
 @Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErrorOptions:
-    """Which errors a world has, and how large they are."""
+    """The task whose world it is, which errors that has, and how large they are."""
 
+    task: TaskWords = None
     level: Annotated[
         Literal["low", "nominal", "high"],
         Parameter(help="How large errors are: `low` is half as large as nominal, `high` twice."),
@@ -59,6 +61,15 @@ class ErrorOptions:
         ),
     ] = None
 
+    @property
+    def work(self) -> "AnyTask":
+        """The task; raises InvalidInput if there is none such."""
+        return any_task(DEFAULT) if self.task is None else named(self.task)
+
+    def of(self, name: str) -> Self:
+        """The same for the task of a name."""
+        return replace(self, task=name)
+
     def spec(self, seed: int) -> WorldSpec:
         """The world of a seed with these errors.
 
@@ -76,7 +87,7 @@ class ErrorOptions:
             raise BadArgument(
                 f"`{lacking}` is a sense and no error of the world: here, no program can go without it"
             )
-        wanted = overrides(task().variation(seed), off, self.settings or ())
+        wanted = overrides(self.work.variation(seed), off, self.settings or ())
         return WorldSpec(seed=seed, level=self.level, overrides=wanted)
 
     @property
@@ -95,9 +106,15 @@ class ErrorOptions:
 
     def words(self) -> list[str]:
         """The options as they would be typed."""
+        task = [] if self.task is None else ["--task", self.task]
         level = [] if self.level == "nominal" else ["--level", self.level]
         without = [word for names in self.without or () for word in ("--without", names)]
-        return [*level, *without, *(word for setting in self.settings or () for word in ("--set", setting))]
+        return [
+            *task,
+            *level,
+            *without,
+            *(word for setting in self.settings or () for word in ("--set", setting)),
+        ]
 
 
 @Parameter(name="*", group=WORLD)
@@ -113,6 +130,25 @@ class WorldOptions:
         ),
     ] = None
     errors: Annotated[ErrorOptions, Parameter(name="*")] = ErrorOptions()
+
+    @property
+    def task(self) -> str | None:
+        """What was said of the task; None: nothing."""
+        return self.errors.task
+
+    @property
+    def work(self) -> "AnyTask":
+        """The task; raises InvalidInput if there is none such."""
+        return self.errors.work
+
+    @property
+    def chosen(self) -> bool:
+        """A world was chosen, and not a task alone."""
+        return replace(self, errors=replace(self.errors, task=None)) != ANY_WORLD
+
+    def of(self, name: str) -> Self:
+        """The same for the task of a name."""
+        return replace(self, errors=self.errors.of(name))
 
     @property
     def spec(self) -> WorldSpec:
@@ -132,8 +168,10 @@ class WorldOptions:
         return ["--seed", str(self.seed or 0), *self.errors.words()]
 
 
-def broken(world: WorldSpec, options: list[str] | None, listing: "Listing | None" = None) -> WorldSpec:
-    """A world with faults.
+def broken(
+    world: WorldSpec, options: list[str] | None, work: "AnyTask", listing: "Listing | None" = None
+) -> WorldSpec:
+    """A world of a task with faults.
 
     Args:
         listing: tells the stages with which they may set in; None: there are none.
@@ -144,7 +182,7 @@ def broken(world: WorldSpec, options: list[str] | None, listing: "Listing | None
     if not options:
         return world
     stage = from_start_only if listing is None else stage_of(listing)
-    found = faults(task().faults(world.seed), options, stage)
+    found = faults(work.faults(world.seed), options, stage)
     return msgspec.structs.replace(world, faults=found)
 
 

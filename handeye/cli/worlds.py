@@ -4,7 +4,7 @@ from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, pu
 from handeye.cli.photographs import PLAIN, FineOptions
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.files import check_place, write_over
-from handeye.tasks import task
+from handeye.tasks import planned
 
 
 def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
@@ -12,7 +12,7 @@ def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
     from handeye.results.world_page import world_json, world_page
 
     spec = world.spec
-    table = task().variation(spec.seed)
+    table = world.work.variation(spec.seed)
     drawn = table.draw(spec)
     if json:
         put(world_json(table, drawn))
@@ -37,8 +37,9 @@ def render(
 
     check_place(output, PNG)
     check_size(width, height)
-    spec = broken(world.spec, fault)
-    posed = as_it_stands(task().scene(spec), task().cell(spec, "ray").truth)
+    work = planned(world.work)
+    spec = broken(world.spec, fault, work)
+    posed = as_it_stands(work.scene(spec), work.cell(spec, "ray").truth)
     write_over(output, png(how.take(posed, camera, width, height)), PNG)
     say(f"{output}: {width} x {height}, camera {camera}")
     return 0

@@ -110,6 +110,10 @@ class AnyTask(ABC):
     def variation(self, seed: int) -> Variation:
         """The quantities in which worlds differ; some seeds may stand for worlds of another make."""
 
+    def faults(self, seed: int) -> Catalogue:
+        """What can be broken in the world of a seed; by default nothing."""
+        return Catalogue()
+
     @abstractmethod
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         """The scene of a world as people are shown it, before anything has happened in it: it is never simulated.
@@ -156,10 +160,6 @@ class Task(AnyTask):
     def fixtures(self) -> Mapping[str, Fixture]:
         """What the planner keeps motions clear of where the program has not been taught otherwise."""
         return {}
-
-    def faults(self, seed: int) -> Catalogue:
-        """What can be broken in the world of a seed; by default nothing."""
-        return Catalogue()
 
     @abstractmethod
     def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:

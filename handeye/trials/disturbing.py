@@ -20,7 +20,7 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
 from handeye.tasks import task
-from handeye.tasks.interface import Disturbance
+from handeye.tasks.interface import Disturbance, Task
 from handeye.trials.brakes import brakes_hold
 from handeye.trials.seeds import in_processes
 
@@ -65,9 +65,9 @@ class Disturbances(Record, frozen=True, kw_only=True):
     disturbances: tuple[Disturbed, ...]
 
 
-def disturbances_of(tried: Sequence[Disturbed]) -> Disturbances:
+def disturbances_of(tried: Sequence[Disturbed], work: Task) -> Disturbances:
     """Trials in the order of the task."""
-    names = [each.name for each in task().disturbances()]
+    names = [each.name for each in work.disturbances()]
     found = tuple(sorted(tried, key=lambda each: names.index(each.name)))
     built = [each for each in found if each.built]
     return Disturbances(n=len(built), harmless=sum(each.harmless for each in built), disturbances=found)
@@ -86,7 +86,7 @@ def try_disturbances(
 
 def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturbed:
     """What undoing comes to with one disturbance."""
-    change = next(each for each in task().disturbances() if each.name == name)
+    change = next(each for each in task(plan.task).disturbances() if each.name == name)
     runner = Runner(Checkpoint(setup=Setup(plan=plan, world=world, camera=camera, judged=True)))
     if not _built(runner, plan, change):
         return Disturbed(name=name, built=False)
@@ -135,9 +135,10 @@ def _felt(runner: Runner, begun: int) -> float:
 
 def _moved(runner: Runner) -> tuple[float, str]:
     """Do a step; how far the part moved most, mm, that the hand holds neither before nor behind it."""
-    before = task().bystanders(runner.cell.truth)
+    work = task(runner.setup.task)
+    before = work.bystanders(runner.cell.truth)
     runner.step()
-    after = task().bystanders(runner.cell.truth)
+    after = work.bystanders(runner.cell.truth)
     ways = [
         (1000 * float(np.linalg.norm(after[part] - before[part])), part)
         for part in before.keys() & after.keys()

@@ -22,17 +22,17 @@ class Tried:
 
 
 def try_in(
-    name: str, worlds: Sequence[WorldSpec], number: int, *, camera: str, known: Known, jobs: int
+    of: str, name: str, worlds: Sequence[WorldSpec], number: int, *, camera: str, known: Known, jobs: int
 ) -> Iterator[Tried]:
-    """`number` attempts at a trial of the task, spread over worlds as evenly as can be; in the order they end."""
+    """`number` attempts at a trial of a task, spread evenly over worlds; in the order they end."""
     share, rest = divmod(number, len(worlds))
     shares = [(world, share + (n < rest)) for n, world in enumerate(worlds)]
-    work = partial(_tried, name, camera, known)
+    work = partial(_tried, of, name, camera, known)
     yield from map(work, shares) if min(jobs, len(shares)) == 1 else in_processes(work, shares, jobs)
 
 
-def _tried(name: str, camera: str, known: Known, share: tuple[WorldSpec, int]) -> Tried:
-    trial: Any = task().trials[name]
+def _tried(of: str, name: str, camera: str, known: Known, share: tuple[WorldSpec, int]) -> Tried:
+    trial: Any = task(of).trials[name]
     world, number = share
     start = time.process_time()
     attempts = tuple(trial.attempts(world, number, camera=camera, known=known))

@@ -100,7 +100,7 @@ def try_faults(
 
 def _tried(plan: Plan, camera: str, world: WorldSpec) -> FaultTrial:
     """What a run in a world with one fault comes to, or one in which somebody hits the panic button."""
-    (fault,), catalogue = world.faults, with_panic(task().faults(world.seed))
+    (fault,), catalogue = world.faults, with_panic(task(plan.task).faults(world.seed))
     if fault.name == PANIC.name:
         button = PanicInStage((fault.stage or 1) - 1)
         sound = msgspec.structs.replace(world, faults=())

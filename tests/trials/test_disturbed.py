@@ -90,7 +90,7 @@ def test_a_stop_in_time_is_one_before_anything_is_pushed_or_wrecked() -> None:
 
 
 def test_what_could_not_be_tried_counts_nowhere() -> None:
-    found = disturbances_of([Disturbed(name="top.glued", built=False), STOPPED])
+    found = disturbances_of([Disturbed(name="top.glued", built=False), STOPPED], task())
     assert (found.n, found.harmless, [each.name for each in found.disturbances]) == (
         1, 1, ["top.glued", "top.removed"],
     )  # fmt: skip

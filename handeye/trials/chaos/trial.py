@@ -59,8 +59,8 @@ def try_schedule(schedule: Schedule, sound: SoundRun) -> Tried:
     Raises:
         InvalidInput: it cannot be carried out: there is no such fault, or no such state to begin with.
     """
-    catalogue = task().faults(schedule.seed)
-    start = with_faults(sound.at(schedule.start), schedule.given(catalogue))
+    begun = sound.at(schedule.start)
+    start = with_faults(begun, schedule.given(task(begun.setup.task).faults(schedule.seed)))
     ended, broken = "error", list[Broken]()
     with tempfile.TemporaryDirectory(prefix="handeye-chaos-") as name:
         try:

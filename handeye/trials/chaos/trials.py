@@ -8,7 +8,7 @@ from typing import Final
 from handeye.core.record import Record
 from handeye.core.variation import Level, WorldSpec
 from handeye.planfile.plan import Plan
-from handeye.tasks import task
+from handeye.tasks.interface import Task
 from handeye.trials.chaos.schedule import Schedule, draw
 from handeye.trials.chaos.sound_run import SoundRun, sound_run
 from handeye.trials.chaos.trial import Tried, shrunk, try_schedule
@@ -45,7 +45,7 @@ def sound_runs(
     yield from in_processes(partial(sound_run, folder, plan, camera=camera), specs, workers)
 
 
-def schedules(seed: int, count: int, runs: Sequence[SoundRun]) -> Iterator[Schedule]:
+def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: Task) -> Iterator[Schedule]:
     """The first schedules of a seed."""
     for number in range(count):
         yield draw(
@@ -53,7 +53,7 @@ def schedules(seed: int, count: int, runs: Sequence[SoundRun]) -> Iterator[Sched
             seed,
             [(run.world.seed, run.world.level) for run in runs],
             [run.starts for run in runs],
-            task().faults(seed),
+            work.faults(seed),
             [run.stages for run in runs],
         )
 

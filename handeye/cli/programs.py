@@ -1,0 +1,118 @@
+"""Scripts and plans as they are named to commands: by their file, or by the name of a program of a task."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from handeye.cli.common import note, show
+from handeye.core.diagnostics import LIMIT, quoted, suggestion
+from handeye.core.errors import BadArgument, BadFile, NoSuchName
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import read_plan
+from handeye.runs.scripts import default_script, plan_script, program_named, program_names, task_of
+from handeye.tasks import known_any, named, planned, task
+
+if TYPE_CHECKING:
+    from handeye.tasks.interface import Task
+
+_LEAVE_OUT: Final = "leave --task out, or name another"
+
+
+def compiled(file: Path, work: "Task | None" = None) -> Plan:
+    """The plan of a script for a task, by default its own; or its diagnostics and the end.
+
+    Raises:
+        InvalidInput: the script has errors; they have been shown.
+    """
+    made = plan_script(file, work=work)
+    show(made.diagnostics, made.source, json=False)
+    if made.plan is not None:
+        return made.plan
+    errors = sum(d.severity == "error" for d in made.diagnostics)
+    count = "1 error" if errors == 1 else f"{errors}{' or more' if errors == LIMIT else ''} errors"
+    raise BadFile(f"{file} has {count}; there is no plan")
+
+
+def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
+    """The script in a file, or the program of that name if there is no such file; and the task it is for.
+
+    Raises:
+        InvalidInput: there is no such task, or the program is of another one.
+    """
+    wanted = None if task_words is None else planned(named(task_words))
+    program = None if given.is_file() else _program(given)
+    if program is None:
+        return given, wanted or task_of(given)
+    file, work = program
+    if wanted not in (None, work):
+        raise BadArgument(
+            f"the program {quoted(given.name)} is of the task {quoted(work.name)}, not of "
+            f"{quoted(wanted.name)}; {_LEAVE_OUT}"
+        )
+    note(f"{given}: taking the program of the task {work.name}, {file}")
+    return program
+
+
+def plan_at(given: Path, task_words: str | None = None) -> Plan:
+    """The plan in a file, or that of the program of that name if there is no such file.
+
+    Raises:
+        InvalidInput: there is none, it is not sound, or it is for another task.
+    """
+    wanted = None if task_words is None else planned(named(task_words))
+    if is_program(given):
+        return compiled(*script_at(given, task_words))
+    plan = read_plan(given)
+    if wanted is not None and wanted.name != plan.task:
+        raise BadArgument(
+            f"{given} is a plan for the task {quoted(plan.task)}, not for {quoted(wanted.name)}; {_LEAVE_OUT}"
+        )
+    if _is_name(given) and program_named(given.name) is not None:
+        note(f"{given}: taking this file, not the program of that name")
+    return plan
+
+
+def plan_or_own(given: Path | None, task_words: str | None) -> Plan:
+    """The plan that `plan_at` finds; without one, that of the program which the task comes with."""
+    if given is not None:
+        return plan_at(given, task_words)
+    work = task() if task_words is None else planned(named(task_words))
+    return compiled(default_script(work), work)
+
+
+def is_program(given: Path) -> bool:
+    """Whether a name is that of a program, and not of a file; raises NoSuchName if it is of neither."""
+    return not given.is_file() and _program(given) is not None
+
+
+def _program(given: Path) -> "tuple[Path, Task] | None":
+    """The program of a name; None: this is none, but a path.
+
+    Raises:
+        InvalidInput: it can only be a name, and no program has it.
+    """
+    if not _is_name(given):
+        return None
+    found = program_named(given.name)
+    if found is None and not given.exists():
+        if (other := known_any(given.name)) is not None:
+            planned(other)  # which says why no plan does it
+        near = suggestion(given.name, program_names()) or "give a file"
+        raise NoSuchName(f"{given}: there is no such file, and no program is called so; {near}")
+    return found
+
+
+def _is_name(given: Path) -> bool:
+    return len(given.parts) == 1 and not given.suffix
+
+
+def made_known(words: str | None) -> str | None:
+    """The name of the task that `--task` names, which is known from here on; None: it was left out."""
+    return None if words is None else named(words).name
+
+
+def check_task(wanted: str | None, found: str, of: Path) -> None:
+    """Raises BadArgument if `--task` names another task than that of a run."""
+    if wanted not in (None, found):
+        raise BadArgument(
+            f"the run in {of} is of the task {quoted(found)}, not of {quoted(wanted)}; leave --task out"
+        )
