@@ -10,6 +10,7 @@ from handeye import tasks
 from handeye.api.arguments import given_file
 from handeye.api.plans import FileName, Planned, plan
 from handeye.api.worlds import World
+from handeye.core.diagnostics import quoted
 from handeye.core.entries import require
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.host_time import HostTimer
