@@ -243,8 +243,7 @@ class _Work:
             self.refused = stepper.refused
 
     def _stepped_in_browser(self, stepper: Stepper, server: "Server", newest: "Newest") -> Pause:
-        from handeye.view.driving import drive
-        from handeye.view.stepping_page import stepping_page
+        from handeye.view.stepping import drive, stepping_page
 
         with self.progress.aside():
             note("making the page")

@@ -58,7 +58,6 @@ def do(
     """
     from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
     from handeye.teaching.answers import converse
-    from handeye.teaching.commands import ReplSession
     from handeye.teaching.repl import Repl
 
     if not all(map(str.strip, functions or ("",))):
@@ -78,7 +77,7 @@ def do(
         )
         lines = (f"DO {function}" for function in functions)
         repl = Repl(workplace=workplace, folder=Path(), called=_kept(keep))
-        failed = converse(ReplSession(repl), lines, put_line if json else say, json=json, strict=True)
+        failed = converse(repl, lines, put_line if json else say, json=json, strict=True)
     if failed is not None and "modifier-without-motion" in {d.code for d in failed.diagnostics}:
         note("a modifier and its motion go into one argument: handeye do $'STOP 50\\nCHANGE Z -1'")
     if keep is not None and (failed is None or not failed.refused):
@@ -111,8 +110,7 @@ def repl(
     """
     from handeye.al.instructions import INSTRUCTIONS
     from handeye.teaching.answers import converse
-    from handeye.teaching.commands import COMMANDS, ReplSession
-    from handeye.teaching.repl import Repl
+    from handeye.teaching.repl import COMMANDS, Repl
 
     if script is not None and taught is None and beside(script, ".toml").exists():
         taught = beside(script, ".toml")
@@ -129,7 +127,7 @@ def repl(
             first=first,
         )
         lines = typed_lines("* ", panic.aside, lambda: (*COMMANDS, *INSTRUCTIONS, *workplace.known.positions))
-        typist = ReplSession(Repl(workplace=workplace, folder=folder))
+        typist = Repl(workplace=workplace, folder=folder)
         failed = converse(typist, lines, put_line if json else say, json=json)
     return 0 if sys.stdin.isatty() else _code(failed)
 

@@ -117,9 +117,8 @@ def _teach(file: Path, port: int, world: WorldOptions, fault: Faults, camera: st
     from handeye.teaching.teach_commands import TeachSession
     from handeye.view.link import Link
     from handeye.view.server import Server
-    from handeye.view.teaching import Watch
+    from handeye.view.teaching import Watch, teaching_page
     from handeye.view.teaching import teach as teach_there
-    from handeye.view.teaching_page import teaching_page
 
     link = Link()
     watch = Watch(link, Pace(factor=1.0))  # whoever jogs the arm wants to see it go

@@ -1,8 +1,8 @@
-"""Answers to typed lines, and their two faces: text for people, JSON for programs."""
+"""Answers to typed lines, as text and as JSON; texts planned and carried out; conversations line by line."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Any, Final, Protocol
 
 import msgspec
 from msgspec import UNSET, UnsetType
@@ -11,10 +11,12 @@ from handeye.core.diagnostics import Diagnostic, as_json, has_errors, render
 from handeye.core.record import Record
 from handeye.core.source import Source
 from handeye.debugger.formatting import shown_lines, summary_lines
-from handeye.debugger.step_summary import StepSummary
+from handeye.debugger.step_summary import StepSummary, step_summaries
 from handeye.debugger.view_records import Shown
+from handeye.planning.scripts import PlannedScript
 from handeye.results.pauses import pause_sentence
 from handeye.runs.advance import Pause
+from handeye.teaching.workplace import Workplace
 
 
 class LineResult(Record, frozen=True, kw_only=True):
@@ -84,6 +86,39 @@ def text(answer: Answer) -> str:
         lines.append(pause_sentence(said.pause))
     lines += [sentence for sentence in (said.said, said.error) if isinstance(sentence, str)]
     return "\n".join(lines)
+
+
+def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> Answer:
+    """Plan a text, and carry the plan out if there is one.
+
+    Raises InvalidInput if it looks, and the camera was not set up.
+
+    Args:
+        alone: the text is only a part of what is done, and need not make sense by itself.
+    """
+    checked = workplace.plan(source, alone=alone)
+    said = NOTHING if checked.plan is None else done(workplace, workplace.carry_out(checked.plan))
+    return about(workplace, checked, checked.diagnostics, said)
+
+
+def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
+    """Tell what was done after the first `happened` events of the plan under way."""
+    runner = workplace.runner
+    told = step_summaries(runner.events[happened:], runner.listing, runner.task.measures)
+    did = tuple(step for step in told if step.line is not None)
+    return LineResult(did=did, pause=pause, said=UNSET if did else pause_sentence(pause))
+
+
+def about(
+    workplace: Workplace, checked: PlannedScript, found: Sequence[Diagnostic], said: LineResult = NOTHING
+) -> Answer:
+    """An answer with what was found in a text."""
+    return Answer(time=workplace.elapsed, said=said, source=checked.source, diagnostics=tuple(found))
+
+
+def answer(workplace: Workplace, **fields: Any) -> Answer:
+    """An answer whose result has these fields of `LineResult`."""
+    return Answer(time=workplace.elapsed, said=LineResult(**fields))
 
 
 class Listener(Protocol):

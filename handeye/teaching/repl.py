@@ -1,29 +1,35 @@
-"""The two modes of the arm program of 1973: functions typed in are collected; `DO` carries out."""
+"""The arm program of 1973: functions typed in are collected, `DO` carries out; its commands are a table."""
 
+import re
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final
 
 import msgspec
+from msgspec import UNSET
 
-from handeye.al.includes import sewn
-from handeye.core.diagnostics import has_errors
-from handeye.core.errors import Refused
+from handeye.al.includes import read_script, sewn
+from handeye.al.instructions import EXPLAINED, INSTRUCTIONS
+from handeye.al.parser import parse
+from handeye.core.diagnostics import has_errors, quoted, suggestion
+from handeye.core.errors import BadArgument, CannotWrite, HandeyeError, NoSuchName, Refused
+from handeye.core.files import beside, write_whole
 from handeye.core.source import Source, read_source
+from handeye.debugger.command import Command, check_bare, rows
+from handeye.debugger.views import show
 from handeye.program.events import Choice
-from handeye.teaching.answers import Answer
-from handeye.teaching.functions import TYPED, is_open, mistakes
-from handeye.teaching.plan_and_run import about, answer, carry_out, done
+from handeye.teaching.answers import Answer, about, answer, carry_out, done
+from handeye.teaching.functions import TYPED, is_open, lasting, mistakes
 from handeye.teaching.workplace import Workplace
 
-MOST: Final = 500
-"""Lines that are collected at most: all of them are checked again with each that is added."""
+MAX_LINES: Final = 500  # all of them are checked again with each that is added
 _ANSWERS: Final = "PROCEED, RETRY or SKIP continues from there; a new function abandons it"
 
 
 @dataclass(slots=True, kw_only=True)
 class Repl:
-    """Somebody at the arm program: a cell, and the functions collected so far."""
+    """A session of the arm program: a cell, and the functions collected so far."""
 
     workplace: Workplace
     folder: Path
@@ -33,17 +39,31 @@ class Repl:
     functions: list[str] = field(default_factory=list)
     """The lines collected."""
     over: bool = False
+    """The user has left."""
+
+    def hear(self, line: str) -> Answer:
+        """Carry out a command, or collect a function."""
+        try:
+            given = self._given(line)
+        except HandeyeError as error:
+            given = answer(self.workplace, error=str(error))
+        return replace(given, typed=line.strip())
+
+    def _given(self, line: str) -> Answer:
+        word, rest = [*line.split(maxsplit=1), "", ""][:2]
+        command = COMMANDS.get(word.upper())
+        if command is None:
+            return self.collect(line)
+        check_bare([command], rest)
+        return command.act(self, rest.strip())
 
     def collect(self, line: str) -> Answer:
-        """Add a line to what is collected, if nothing is wrong with it that a further line could not put right.
-
-        Raises:
-            InvalidInput: too many are collected already.
-        """
+        """Add a line to what is collected, if nothing is wrong with it that a further line could not put right. Raises
+        InvalidInput if too many are collected already."""
         if not line.strip() and not is_open(self.functions):
             return answer(self.workplace)
-        if len(self.functions) >= MOST:
-            raise Refused(f"at most {MOST} lines; write a script for more")
+        if len(self.functions) >= MAX_LINES:
+            raise Refused(f"at most {MAX_LINES} lines; write a script for more")
         lines = [*self.functions, line]
         checked = self.workplace.plan(self.typed("\n".join(lines)))
         found = mistakes(checked, len(lines))
@@ -60,11 +80,7 @@ class Repl:
         return self._advised(carry_out(self.workplace, source, alone=alone))
 
     def go_on(self, choice: Choice) -> Answer:
-        """Answer for the operator, who was called.
-
-        Raises:
-            InvalidInput: nobody has called.
-        """
+        """Answer for the operator, who was called; raises InvalidInput if nobody has called."""
         happened = len(self.workplace.runner.events)
         said = done(self.workplace, self.workplace.answer(choice), happened)
         return self._advised(Answer(time=self.workplace.elapsed, said=said))
@@ -75,3 +91,107 @@ class Repl:
         return (
             given if advice is None else replace(given, said=msgspec.structs.replace(given.said, said=advice))
         )
+
+
+def _do(repl: Repl, rest: str) -> Answer:
+    """Carry out what is collected, or a function, macro or program now."""
+    if not rest:
+        if not any(map(str.strip, repl.functions)):
+            raise Refused("nothing is collected; type functions, or `DO OPEN 3` to carry one out at once")
+        return repl.carry_out(repl.typed("\n".join(repl.functions)))
+    definitions = lasting(repl.functions)
+    name = rest.split(";")[0].strip()
+    text = "\n".join([rest, "", *definitions])
+    macros = parse("\n".join(definitions))[0].macros
+    if not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) or name.upper() in (*INSTRUCTIONS, *macros):
+        return repl.carry_out(repl.typed(text), alone=True)
+    file = repl.folder / f"{name}.al"
+    if not file.is_file():
+        known = suggestion(name, [*INSTRUCTIONS, *macros, *_programs(repl.folder)])
+        help = f"; {known}" if known is not None else ""
+        raise BadArgument(f"there is no instruction, macro or program {quoted(name)}{help}")
+    return repl.carry_out(read_script(file))
+
+
+def _programs(folder: Path) -> list[str]:
+    return sorted(file.stem for file in folder.glob("*.al"))
+
+
+def _list(repl: Repl, _: str) -> Answer:
+    lines = tuple(f"{number:3}  {line}" for number, line in enumerate(repl.functions, 1))
+    return answer(repl.workplace, lines=lines, said=UNSET if lines else "nothing is collected")
+
+
+def _drop(repl: Repl, _: str) -> Answer:
+    if not repl.functions:
+        raise Refused("nothing is collected")
+    return answer(repl.workplace, said=f"dropped: {repl.functions.pop().strip()}")
+
+
+def _clear(repl: Repl, _: str) -> Answer:
+    repl.functions.clear()
+    return answer(repl.workplace, said="nothing is collected")
+
+
+def _write(repl: Repl, rest: str) -> Answer:
+    if not rest:
+        raise BadArgument("`WRITE` takes the name of a file")
+    path = beside(Path(rest), ".al")
+    if path.exists():
+        raise CannotWrite(f"{path} already exists; nothing was written")
+    write_whole(path, ("\n".join(repl.functions) + "\n").encode())
+    return answer(repl.workplace, file=str(path), said=f"written to {path}")
+
+
+def _show(repl: Repl, rest: str) -> Answer:
+    return answer(repl.workplace, show=show(repl.workplace.runner, rest))
+
+
+def _back(repl: Repl, _: str) -> Answer:
+    repl.workplace.back()
+    return answer(repl.workplace, said="the last `DO` is undone")
+
+
+def _answer(choice: Choice) -> Callable[[Repl, str], Answer]:
+    return lambda repl, _: repl.go_on(choice)
+
+
+def _quit(repl: Repl, _: str) -> Answer:
+    repl.over = True
+    return answer(repl.workplace)
+
+
+def _help(repl: Repl, rest: str) -> Answer:
+    if rest:
+        definition = EXPLAINED.get(rest.upper())
+        if definition is None:
+            known = suggestion(rest, EXPLAINED)
+            raise NoSuchName(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
+        return answer(repl.workplace, said=f"{definition.usage}: {definition.help}")
+    lines = (
+        "A line is a function of the arm language, which is collected, or one of",
+        *rows(_TABLE),
+        "What is collected stays until CLEAR. `HELP MOVE` explains an instruction.",
+    )
+    return answer(repl.workplace, lines=lines)
+
+
+_TABLE: Final[tuple[Command[Callable[[Repl, str], Answer]], ...]] = (
+    Command(usage="DO", act=_do, help="carry out what is collected"),
+    Command(usage="DO FUNCTION", act=_do, help="plan one function and carry it out now: DO OPEN 3"),
+    Command(usage="DO NAME", act=_do, help="carry out a macro, or the program in the file NAME.al"),
+    Command(usage="LIST", act=_list, help="list what is collected"),
+    Command(usage="DROP", act=_drop, help="drop the last line collected"),
+    Command(usage="CLEAR", act=_clear, help="drop all of them"),
+    Command(usage="WRITE FILE", act=_write, help="write them to a new file, as a script"),
+    Command(usage="SHOW [WHAT]", act=_show, help="show joints, hand, gap, saved differences, positions, ..."),
+    Command(usage="BACK", act=_back, help="undo the last DO: restores arm, parts and memory"),
+    Command(usage="PROCEED", act=_answer("proceed"), help="continue after what called the operator"),
+    Command(usage="RETRY", act=_answer("retry"), help="repeat from the first function of the stage"),
+    Command(usage="SKIP", act=_answer("skip"), help="skip the rest of the stage"),
+    Command(usage="HELP [INSTRUCTION]", act=_help, help="show this, or what an instruction does"),
+    Command(usage="QUIT", act=_quit, help="leave"),
+    Command(usage="EXIT", act=_quit, help="leave, too"),
+)
+COMMANDS: Final = {command.name: command for command in _TABLE}
+"""By their words."""

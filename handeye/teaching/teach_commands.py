@@ -15,14 +15,12 @@ from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
 from handeye.debugger.command import Command, rows
 from handeye.debugger.views import show
 from handeye.program.program import Position
-from handeye.teaching.answers import Answer, LineResult
-from handeye.teaching.plan_and_run import answer
+from handeye.teaching.answers import Answer, answer
 from handeye.teaching.teacher import Teacher
 
 AXES: Final = ("x", "y", "z")
 NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
-LONGEST: Final = 60.0
-"""s that somebody pushes at most."""
+MAX_PUSH_S: Final = 60.0
 
 
 @dataclass(slots=True)
@@ -39,7 +37,7 @@ class TeachSession:
         try:
             given = self._given(line.split())
         except HandeyeError as error:
-            given = answer(self.teacher.workplace, LineResult(error=str(error)))
+            given = answer(self.teacher.workplace, error=str(error))
         return replace(given, typed=line.strip())
 
     def _given(self, words: list[str]) -> Answer:
@@ -110,15 +108,13 @@ def _float(teacher: Teacher, words: list[str]) -> Answer:
 
 def _push(teacher: Teacher, words: list[str]) -> Answer:
     axis, force, seconds = _exactly(words, 3, "push x 5 2")
-    if not 0 < _number(seconds) <= LONGEST:
-        raise BadArgument(f"a push takes up to {LONGEST:g} s, not {quoted(seconds)}")
+    if not 0 < _number(seconds) <= MAX_PUSH_S:
+        raise BadArgument(f"a push takes up to {MAX_PUSH_S:g} s, not {quoted(seconds)}")
     if abs(_number(force)) > 200:
         raise BadArgument(f"a push has up to 200 oz, not {quoted(force)}")
     teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
     told = _where(teacher).said.show
-    return answer(
-        teacher.workplace, LineResult(show=told, said="that was a push from outside: no program can do it")
-    )
+    return answer(teacher.workplace, show=told, said="that was a push from outside: no program can do it")
 
 
 # -- naming ---------------------------------------------------------------------------------------------
@@ -134,9 +130,7 @@ def _here(teacher: Teacher, words: list[str]) -> Answer:
         raise BadArgument(f"{quoted(name)} is not a name: letters, digits and _, no digit first")
     if again and part is None and name in teacher.workplace.taught.positions:
         part = teacher.workplace.taught.positions[name].of
-    return answer(
-        teacher.workplace, LineResult(said=f"{name} is {_written(teacher.name(name, part, again=again))}")
-    )
+    return answer(teacher.workplace, said=f"{name} is {_written(teacher.name(name, part, again=again))}")
 
 
 def _written(position: Position) -> str:
@@ -151,21 +145,21 @@ def _list(teacher: Teacher, words: list[str]) -> Answer:
     known, unsaved = teacher.workplace.taught.positions, teacher.unsaved
     width = max(map(len, known), default=0)
     lines = [f"{n:{width}}  {_written(p)}{', not saved' if n in unsaved else ''}" for n, p in known.items()]
-    return answer(teacher.workplace, LineResult(lines=tuple(lines or ["nothing is taught"])))
+    return answer(teacher.workplace, lines=tuple(lines or ["nothing is taught"]))
 
 
 def _save(teacher: Teacher, words: list[str]) -> Answer:
     _exactly(words, 0, "save")
     names = teacher.save()
     if not names:
-        return answer(teacher.workplace, LineResult(said="there is nothing new to save"))
+        return answer(teacher.workplace, said="there is nothing new to save")
     said = f"{', '.join(names)} written to {teacher.file}"
-    return answer(teacher.workplace, LineResult(said=said, file=str(teacher.file)))
+    return answer(teacher.workplace, said=said, file=str(teacher.file))
 
 
 def _undo(teacher: Teacher, words: list[str]) -> Answer:
     _exactly(words, 0, "undo")
-    return answer(teacher.workplace, LineResult(said=teacher.undo()))
+    return answer(teacher.workplace, said=teacher.undo())
 
 
 def _look(teacher: Teacher, words: list[str]) -> Answer:
@@ -174,12 +168,12 @@ def _look(teacher: Teacher, words: list[str]) -> Answer:
 
 
 def _where(teacher: Teacher, what: str = "hand") -> Answer:
-    return answer(teacher.workplace, LineResult(show=show(teacher.workplace.runner, what)))
+    return answer(teacher.workplace, show=show(teacher.workplace.runner, what))
 
 
 def _help(teacher: Teacher, _: list[str]) -> Answer:
     tail = "Inches and degrees, forces in ounces. `quit` leaves."
-    return answer(teacher.workplace, LineResult(lines=(*rows(TABLE), tail)))
+    return answer(teacher.workplace, lines=(*rows(TABLE), tail))
 
 
 # -- reading --------------------------------------------------------------------------------------------

@@ -27,13 +27,11 @@ from handeye.program.motion_operations import Change
 from handeye.program.program import Position
 from handeye.program.taught import Taught
 from handeye.program.taught_text import with_position
-from handeye.teaching.answers import Answer
+from handeye.teaching.answers import Answer, carry_out
 from handeye.teaching.functions import TYPED
-from handeye.teaching.plan_and_run import carry_out
 from handeye.teaching.workplace import Workplace
 
-REST = 0.5
-"""s that a floating arm is given to come to rest when it is let go."""
+REST_S = 0.5  # for a floating arm to come to rest when it is let go
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,29 +78,20 @@ class Teacher:
         return given
 
     def joint(self, index: int, goal: float) -> None:
-        """Move one joint to a place (rad, or m), the others held.
-
-        Raises:
-            InvalidInput: it cannot go there, or something is in the way.
-        """
+        """Move one joint to a place (rad, or m), the others held. Raises InvalidInput if it cannot go there, or
+        something is in the way."""
         arm = self.workplace.run.arm
         self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED))
 
     def straight(self, displacement: Vector3) -> None:
-        """Move the hand straight by a way (m, table coordinates), its angles kept.
-
-        Raises:
-            InvalidInput: it cannot go there, or something is in the way.
-        """
+        """Move the hand straight by a way (m, table coordinates), its angles kept. Raises InvalidInput if it cannot go
+        there, or something is in the way."""
         arm = self.workplace.run.arm
         self._follow(change_samples(arm, self.workplace.q, Change(displacement=displacement)))
 
     def turn(self, turn: Vector3) -> None:
-        """Turn the hand on the spot by a rotation vector (rad, table coordinates).
-
-        Raises:
-            InvalidInput: it cannot be turned so, or something is in the way.
-        """
+        """Turn the hand on the spot by a rotation vector (rad, table coordinates). Raises InvalidInput if it cannot be
+        turned so, or something is in the way."""
         arm = self.workplace.run.arm
         self._follow(pivot(arm, self.workplace.q, np.array(turn), TURN_SPEED))
 
@@ -115,14 +104,11 @@ class Teacher:
     def let_go(self) -> None:
         """Take the brakes off: from now on the arm goes where it is pushed."""
         self.afloat = True
-        self._let(lambda: self._float(REST))
+        self._let(lambda: self._float(REST_S))
 
     def push(self, force: Vector3, seconds: float) -> None:
-        """Somebody pushes the floating arm at its hand (N, table coordinates), and lets go of it.
-
-        Raises:
-            InvalidInput: the arm does not float.
-        """
+        """Somebody pushes the floating arm at its hand (N, table coordinates), and lets go of it. Raises InvalidInput
+        if the arm does not float."""
         if not self.afloat:
             raise Refused("the arm is held and cannot be pushed; `float` releases its brakes")
         self._let(lambda: self._pushed(force, seconds))
@@ -130,7 +116,7 @@ class Teacher:
     def _pushed(self, force: Vector3, seconds: float) -> None:
         with pushed(self.workplace.runner.arm_cell, force):
             self._float(seconds)
-        self._float(REST)
+        self._float(REST_S)
 
     def _float(self, seconds: float) -> None:
         self.workplace.run.drive.float(seconds)
@@ -156,11 +142,8 @@ class Teacher:
     # -- naming ---------------------------------------------------------------------------------------
 
     def name(self, name: str, part: str | None, *, again: bool = False) -> Position:
-        """Name where the hand is, in table coordinates or on a part.
-
-        Raises:
-            InvalidInput: the name is taken, there is no such part, or the file cannot be edited so.
-        """
+        """Name where the hand is, in table coordinates or on a part. Raises InvalidInput if the name is taken, there is
+        no such part, or the file cannot be edited so."""
         taught = self.workplace.taught
         if part is not None and part not in taught.parts:
             known = ", ".join(taught.parts) or "none"
@@ -176,11 +159,8 @@ class Teacher:
         return position
 
     def save(self) -> list[str]:
-        """Write the file; the names that were not in it, or otherwise.
-
-        Raises:
-            InvalidInput: somebody else has written it meanwhile, or it cannot be written.
-        """
+        """Write the file; the names that were not in it, or otherwise. Raises InvalidInput if somebody else has written
+        it meanwhile, or it cannot be written."""
         names = self.unsaved
         if names:
             now = read_source(self.file).text if self.file.exists() else ""
@@ -195,11 +175,8 @@ class Teacher:
     # -- going back -----------------------------------------------------------------------------------
 
     def undo(self) -> str:
-        """Undo the last motion or name, and say which; the file is as it was saved last.
-
-        Raises:
-            InvalidInput: there is none.
-        """
+        """Undo the last motion or name, and say which; the file is as it was saved last. Raises InvalidInput if there
+        is none."""
         if not self._before:
             raise Refused("there is nothing to undo")
         before = self._before.pop()

@@ -28,8 +28,7 @@ from handeye.tasks import task as known_task
 from handeye.tasks.interface import Task
 from handeye.teaching.functions import TYPED, planned
 
-MOST: Final = 100
-"""States that can be gone back to."""
+MAX_STATES: Final = 100  # to go back to
 _NOTHING: Final = "WHERE"
 _PICTURE: Final = "LOOK SETUP"
 """Programs that a workplace has before it is given one; they are not carried out."""
@@ -57,15 +56,14 @@ class Workplace:
     ) -> None:
         """Build the cell of a world.
 
+        Raises InvalidInput if the camera cannot work as asked; Halted if the panic button was hit while the camera was
+        set up.
+
         Args:
             look: set the camera up, so that plans can look.
             calibrate: anew, whatever is kept of that.
             halt: the panic button, asked at every servo period.
             observers: makes those who look on, for the runner of each plan.
-
-        Raises:
-            InvalidInput: the camera cannot work as asked.
-            Halted: the panic button was hit while the camera was set up.
         """
         self.taught, self.halt, self.observers = taught, halt, observers
         plan = _plan(_PICTURE if look else _NOTHING, taught, known_task(task))
@@ -88,10 +86,7 @@ class Workplace:
         observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> "Workplace":
         """The cell as a run has left it, with what that run knew; `taught` instead of what its plan was made with.
-
-        Raises:
-            InvalidInput: the checkpoint does not fit this scene.
-        """
+        Raises InvalidInput if the checkpoint does not fit this scene."""
         program = plan_of(checkpoint.setup).program
         made = cls.__new__(cls)
         made.taught = taught or Taught(
@@ -148,11 +143,7 @@ class Workplace:
     # -- doing ----------------------------------------------------------------------------------------
 
     def carry_out(self, plan: Plan) -> Pause:
-        """Carry out a plan.
-
-        Raises:
-            InvalidInput: it looks, and the camera was not set up.
-        """
+        """Carry out a plan; raises InvalidInput if it looks, and the camera was not set up."""
         if self.run.state.calibration is None and plan.program.written("picture"):
             raise Refused("the camera is not set up; begin with --look for a plan that takes pictures")
         self.mark()
@@ -180,11 +171,7 @@ class Workplace:
         )  # fmt: skip
 
     def answer(self, choice: Choice) -> Pause:
-        """Go on after the operator was called.
-
-        Raises:
-            InvalidInput: nobody has called.
-        """
+        """Go on after the operator was called; raises InvalidInput if nobody has called."""
         if self.runner.call is None:
             raise Refused(f"`{choice}` answers a call of the operator, and there is none")
         self.runner.answer(choice)
@@ -198,14 +185,10 @@ class Workplace:
 
     def mark(self) -> None:
         """Keep this state to go back to."""
-        self.before = [*self.before, self.checkpoint()][-MOST:]
+        self.before = [*self.before, self.checkpoint()][-MAX_STATES:]
 
     def back(self) -> None:
-        """Be again where the last plan had not been carried out.
-
-        Raises:
-            InvalidInput: none has been.
-        """
+        """Be again where the last plan had not been carried out; raises InvalidInput if none has been."""
         if not self.before:
             raise Refused("there is nothing to undo")
         self.runner = self._runner(self.before.pop())

@@ -6,8 +6,7 @@ from queue import Empty, SimpleQueue
 from threading import Lock
 from typing import Final
 
-MOST: Final = 100
-"""Lines that may wait; the run takes them in less than a servo period."""
+MAX_WAITING_LINES: Final = 100  # the run takes them in less than a servo period
 
 
 class Link:
@@ -25,7 +24,7 @@ class Link:
 
     def say(self, line: str) -> bool:
         """Say a line to the run; False: too many wait."""
-        if self._lines.qsize() >= MOST:
+        if self._lines.qsize() >= MAX_WAITING_LINES:
             return False
         self._lines.put(line)
         return True

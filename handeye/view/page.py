@@ -39,11 +39,7 @@ class Face:
 
 
 def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
-    """The page of a live cell, as one file that fetches nothing.
-
-    Raises:
-        InvalidInput: the task shows no scene.
-    """
+    """The page of a live cell, as one file that fetches nothing; raises InvalidInput if the task shows no scene."""
     model = runner.task.recorded_scene(runner.setup.world, written(runner.setup))
     names = newest.frames.names
     facts = {
@@ -55,10 +51,12 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
     }
     scripts = [player.script(), _own("live.js"), _own(face.script)]
     style = resource("page.css") + _own("live.css")
+    television = element("div", id="television", role="region", aria_label="television", hidden=True)
+    aside = element("div", television, face.aside, class_="aside")
     body = element(
         "body",
         _header(face.title),
-        element("main", element("div", _viewer(face), _aside(face), class_="beside")),
+        element("main", element("div", _viewer(face), aside, class_="beside")),
         element("script", json_markup(facts), id="facts", type="application/json"),
         packed("scene", scene.scene_bytes(model)),
         packed("tracks", _first_tracks(names, newest.moment.poses)),
@@ -72,6 +70,11 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
 def buttons(said: Sequence[tuple[str, str]]) -> Iterator[Markup]:
     """Buttons that say a line: the line, and what stands on it."""
     return (element("button", shown, type="button", value=line, class_="say") for line, shown in said)
+
+
+def source_region(label: str, *content: Markup, id: str | None = None) -> Markup:
+    """A scrolling region beside the cell, with a script or a taught file in it."""
+    return element("div", *content, id=id, class_="source", tabindex="0", role="region", aria_label=label)
 
 
 def _header(title: str) -> Markup:
@@ -105,12 +108,6 @@ def _talk(listener: str) -> Markup:
         autocomplete="off",
     )
     return element("div", told, element("form", line, id="form"), class_="talk")
-
-
-def _aside(face: Face) -> Markup:
-    """What stands beside the cell: the television, once there is a picture, and what the face has."""
-    television = element("div", id="television", role="region", aria_label="television", hidden=True)
-    return element("div", television, face.aside, class_="aside")
 
 
 def _first_tracks(names: tuple[str, ...], poses: Poses) -> bytes:

@@ -25,22 +25,17 @@ from handeye.view.access import HOST, LIVE, NOTHING, Access
 from handeye.view.link import Link
 from handeye.view.moment import Newest
 
-RATE: Final = 25
-"""Moments a second that are sent."""
-LARGEST: Final = 4096
-"""Bytes of a message that somebody may send; a larger one ends the connection."""
-LONGEST: Final = 1000
-"""Characters of a line."""
-KEPT: Final = 400
-"""Messages that are told to those who come later."""
-BEHIND: Final = 4 * KEPT
-"""Messages behind which somebody who looks on is let go."""
+MOMENTS_PER_S: Final = 25
+MAX_MESSAGE_BYTES: Final = 4096  # of a viewer; a larger one ends the connection
+MAX_LINE_CHARS: Final = 1000
+KEPT_MESSAGES: Final = 400  # for viewers who come later
+MAX_BEHIND: Final = 4 * KEPT_MESSAGES  # unsent messages at which a viewer is let go
 
 
 class Say(msgspec.Struct, tag_field="do", tag="say", forbid_unknown_fields=True):
     """Say a line to the stepper."""
 
-    line: Annotated[str, msgspec.Meta(max_length=LONGEST)]
+    line: Annotated[str, msgspec.Meta(max_length=MAX_LINE_CHARS)]
 
 
 class Panic(msgspec.Struct, tag_field="do", tag="panic", forbid_unknown_fields=True):
@@ -69,17 +64,13 @@ class Server:
     """Serves one run while entered; its port is taken from the beginning, so that one in use is told at once."""
 
     def __init__(self, link: Link, port: int = 0) -> None:
-        """Take a port; 0: any that is free.
-
-        Raises:
-            InvalidInput: the port is in use, or not to be had.
-        """
+        """Take a port; 0: any that is free; raises InvalidInput if the port is in use, or not to be had."""
         self.link = link
         self._socket = _taken(port)
         self.access = Access(self._socket.getsockname()[1])
         self._viewers: list[Viewer] = []
         self._driver: Viewer | None = None
-        self._told = deque[str](maxlen=KEPT)
+        self._told = deque[str](maxlen=KEPT_MESSAGES)
         self._loop = asyncio.new_event_loop()
         self._up = Event()
 
@@ -92,7 +83,9 @@ class Server:
         """
         self._page, self._newest = page, newest
         self.link.tell = lambda text: self._call(lambda: self._tell(text))
-        self._thread = Thread(target=self._run, name="viewers", daemon=True)
+        self._thread = Thread(
+            target=lambda: self._loop.run_until_complete(self._serve()), name="viewers", daemon=True
+        )
         self._thread.start()
         self._up.wait()
 
@@ -112,16 +105,13 @@ class Server:
     def _call(self, act: Callable[[], None]) -> None:
         self._loop.call_soon_threadsafe(act)
 
-    def _run(self) -> None:
-        self._loop.run_until_complete(self._serve())
-
     async def _serve(self) -> None:
         self._ended = asyncio.Event()
         serving = serve(
             self._look_on,
             sock=self._socket,
             process_request=self._answer,
-            max_size=LARGEST,
+            max_size=MAX_MESSAGE_BYTES,
             compression=None,
             server_header=None,
             close_timeout=1,
@@ -135,7 +125,7 @@ class Server:
         """Tell what is left to be told, and close."""
         for viewer in [*self._viewers]:
             viewer.waiting.append(_message(left=True))
-        await asyncio.sleep(2 / RATE)
+        await asyncio.sleep(2 / MOMENTS_PER_S)
         server.close()
 
     def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
@@ -145,7 +135,8 @@ class Server:
         if refusal is not None:
             return _response(refusal.status, "text/plain", f"{refusal.sentence}\n".encode())
         if request.path.partition("?")[0] == LIVE:
-            return None if self._newest is not None else _nothing()
+            nothing = _response(HTTPStatus.NOT_FOUND, "text/plain", f"{NOTHING}\n".encode())
+            return nothing if self._newest is None else None
         return _response(HTTPStatus.OK, "text/html", self._page)
 
     async def _look_on(self, connection: ServerConnection) -> None:
@@ -185,7 +176,7 @@ class Server:
                 if television is not pictured:
                     await viewer.connection.send(television.message)
                     pictured = television
-                await asyncio.sleep(1 / RATE)
+                await asyncio.sleep(1 / MOMENTS_PER_S)
         except ConnectionClosed:
             pass
 
@@ -198,7 +189,7 @@ class Server:
 
     def _send(self, viewer: Viewer, message: str) -> None:
         viewer.waiting.append(message)
-        if len(viewer.waiting) > BEHIND:
+        if len(viewer.waiting) > MAX_BEHIND:
             viewer.waiting.clear()
             viewer.connection.transport.abort()
 
@@ -250,10 +241,6 @@ def _taken(port: int) -> socket.socket:
 
 def _message(**fields: object) -> str:
     return msgspec.json.encode(fields).decode()
-
-
-def _nothing() -> Response:
-    return _response(HTTPStatus.NOT_FOUND, "text/plain", f"{NOTHING}\n".encode())
 
 
 def _response(status: HTTPStatus, kind: str, body: bytes) -> Response:

@@ -7,7 +7,6 @@ from handeye.core.resources import plans
 from handeye.core.variation import WorldSpec
 from handeye.program.taught import Taught, load_taught
 from handeye.teaching.answers import Answer, text
-from handeye.teaching.commands import ReplSession
 from handeye.teaching.repl import Repl
 from handeye.teaching.workplace import Workplace
 
@@ -25,11 +24,10 @@ class Console:
 
     def __init__(self, place: Workplace, folder: Path) -> None:
         self.repl = Repl(workplace=place, folder=folder)
-        self.typist = ReplSession(self.repl)
 
     def type(self, *lines: str) -> Answer:
         """Type lines; the answer to the last."""
-        answers = [self.typist.hear(line) for line in lines]
+        answers = [self.repl.hear(line) for line in lines]
         return answers[-1]
 
     def read(self, *lines: str) -> str:

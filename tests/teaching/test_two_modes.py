@@ -8,7 +8,7 @@ from repl_sessions import Console, workplace
 from handeye.core.source import Source
 from handeye.program.events import StepFinished
 from handeye.teaching import workplace as workplaces
-from handeye.teaching.commands import COMMANDS
+from handeye.teaching.repl import COMMANDS
 from handeye.teaching.workplace import Workplace
 
 pytestmark = pytest.mark.slow

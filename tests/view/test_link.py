@@ -2,7 +2,7 @@
 
 from contextlib import nullcontext
 
-from handeye.view.link import MOST, Link
+from handeye.view.link import MAX_WAITING_LINES, Link
 
 
 def test_lines_come_one_by_one_while_the_run_pauses_and_are_taken_while_it_goes() -> None:
@@ -27,4 +27,6 @@ def test_the_panic_button_works_while_something_goes_and_is_forgotten_when_it_pa
 
 def test_no_more_lines_wait_than_a_run_can_hear() -> None:
     link = Link()
-    assert [link.say("step") for _ in range(MOST + 2)] == [True] * MOST + [False] * 2
+    assert [link.say("step") for _ in range(MAX_WAITING_LINES + 2)] == [True] * MAX_WAITING_LINES + [
+        False
+    ] * 2

@@ -13,8 +13,7 @@ from handeye.runs.advance import advance
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.trace.frames import Frames
-from handeye.view.moment import FIGURES, Moment, Newest
-from handeye.view.television import Television
+from handeye.view.moment import FIGURES, Moment, Newest, Television
 
 pytestmark = pytest.mark.slow
 FEEL = """\

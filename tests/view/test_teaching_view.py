@@ -19,8 +19,7 @@ from handeye.teaching.teacher import Teacher
 from handeye.trace.frames import Frames
 from handeye.view.link import Link
 from handeye.view.moment import Moment
-from handeye.view.teaching import Watch, teach
-from handeye.view.teaching_page import taught_markup, teaching_page
+from handeye.view.teaching import Watch, taught_markup, teach, teaching_page
 
 pytestmark = pytest.mark.slow
 LINES = ("table x -2", "open 1", "here FIRST", "hand turn z 10", "here SECOND", "undo", "save", "quit")

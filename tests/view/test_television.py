@@ -15,8 +15,7 @@ from handeye.program.events import ErrorRaised, PartSeen
 from handeye.report.facts.seen import SeenPicture
 from handeye.runs.runner import Runner
 from handeye.runs.system import RunningSystem
-from handeye.view.moment import Newest
-from handeye.view.television import Television, shown
+from handeye.view.moment import Newest, Television, shown
 
 
 def seen(run: FakeRun) -> SeenPicture | None:

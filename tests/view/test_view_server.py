@@ -18,11 +18,10 @@ from handeye.core.errors import InvalidInput
 from handeye.debugger.stepper import Stepper
 from handeye.report.facts.seen import SeenPicture
 from handeye.runs.runner import Runner
-from handeye.view.driving import drive
 from handeye.view.link import Link
-from handeye.view.moment import Newest
-from handeye.view.server import BEHIND, LARGEST, Server
-from handeye.view.television import Television
+from handeye.view.moment import Newest, Television
+from handeye.view.server import MAX_BEHIND, MAX_MESSAGE_BYTES, Server
+from handeye.view.stepping import drive
 
 PAGE = b"<!doctype html>the page"
 PICTURE = SeenPicture(
@@ -239,7 +238,7 @@ def test_whoever_takes_in_too_little_is_let_go(theatre: Theatre) -> None:
 
     def tell_much() -> None:
         """Tell more, at once, than anybody could take in."""
-        for _ in range(BEHIND + 1):
+        for _ in range(MAX_BEHIND + 1):
             theatre.server._tell("{}")
 
     theatre.server._call(tell_much)
@@ -267,7 +266,7 @@ def test_what_cannot_be_understood_is_refused_and_changes_nothing(
 
 def test_a_message_that_is_too_large_ends_its_connection_and_no_other(theatre: Theatre) -> None:
     viewer, other = theatre.viewer(), theatre.viewer()
-    viewer.send("x" * (LARGEST + 1))
+    viewer.send("x" * (MAX_MESSAGE_BYTES + 1))
     with pytest.raises(ConnectionClosed, match="1009"):
         heard(viewer, "never")
     say(other, do="drive")

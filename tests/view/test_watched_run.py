@@ -14,10 +14,10 @@ from handeye.debugger.stepper import Stepper
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
-from handeye.view.driving import drive
 from handeye.view.link import Link
 from handeye.view.moment import Newest
 from handeye.view.server import Server
+from handeye.view.stepping import drive
 
 pytestmark = pytest.mark.slow
 FEEL = """\

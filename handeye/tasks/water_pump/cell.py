@@ -23,14 +23,11 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: bool = True) -> SimulatedCell:
-    """The cell of a world.
+    """The cell of a world; raises InvalidInput if pictures cannot be made so here.
 
     Args:
         camera: how to make pictures: `auto`, `gl` or `ray`, or what makes their renderer.
         rest: let parts sleep at rest and move as one when clamped; without, the same, slower.
-
-    Raises:
-        InvalidInput: pictures cannot be made so here.
     """
     model = build(world)
     data = mujoco.MjData(model)

@@ -27,11 +27,8 @@ SPOT_ERROR: Final = 0.5
 def known_camera(
     still: StillPump, known: Known, renderer: str, about: tuple[float, float, float]
 ) -> CameraModel:
-    """The camera as the program knows it; `about` a point, W, m, simulated sightings are.
-
-    Raises:
-        CalibrationFailed: the lamp was seen too few times.
-    """
+    """The camera as the program knows it; `about` a point, W, m, simulated sightings are. Raises CalibrationFailed if
+    the lamp was seen too few times."""
     match known:
         case "lamp":
             return by_lamp(still, renderer).model
@@ -46,10 +43,8 @@ def known_camera(
 def by_lamp(still: StillPump, renderer: str) -> Calibration:
     """Calibrate as runs do: in the cell of the world the arm measures itself, then carries its lamp through the view.
 
-    The camera of the still scene goes on as that leaves it: with its lens, its aim, and the noise to come.
-
-    Raises:
-        CalibrationFailed: the lamp was seen too few times.
+    The camera of the still scene goes on as that leaves it: with its lens, its aim, and the noise to come. Raises
+    CalibrationFailed if the lamp was seen too few times.
     """
     cell = build_cell(still.world, camera=renderer)
     drive = DriveState.holding(cell.devices.sense(), STANFORD)

@@ -44,22 +44,14 @@ class Dimensions:
     figures: dict[str, Figure]
 
     def __call__(self, name: str) -> float:
-        """A single figure in SI.
-
-        Raises:
-            InvalidInput: there is no such figure, or it is a list.
-        """
+        """A single figure in SI; raises InvalidInput if there is no such figure, or it is a list."""
         values = self.all(name)
         if len(values) != 1:
             raise BadFile(f"the dimension `{name}` is a list of {len(values)} figures")
         return values[0]
 
     def all(self, name: str) -> tuple[float, ...]:
-        """All figures of a list, in SI.
-
-        Raises:
-            InvalidInput: there is no such figure.
-        """
+        """All figures of a list, in SI; raises InvalidInput if there is no such figure."""
         try:
             return self.figures[name].values
         except KeyError:
@@ -67,11 +59,7 @@ class Dimensions:
 
 
 def parse(text: str) -> Dimensions:
-    """Dimensions from TOML text.
-
-    Raises:
-        InvalidInput: not TOML, or a figure without value, known unit or source.
-    """
+    """Dimensions from TOML text; raises InvalidInput if not TOML, or a figure without value, known unit or source."""
     try:
         tree = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

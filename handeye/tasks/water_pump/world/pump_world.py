@@ -109,11 +109,7 @@ class PumpWorld:
 
     @classmethod
     def draw(cls, spec: WorldSpec) -> Self:
-        """The world of a specification.
-
-        Raises:
-            InvalidInput: it cannot be drawn here.
-        """
+        """The world of a specification; raises InvalidInput if it cannot be drawn here."""
         return cls.of(variation(spec.seed).draw(spec))
 
     @classmethod

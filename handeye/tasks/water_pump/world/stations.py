@@ -24,11 +24,8 @@ class Station(StrEnum):
 
 
 def plain_stations() -> dict[str, tuple[Box, ...]]:
-    """The boxes of the stations that are no more than boxes, by name; table frame, m.
-
-    Raises:
-        InvalidInput: the figures of one are not those of boxes.
-    """
+    """The boxes of the stations that are no more than boxes, by name; table frame, m. Raises InvalidInput if the
+    figures of one are not those of boxes."""
     found = {}
     for figure in dimensions().figures:
         group, _, rest = figure.partition(".")

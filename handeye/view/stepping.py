@@ -1,0 +1,96 @@
+"""Stepping in the browser: the page whose buttons say lines to the stepper, and the loop that carries them out."""
+
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from typing import Any, Final
+
+import msgspec
+
+from handeye.core.markup import Markup
+from handeye.debugger.formatting import MOST, as_json, as_text
+from handeye.debugger.live import Ear, LiveJson
+from handeye.debugger.reply import Reply
+from handeye.debugger.stepper import Stepper
+from handeye.report.page.elements import element
+from handeye.report.page.source import listing
+from handeye.runs.advance import Pause
+from handeye.runs.runner import Runner
+from handeye.view.link import Link
+from handeye.view.moment import Newest
+from handeye.view.page import Face, buttons, live_page, source_region
+
+_BUTTONS: Final = (
+    ("continue", "Run"),
+    ("pause", "Pause"),
+    ("step", "Step"),
+    ("stage", "Next stage"),
+    ("back", "Back"),
+    ("back stage", "Back a stage"),
+)
+_ANSWERS: Final = (("proceed", "Proceed"), ("retry", "Retry"), ("skip", "Skip"), ("abort", "Abort"))
+_PACES: Final = (("1x", "1 ×"), ("4x", "4 ×"), ("free", "as fast as it goes"))
+
+
+def stepping_page(runner: Runner, newest: Newest) -> bytes:
+    """The page of a run in a cell; raises InvalidInput if the task shows no scene."""
+    program: Any = runner.listing
+    face = Face(
+        title=program.name,
+        controls=[_controls()],
+        aside=source_region("script", listing(program), id="script"),
+        listener="stepper",
+        script="stepping.js",
+        facts={"files": ["", *program.required]},
+    )
+    return live_page(runner, newest, face)
+
+
+def _controls() -> Markup:
+    paces = (element("option", shown, value=said, selected=said == "free") for said, shown in _PACES)
+    pace = element("select", *paces, id="pace", aria_label="pace")
+    panic = element("button", "Panic", id="panic", type="button")
+    called = element(
+        "div",
+        *buttons(_ANSWERS),
+        id="answers",
+        role="group",
+        aria_label="answers for the operator",
+        hidden=True,
+    )
+    return element("div", *buttons(_BUTTONS), pace, panic, called, class_="controls")
+
+
+def drive(stepper: Stepper, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> Pause:
+    """Carry out what is said until somebody leaves the run.
+
+    Args:
+        aside: entered while a line is waited for.
+
+    Returns:
+        Why the run pauses.
+    """
+    hands = stepper.hands
+    hands.face = LiveJson(hands.runner, link.tell)
+    hands.ear = Ear(link.come, lambda line: link.tell(told(stepper, stepper.meanwhile(line))))
+    link.tell(told(stepper, stepper.standing()))
+    for line in filter(str.strip, link.lines(aside)):
+        link.tell(told(stepper, stepper.do(line)))
+        if stepper.over:
+            break
+    return stepper.pause
+
+
+def told(stepper: Stepper, reply: Reply) -> str:
+    """A reply as the page understands it: its record, and the text that the stepper shows at a terminal.
+
+    Events and the steps that were done are left out of the record: a long way has thousands.
+    """
+    record = msgspec.Raw(as_json(msgspec.structs.replace(reply, events=(), did=())).encode())
+    return msgspec.json.encode(
+        {
+            "reply": record,
+            "shown": as_text(reply, MOST),
+            "called": stepper.hands.runner.call is not None,
+            "pace": stepper.hands.pace.factor,
+        }
+    ).decode()
