@@ -63,8 +63,8 @@ GROUPS: Final = {
         "Results": "trials.results.Results",
     },
     "Traces": {
-        "handeye.open": "api.opening.open",
-        "handeye.Trace": "trace.trace.Trace",
+        "handeye.open": "api.trace.open",
+        "handeye.Trace": "api.trace.Trace",
         "Motion": "trace.motion.Motion",
         "Forces": "trace.forces.Forces",
         "Moment": "trace.replay.Moment",
@@ -138,7 +138,7 @@ def happenings() -> Iterator[str]:
         "period in which it was met, so its `value` lies over its `limit`: N, N m, or the mask of the fingers."
     )
     yield from ("", "| `handeye.program.events` | fields | what happened |", "|---|---|---|")
-    for event in get_args(events.AnyEvent):
+    for event in get_args(events.CommonEvent):
         fields = ", ".join(f"`{each}`" for each in event.__struct_fields__ if each != "time")
         said = sentence(PACKAGE["program.events"][event.__name__])
         yield f"| `{event.__name__}` | {fields} | {said} |"
@@ -187,10 +187,12 @@ def members(name: str, named: griffe.Class) -> Iterator[str]:
 
 
 def abstract(named: griffe.Class) -> dict[str, griffe.Object]:
-    """What a class has of an abstract base beside it."""
+    """What a class has of an abstract base beside it, or of a base of its own name."""
     beside = (named.parent.members.get(str(base)) for base in named.bases)
     bases = (base for base in beside if base is not None and not base.is_alias)
-    return {k: v for base in bases if "ABC" in map(str, base.bases) for k, v in base.members.items()}
+    found = {k: v for base in bases if "ABC" in map(str, base.bases) for k, v in base.members.items()}
+    namesakes = (base for base in named.resolved_bases if base.name == named.name)
+    return found | {k: v for base in namesakes for k, v in base.members.items()}
 
 
 def signature(name: str, function: griffe.Function) -> Iterator[str]:

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from handeye.api.begin import assemble, begin
     from handeye.api.comparing import compare
     from handeye.api.diagnostic import Diagnostic, ScriptError
-    from handeye.api.opening import open
     from handeye.api.plans import Plan, plan
     from handeye.api.provided import demo, scripts
     from handeye.api.run import Run
     from handeye.api.state import State
+    from handeye.api.trace import Trace, open
     from handeye.api.worlds import World
     from handeye.comparison.comparison import Comparison
     from handeye.core.errors import (
@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from handeye.results.result import Result
     from handeye.systems.trig.session_api import TrigSession
     from handeye.tasks.interface import Task
-    from handeye.trace.trace import Trace
 
     __version__: str
 
@@ -95,7 +94,7 @@ _HOMES = {
     "ScriptError": "handeye.api.diagnostic",
     "State": "handeye.api.state",
     "Task": "handeye.tasks.interface",
-    "Trace": "handeye.trace.trace",
+    "Trace": "handeye.api.trace",
     "TrigSession": "handeye.systems.trig.session_api",
     "World": "handeye.api.worlds",
     "assemble": "handeye.api.begin",
@@ -104,7 +103,7 @@ _HOMES = {
     "begin": "handeye.api.begin",
     "compare": "handeye.api.comparing",
     "demo": "handeye.api.provided",
-    "open": "handeye.api.opening",
+    "open": "handeye.api.trace",
     "plan": "handeye.api.plans",
     "scripts": "handeye.api.provided",
 }

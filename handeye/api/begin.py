@@ -5,12 +5,12 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from handeye.api.arguments import given_file, given_place
 from handeye.api.parts import Camera, limits_of, parts_of, referee_of
 from handeye.api.plans import FileName, Planned
 from handeye.api.run import Keeping, Place, Run
 from handeye.api.starts import Start, Wanted, start_of
 from handeye.api.worlds import World
+from handeye.core.arguments import given_file, given_place
 from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted

@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from handeye.api.opening import open
+from handeye.api.trace import open
 from handeye.comparison.comparison import Comparison, comparison
 from handeye.report.recorded import Recorded
 from handeye.results.recorded_run import recorded_run

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from handeye.api.arguments import given_file
+from handeye.core.arguments import given_file
 from handeye.core.errors import BadArgument, CannotWrite, Taken
 from handeye.runs.exhibit import Exhibit
 

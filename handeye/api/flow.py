@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from handeye.api.html import page, svg
+from handeye.core.notebook import page, svg
 from handeye.core.plain_text import counted
 from handeye.inspection.drawing import flow_svg
 from handeye.inspection.flow import flow

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from handeye.api.diagnostic import Diagnostic
 from handeye.api.flow import FlowDrawing
-from handeye.api.html import bar, frame, heading, page, svg, table
+from handeye.core.notebook import bar, frame, heading, page, svg, table
 from handeye.core.plain_text import counted
 from handeye.inspection.inspection import Inspection
 

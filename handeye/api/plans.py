@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Final
 
 from handeye import tasks
-from handeye.api.arguments import given_file, given_place
 from handeye.api.diagnostic import Diagnostic, ScriptError
 from handeye.api.flow import FlowDrawing, flow_drawing
 from handeye.api.plan_page import plan_page
+from handeye.core.arguments import given_file, given_place
 from handeye.core.diagnostics import has_errors, quoted
 from handeye.core.errors import BadArgument, BadFile
 from handeye.core.files import read_whole

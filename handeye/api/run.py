@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.api.answer import Answer, answer
-from handeye.api.arguments import given_count, given_file, given_place
 from handeye.api.exporting import exported
 from handeye.api.plans import Plan
 from handeye.api.run_page import run_page
 from handeye.api.state import State, state_of
+from handeye.api.trace import Trace
+from handeye.core.arguments import given_count, given_file, given_place
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.files import check_place
 from handeye.core.plain_text import counted
@@ -41,8 +42,7 @@ from handeye.runs.operator import Operator, attend, beginnings
 from handeye.runs.setup import plan_of
 from handeye.runs.stops import AfterSteps, AnyStop, AtStage, BrokenOff
 from handeye.runs.undo_orders import stage_began
-from handeye.trace.reading import read_trace
-from handeye.trace.trace import Trace
+from handeye.trace.reading import read_trace_as
 
 if TYPE_CHECKING:
     from handeye.results.export import Export
@@ -299,7 +299,7 @@ class Run:
             raise Refused("the run has no folder, and so no trace; begin it with out=...")
         if self._closed is None:
             raise Refused("the trace is complete when the run is closed: leave its `with`, or close() it")
-        return read_trace(self.out / TRACE)
+        return read_trace_as(Trace, self.out / TRACE)
 
     @property
     def result(self) -> Result:

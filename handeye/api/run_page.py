@@ -2,9 +2,9 @@
 
 from typing import Final
 
-from handeye.api.html import heading, inked, line, page, picture, table
 from handeye.api.state import State
 from handeye.core.markup import Markup, markup
+from handeye.core.notebook import heading, inked, line, page, picture, table
 from handeye.results.page import cell_times, clock, period, told_faults, verdict
 from handeye.results.result import Check, Result
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import msgspec
 
 from handeye import tasks
-from handeye.api.arguments import given_file
 from handeye.api.plans import FileName, Planned, plan
 from handeye.api.worlds import World
+from handeye.core.arguments import given_file
 from handeye.core.diagnostics import quoted
 from handeye.core.entries import require
 from handeye.core.errors import BadArgument, Refused

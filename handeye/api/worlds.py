@@ -7,12 +7,12 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from handeye import tasks
-from handeye.api.arguments import given_names
 from handeye.api.exporting import exported
-from handeye.api.html import heading, page, table
 from handeye.core import fault_options
+from handeye.core.arguments import given_names
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.fault_options import by_number
+from handeye.core.notebook import heading, page, table
 from handeye.core.variation import SPREADS, Level, WorldSpec, checked_seed
 from handeye.core.world_options import overrides
 from handeye.results.world_page import QuantityReport, report

@@ -80,7 +80,6 @@ def photograph(
     trace, _ = _read(file)
     if trace is None:
         raise Refused(f"{file} is an event list, which does not hold where things were; use the trace.mcap")
-    trace.check_repeatable()
     begin, end = map(trace.elapsed, trace.covers)
     if not begin - SHOWN <= at <= end + SHOWN:
         raise BadArgument(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
@@ -107,7 +106,6 @@ def verify(file: TraceFile, /, *, task: TaskWords = None) -> int:
     trace, events = _read(file)
     if trace is None:
         raise Refused(f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too")
-    trace.check_repeatable()
     changed = [name for name, version in versions().items() if trace.head.versions.get(name) != version]
     if changed:
         sentence = f"it was recorded with other versions of {', '.join(changed)}; the result may differ"

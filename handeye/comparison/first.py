@@ -62,12 +62,8 @@ def first_difference(runs: TwoRuns) -> First | None:
 
 def _stretches(runs: TwoRuns) -> tuple[Iterator[Stretch], Iterator[Stretch]]:
     """The stretches of both traces, with what both hold."""
-    version = min(run.trace.version for run in (runs.a, runs.b))
     unseen = max(run.trace.unseen for run in (runs.a, runs.b))
-    a, b = (
-        stretches(run.trace, version=version, unseen=unseen, periods=not runs.thinned)
-        for run in (runs.a, runs.b)
-    )
+    a, b = (stretches(run.trace, unseen=unseen, periods=not runs.thinned) for run in (runs.a, runs.b))
     return a, b
 
 

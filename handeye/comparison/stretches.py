@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from handeye.program.events import AnyEvent, RunStarted, StageFinished, StageStarted, StepStarted
-from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, LOG, MOMENTS, NEWER, SCENE
+from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, LOG, MOMENTS, SCENE
 from handeye.trace.records import RawMessage
 from handeye.trace.trace import Trace
 
@@ -40,11 +40,10 @@ class Stretch:
         self.told += (Told(message, event, message.time - self.begin) for message, event in messages)
 
 
-def stretches(trace: Trace, *, version: int, unseen: int, periods: bool = True) -> Iterator[Stretch]:
+def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[Stretch]:
     """The stretches of a trace. The stage that a step begins, and where everything is then, belong to that step.
 
     Args:
-        version: without the channels that this version of the format did not have.
         unseen: without what was recorded beside so many events, from the first on.
         periods: with what was recorded of each servo period.
     """
@@ -53,7 +52,7 @@ def stretches(trace: Trace, *, version: int, unseen: int, periods: bool = True) 
     events = iter(trace.events)
     count = 0
     for message in trace.messages:
-        if message.topic in _SAID_TWICE or NEWER.get(message.topic, 1) > version:
+        if message.topic in _SAID_TWICE:
             continue
         event = next(events) if message.topic == EVENTS else None
         count += event is not None

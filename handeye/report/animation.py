@@ -15,11 +15,7 @@ class Animation:
 
 
 def animation(run: Recorded) -> Animation | None:
-    """The animation of a run; None: nothing was recorded between its events.
-
-    Raises:
-        InvalidInput: an older handeye recorded it.
-    """
+    """The animation of a run; None: nothing was recorded between its events."""
     if not len(run.trace.times):
         return None
     return Animation(scene=scene_bytes(run.trace), tracks=tracks_bytes(run.trace))

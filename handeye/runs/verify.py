@@ -54,7 +54,6 @@ def difference(trace: Trace, folder: Path) -> str | None:
     Raises:
         InvalidInput: it cannot be carried out here, or its trace is thinned.
     """
-    trace.check_repeatable()
     if trace.thinned:
         raise Refused(f"{trace.name} is thinned: verify the whole trace, which it was made from")
     wanted = trace.events[: settled(trace.events)]

@@ -23,10 +23,7 @@ from handeye.trace.hand_message import hand_schema
 
 FORMAT: Final = "handeye trace"
 VERSION: Final = 3
-"""Version of the format; a reader reads up to its own. The first did not say how the world was drawn, the second had
-neither `HAND` nor `ANNOTATIONS`."""
-REPEATABLE: Final = 2
-"""Version from which on a run can be built again from its trace."""
+"""Version of the format; a reader reads its own."""
 METADATA: Final = "handeye"
 """Name of the metadata record that says what the file is and what the run depended on."""
 THINNED: Final = "thinned"
@@ -46,8 +43,6 @@ HAND: Final = "/hand"
 ANNOTATIONS: Final = "/camera/annotations"
 MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND, ANNOTATIONS)
 """Channels recorded beside the events: how it was at a moment."""
-NEWER: Final = {HAND: 3, ANNOTATIONS: 3}
-"""Channels that the first version did not have, and the version that brought each."""
 
 WORLD: Final = "world"
 """Name of the frame W, parent of all others."""

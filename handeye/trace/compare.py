@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 
 from handeye.tasks import known
-from handeye.trace.channels import EVENTS, JOINTS, LOG, MOMENTS, NEWER
+from handeye.trace.channels import EVENTS, JOINTS, LOG, MOMENTS
 from handeye.trace.quantities import differing
 from handeye.trace.quantity_text import quantity_text, values_text
 from handeye.trace.records import RawMessage
@@ -17,8 +17,7 @@ from handeye.trace.trace import Trace
 def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:
     """One sentence that names the first thing in which two traces differ; None if they say the same.
 
-    How the files are packed does not matter, only what is in them; nor do channels that the older of two versions of
-    the format does not have.
+    How the files are packed does not matter, only what is in them.
 
     Args:
         events: compare no more than so many events, and what came before and between them.
@@ -26,8 +25,8 @@ def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: i
     """
     if a.plan != b.plan:
         return "the traces are of different plans"
-    so_far, version = _SoFar(), min(a.version, b.version)
-    sides = (_compared(trace, version, events, unseen) for trace in (a, b))
+    so_far = _SoFar()
+    sides = (_compared(trace, events, unseen) for trace in (a, b))
     for here, there in zip_longest(*sides):
         if here is not None and here.topic == JOINTS:
             so_far.period(here)
@@ -51,11 +50,11 @@ class _SoFar:
         self.periods, self.last = self.periods + 1, message.time
 
 
-def _compared(trace: Trace, version: int, events: int | None, unseen: int) -> Iterator[RawMessage]:
-    """Messages that a trace of that version of the format has too, but what was recorded beside `unseen` events."""
+def _compared(trace: Trace, events: int | None, unseen: int) -> Iterator[RawMessage]:
+    """The messages, but what was recorded beside `unseen` events."""
     count = 0
     for message in until(trace.messages, events):
-        if NEWER.get(message.topic, 1) <= version and (count >= unseen or message.topic not in MOMENTS):
+        if count >= unseen or message.topic not in MOMENTS:
             yield message
         count += message.topic == EVENTS
 

@@ -44,8 +44,6 @@ class Forces:
     or finger switches as a mask; NaN: no guard watches, or there is no record of it."""
     limit: Array
     """What it allows of that, shape (n,); NaN: no guard watches."""
-    recorded: bool
-    """True: as the program estimated it at the time; False: reckoned afterwards."""
 
     def within(self, spans: Sequence[Span]) -> "Forces":
         """The same, in some spans of time."""
@@ -63,7 +61,7 @@ class Forces:
         )
 
     def _rows(self, rows: "slice | NDArray[np.bool_]") -> "Forces":
-        names = [field.name for field in fields(self) if field.name != "recorded"]
+        names = [field.name for field in fields(self)]
         columns: dict[str, Any] = {name: getattr(self, name)[rows] for name in names}
         return replace(self, **columns)
 
@@ -72,9 +70,11 @@ def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
     """Forces as messages about the hand tell them, one for each servo period.
 
     Raises:
-        DecodeError: one of them is no such message.
+        DecodeError, ValueError: one of them is no such message, or some are missing.
     """
     told = [read_hand(message.data) for message in messages]
+    if len(told) != len(times):
+        raise ValueError("servo periods and what the hand felt in them differ in number")
     first = [message.guards[0] if message.guards else None for message in told]
     guard = np.array(["" if one is None else one.guard.value for one in first], dtype="<U7")
     force, moment = _vectors(message.force for message in told), _vectors(message.moment for message in told)
@@ -89,7 +89,6 @@ def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
         axis=axis,
         value=looked_at(guard, axis, force, moment, np.array(sensed, dtype=np.float64)),
         limit=np.array([np.nan if one is None else one.limit for one in first], dtype=np.float64),
-        recorded=True,
     )
 
 

@@ -3,7 +3,7 @@
 import re
 from collections import Counter
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeVar
 
 import msgspec
 from mcap.writer import MCAP0_MAGIC
@@ -19,6 +19,7 @@ from handeye.trace.trace import Trace
 
 __all__ = ["Trace", "read_trace"]
 
+AnyTrace = TypeVar("AnyTrace", bound=Trace)
 TRACE: Final = Kind("trace", re.escape(MCAP0_MAGIC), ending=".mcap")
 
 
@@ -29,8 +30,13 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
         lenient: read what is sound of a trace that was not written to its end.
 
     Raises:
-        InvalidInput: it cannot be read; not a trace, of a newer version, cut short, damaged, or its plan is another's.
+        InvalidInput: it cannot be read; not a trace, of another version, cut short, damaged, or its plan is another's.
     """
+    return read_trace_as(Trace, path, lenient=lenient)
+
+
+def read_trace_as(kind: type[AnyTrace], path: Path, *, lenient: bool = False) -> AnyTrace:
+    """The same, as an object of a class that adds to `Trace`."""
     data = read_whole(path)
     try:
         plan, version, thinned = _identify(path, data)
@@ -49,7 +55,7 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
         raise BadFile(f"{path} is a trace without the start of a run")
     if written_digest(plan) != events[0].plan:
         raise BadFile(f"the plan in {path} is not the one that was carried out")
-    return Trace(
+    return kind(
         name=str(path),
         version=version,
         thinned=thinned,
@@ -86,10 +92,8 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
     version = start.metadata.get("version", "")
     if not re.fullmatch(r"[1-9][0-9]{0,8}", version):
         raise BadFile(f"{path} does not say which version of the trace format it has")
-    if int(version) > VERSION:
-        raise BadFile(
-            f"{path} has trace format version {version}; this handeye reads up to version {VERSION}"
-        )
+    if int(version) != VERSION:
+        raise BadFile(f"{path} has trace format version {version}; this handeye reads version {VERSION}")
     if start.plan is None:
         raise Unsound("has no plan in it")
     return start.plan, int(version), THINNED in start.metadata

@@ -1,14 +1,18 @@
 """A table: named columns with units, which shows itself, and becomes a DataFrame where somebody wants one."""
 
 from dataclasses import dataclass, replace
-from typing import Any, overload
+from math import isnan
+from typing import Any, Final, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from handeye.core.errors import NoSuchName, Refused
-from handeye.core.plain_text import counted
+from handeye.core.notebook import heading, line, page, table
+from handeye.core.plain_text import counted, printable
 
+SHOWN_ROWS: Final = 20
+MAX_CELL_CHARS: Final = 90
 Values = NDArray[np.float64] | NDArray[np.int64] | tuple[str, ...]
 
 
@@ -77,6 +81,22 @@ class Table:
         )
 
     def _repr_html_(self) -> str:
-        from handeye.api.table_page import table_page
+        """The first rows; `table[100:110]` shows others."""
+        columns = [column for column in self.columns if column.name != "data"]
+        heads = [f"{each.name}, {each.unit}" if each.unit else each.name for each in columns]
+        rows = zip(*(each.values[:SHOWN_ROWS] for each in columns), strict=True)
+        shown = [
+            heading(f"{self.name}: {self.about}"),
+            table(heads, ([_cell(v) for v in row] for row in rows)),
+        ]
+        if (rest := self.rows - SHOWN_ROWS) > 0:
+            others = f"table[{SHOWN_ROWS}:{2 * SHOWN_ROWS}]"
+            shown.append(line(f"… and {rest} more; a slice, as {others}, shows others"))
+        return page(*shown)
 
-        return table_page(self)
+
+def _cell(value: str | float) -> str | None:
+    if isinstance(value, str):
+        text = printable(value)
+        return text if len(text) <= MAX_CELL_CHARS else text[: MAX_CELL_CHARS - 1] + "…"
+    return None if isnan(value) else f"{value:.6g}"

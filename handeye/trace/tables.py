@@ -94,8 +94,6 @@ def _forces(trace: Trace) -> Table:
     about = (
         f"What the hand felt, in the servo periods in which that was estimated or a guard watched; {axes}."
     )
-    if not forces.recorded:
-        about += " The trace does not hold it: it was reckoned from joints and torques."
     return Table(name="forces", about=about, columns=(*_under_way(trace, forces.times[rows]), *columns))
 
 

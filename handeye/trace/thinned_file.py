@@ -8,7 +8,7 @@ import numpy as np
 
 from handeye.core.errors import Refused
 from handeye.program.event_reading import EventReader
-from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, SCENE, VERSION
+from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, SCENE
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import FramesMessage
 from handeye.trace.records import RawMessage
@@ -27,7 +27,7 @@ def write_thinned(trace: Trace, path: Path) -> int:
     Frames are rounded. All else is as it was, to the byte.
 
     Raises:
-        InvalidInput: it is thinned already, an older handeye recorded it, it holds no motion, or it cannot be written.
+        InvalidInput: it is thinned already, it holds no motion, or it cannot be written.
     """
     _check(trace)
     kept = kept_periods(trace)
@@ -51,10 +51,6 @@ def write_thinned(trace: Trace, path: Path) -> int:
 def _check(trace: Trace) -> None:
     if trace.thinned:
         raise Refused(f"{trace.name} is thinned already")
-    if trace.version < VERSION:
-        raise Refused(
-            f"{trace.name} was recorded by an older handeye: what the hand felt is reckoned from all its periods"
-        )
     if not len(trace.times):
         raise Refused(f"{trace.name} holds no motion to be thinned")
 

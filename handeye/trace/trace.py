@@ -1,12 +1,5 @@
-"""A trace that was read: what happened in a run, and what was recorded between the events.
+"""A trace that was read: what happened in a run, and what was recorded between the events."""
 
->>> trace = handeye.open("out")
->>> trace.joints[trace.times > 100.0]    # positions by the sensors, shape (n, 6)
->>> trace.forces(line=91).force[:, 2]    # N, upwards, while line 91 of the script was carried out
->>> trace.at(trace.head.time + 137).step.text    # what the arm was doing 137 s after the run began
-"""
-
-import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -17,16 +10,15 @@ import numpy as np
 from google.protobuf.message import DecodeError
 from numpy.typing import NDArray
 
-from handeye.core.errors import BadArgument, BadFile, CannotWrite, Refused
+from handeye.core.errors import BadArgument, BadFile, Refused
 from handeye.core.plain_text import one_line
 from handeye.core.pose import Array
 from handeye.program.events import AnyEvent, RunStarted
-from handeye.trace.channels import EVENTS, HAND, JOINTS, MOMENTS, REPEATABLE
+from handeye.trace.channels import EVENTS, HAND, JOINTS, MOMENTS
 from handeye.trace.forces import Forces, recorded_forces
 from handeye.trace.messages import Poses
 from handeye.trace.motion import Motion, read_motion
 from handeye.trace.pictures import TakenPicture, read_pictures
-from handeye.trace.reckoning import reckoned_forces
 from handeye.trace.records import RawMessage
 from handeye.trace.replay import Moment, Replay
 from handeye.trace.stages import Stage, stages, stages_both_ways
@@ -34,7 +26,6 @@ from handeye.trace.steps import done_steps
 
 if TYPE_CHECKING:
     from handeye.trace.table import Table
-    from handeye.video.making import Video
 
 SHOWN: Final = 0.01
 """s to which times are shown; what is typed is as exact as that."""
@@ -45,10 +36,8 @@ Read = TypeVar("Read")
 class Trace:
     """A trace that was read, and found sound. What is worked out from its messages is worked out once.
 
-    Times are those of the cell's clock, as in the events, s. It runs while the camera is calibrated too, before the
-    program begins: `elapsed` gives the time from there, which people see, and `State.time` is. There are n
-    servo periods, sixty a second, and m joints. Reading raises `InvalidInput` if a message is not what its channel
-    says. In a notebook it shows its report, in which one walks round the arm; `frame` gives a picture.
+    Times are those of the cell's clock, s; see `handeye.api.trace.Trace`. Reading raises `InvalidInput` if a message
+    is not what its channel says.
     """
 
     name: str
@@ -128,16 +117,12 @@ class Trace:
     def forces(self, line: int | str | None = None) -> Forces:
         """Force of the hand on the world, in the whole run or while a line of the script was carried out.
 
-        A trace of before the force was recorded (format 2) tells it nearly: it is reckoned from joints, rates and
-        torques as the program does, with the sensed places of the joints in the place of their set-points.
-
         Args:
             line: its number in the script, or `"pins.al:12"` in a file that the script requires; each time it was
                 carried out counts. A motion goes by its own line, not by that of its `STOP`.
 
         Raises:
-            InvalidInput: no such line was carried out; or there is no record of the force, and the arm that the plan
-                is for is not known here.
+            InvalidInput: no such line was carried out.
         """
         if line is None:
             return self._forces
@@ -160,11 +145,7 @@ class Trace:
     @cached_property
     def _forces(self) -> Forces:
         times = self.times
-        if self.counts.get(HAND, 0) == len(times):
-            return self._read(
-                lambda messages: recorded_forces(times, (m for m in messages if m.topic == HAND))
-            )
-        return reckoned_forces(self.head, self.plan, self.events, self.motion)
+        return self._read(lambda messages: recorded_forces(times, (m for m in messages if m.topic == HAND)))
 
     # -- at a moment -------------------------------------------------------------------------------------
 
@@ -199,7 +180,7 @@ class Trace:
 
         Raises:
             InvalidInput: as `at`; the size or so many exposures cannot be; there is no such camera or film; there is
-                no OpenGL here; or an older handeye recorded the run, whose cell this one cannot build again.
+                no OpenGL here.
         """
         from handeye.cell.exposures import exposing, photographed
         from handeye.cell.posed import posed
@@ -209,62 +190,15 @@ class Trace:
         model, data = posed(scene, moment.poses, moment.time)
         return photographed(model, data, camera=camera, width=width, height=height, how=how)
 
-    def video(
-        self,
-        path: str | os.PathLike[str],
-        *,
-        camera: str = "orbit",
-        width: int = 480,
-        height: int = 360,
-        seconds: float | None = None,
-        speed: float | None = None,
-        first: str | int | None = None,
-        last: str | int | None = None,
-        captions: bool = False,
-        overwrite: bool = False,
-    ) -> "Video":
-        """Make a video of the run: an animated WebP or a WebM, by the ending of its name.
-
-        The long waits for the camera's mechanism are cut out. Nothing is simulated. It takes OpenGL.
-
-        Args:
-            camera: `orbit` sways round the cell, `follow` goes near to where the hand works; or one of the scene's.
-            seconds: how long it is, 14 where nobody says; short stages are slowed down so that each can be seen.
-            speed: how many times as fast as the run all of it is, in the place of a length.
-            first: the stage to begin with: its number, its name, or a piece of its name.
-            last: the stage to end with.
-            captions: tell stage and clock, and stand still for each picture that the program takes.
-            overwrite: a video that is there may be replaced.
-
-        Raises:
-            InvalidInput: as `frame`; there is no such stage, or nothing was recorded there; there is no such length or
-                speed; or it cannot be written there.
-        """
-        from handeye.api.arguments import given_file
-        from handeye.core.errors import Taken
-        from handeye.video.making import make_video
-        from handeye.video.wanted import Wanted
-
-        wanted = Wanted(
-            camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
-            captions=captions,
-        )  # fmt: skip
-        file = given_file(path, "a video is written to a file that ends in .webp or .webm")
-        try:
-            return make_video(self, file, wanted, overwrite=overwrite)
-        except Taken:
-            raise CannotWrite(f"{file} is there already; overwrite=True replaces it") from None
-
     @cached_property
     def scene(self) -> Any:
         """Model of the scene of its world as it is drawn, before anything has happened in it.
 
         Raises:
-            InvalidInput: an older handeye recorded the run, or what it was drawn by is not known here.
+            InvalidInput: what it was drawn by is not known here.
         """
         from handeye.tasks import any_task
 
-        self.check_repeatable()
         return any_task(self.head.task).recorded_scene(self.head.world, self.plan)
 
     @cached_property
@@ -285,11 +219,6 @@ class Trace:
         from handeye.trace.tables import table
 
         return table(self, name)
-
-    def _repr_html_(self) -> str:
-        from handeye.api.player import player
-
-        return player(self)
 
     # -- what it can be used for -------------------------------------------------------------------------
 
@@ -328,18 +257,6 @@ class Trace:
     def elapsed(self, clock: float) -> float:
         """Seconds from the beginning of the run to a time by the cell's clock: what people see."""
         return round(clock - self.head.time, 6)
-
-    def check_repeatable(self) -> None:
-        """Make sure that the cell of the run can be built again.
-
-        Raises:
-            InvalidInput: an older handeye recorded it.
-        """
-        if self.version < REPEATABLE:
-            raise Refused(
-                f"{self.name} was recorded by an older handeye, whose cell this one cannot build again: `trace show` "
-                "and `trace stats` read it; for the rest, run the plan again"
-            )
 
     def _read(self, make: Callable[[Iterator[RawMessage]], Read]) -> Read:
         """Make something of the messages."""

@@ -7,12 +7,12 @@ from typing import Final, overload
 
 import numpy as np
 
-from handeye.api.arguments import given_count
-from handeye.api.html import heading, inked, page, table
 from handeye.api.parts import limits_of, parts_of, referee_of
 from handeye.api.plans import FileName, Planned, plan
 from handeye.api.worlds import World
+from handeye.core.arguments import given_count
 from handeye.core.errors import BadArgument
+from handeye.core.notebook import heading, inked, page, table
 from handeye.core.variation import WorldSpec, checked_seed
 from handeye.results.judging import Limits, Referee
 from handeye.results.result import Check, Result

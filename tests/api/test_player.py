@@ -7,13 +7,12 @@ import pytest
 from recordings import record
 from report_pages import Node, renamed, tree
 
-from handeye.api.player import player
+from handeye.api.trace import Trace
 from handeye.core.errors import InvalidInput
 from handeye.report import animation
 from handeye.report.facts import scene
 from handeye.report.recorded import Recorded
-from handeye.trace.reading import read_trace
-from handeye.trace.trace import Trace
+from handeye.trace.reading import read_trace_as
 
 EVIL = "</iframe><script>alert(1)</script>"
 
@@ -22,7 +21,7 @@ EVIL = "</iframe><script>alert(1)</script>"
 def trace(tmp_path_factory: pytest.TempPathFactory) -> Trace:
     path = tmp_path_factory.mktemp("run") / "trace.mcap"
     record(path)
-    return read_trace(path)
+    return read_trace_as(Trace, path)
 
 
 @pytest.fixture(autouse=True)
@@ -55,7 +54,7 @@ def test_it_says_what_it_weighs(trace: Trace) -> None:
 
 
 def test_words_of_the_run_are_data(trace: Trace) -> None:
-    page = player(renamed(Recorded(trace=trace), program=EVIL).trace)
+    page = renamed(Recorded(trace=trace), program=EVIL).trace._repr_html_()
     assert "<script" not in page
     assert page.count("<iframe") == page.count("</iframe>") == 1
 

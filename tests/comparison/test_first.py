@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 from compared_runs import block_start, kept
 from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
-from recordings import in_format_2, record
 from report_pages import recorded
 
 from handeye.comparison.comparison import comparison
@@ -96,14 +95,6 @@ def test_what_was_not_recorded_before_a_run_was_taken_up_makes_no_difference(run
     assert taken_up.trace.unseen > 1
     assert first_difference(TwoRuns(run, taken_up)) is None
     assert first_difference(TwoRuns(taken_up, run)) is None
-
-
-def test_channels_that_an_older_trace_did_not_have_make_no_difference(run: Recorded, tmp_path: Path) -> None:
-    with in_format_2():
-        record(tmp_path / "b.mcap")
-    older = Recorded(trace=read_trace(tmp_path / "b.mcap"))
-    assert first_difference(TwoRuns(run, older)) is None
-    assert first_difference(TwoRuns(older, run)) is None
 
 
 @pytest.mark.slow

@@ -1,14 +1,12 @@
 """A short made-up run to record: three stages, something that moves, a picture, an error, a search."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-import pytest
 from numpy.typing import NDArray
 
 from handeye.al import compile_text
@@ -28,10 +26,7 @@ from handeye.program.events import Event, RunStarted, StageFinished
 from handeye.program.guards import GuardKind
 from handeye.program.taught import Taught
 from handeye.touch.guards import ActiveGuard
-from handeye.trace import mcap_writer
-from handeye.trace.channels import CHANNELS, NEWER
 from handeye.trace.frames import Frames
-from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
 from handeye.trace.recorder import Looks, Recorder
 from handeye.vision.marks import GREEN, RED, Disc, Line, Loop, Mark
@@ -223,22 +218,6 @@ def between(first: int, last: int) -> list[Moment]:
     places = [place for place, moment in enumerate(HISTORY) if isinstance(moment.what, Event)]
     start = places[first - 1] + 1 if first else 0
     return HISTORY[start : places[last - 1] + 1]
-
-
-@contextmanager
-def in_format_2() -> Iterator[None]:
-    """Traces are written as the second version of the format had them."""
-    write = GrowingFile.write
-
-    def known(file: GrowingFile, topic: str, *rest: Any, **options: Any) -> None:
-        if topic not in NEWER:
-            write(file, topic, *rest, **options)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(mcap_writer, "VERSION", 2)
-        patch.setattr(mcap_writer, "channels_of", lambda _: [c for c in CHANNELS if c.topic not in NEWER])
-        patch.setattr(GrowingFile, "write", known)
-        yield
 
 
 def record(path: Path) -> bytes:

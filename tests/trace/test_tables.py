@@ -12,11 +12,10 @@ import pytest
 from conftest import Command
 from recordings import EVENTS, record
 
-from handeye.api.table_page import LETTERS, SHOWN
 from handeye.core.errors import InvalidInput
 from handeye.trace.reading import read_trace
 from handeye.trace.sentences import sentence
-from handeye.trace.table import Column, Table
+from handeye.trace.table import MAX_CELL_CHARS, SHOWN_ROWS, Column, Table
 from handeye.trace.table_files import csv_bytes
 from handeye.trace.tables import tables
 from handeye.trace.trace import Trace
@@ -170,9 +169,9 @@ def test_a_table_becomes_a_data_frame_where_pandas_is(
 
 def test_a_notebook_shows_the_first_rows_and_tells_how_many_more_there_are(made: dict[str, Table]) -> None:
     page = made["joints"]._repr_html_()
-    assert page.count("<tr>") == 1 + SHOWN
-    assert f"… and {len(made['joints']) - SHOWN} more" in page
-    assert "more;" not in made["joints"][:SHOWN]._repr_html_()
+    assert page.count("<tr>") == 1 + SHOWN_ROWS
+    assert f"… and {len(made['joints']) - SHOWN_ROWS} more" in page
+    assert "more;" not in made["joints"][:SHOWN_ROWS]._repr_html_()
 
 
 def test_the_texts_of_a_table_are_data() -> None:
@@ -181,4 +180,4 @@ def test_the_texts_of_a_table_are_data() -> None:
     page = table._repr_html_()
     assert "<script" not in page
     assert page.count("&lt;script&gt;x") == 4
-    assert "a" * LETTERS not in page
+    assert "a" * MAX_CELL_CHARS not in page

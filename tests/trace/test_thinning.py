@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mcap.writer import Writer
-from recordings import in_format_2, record
+from recordings import record
 from zstandard import compress
 
 from handeye.core.errors import InvalidInput
@@ -112,14 +112,6 @@ def test_what_is_thinned_is_neither_thinned_again_nor_verified(thin: Trace, tmp_
         write_thinned(thin, tmp_path / "again.mcap")
     with pytest.raises(InvalidInput, match=r"is thinned: verify the whole trace, which it was made from$"):
         difference(thin, tmp_path / "run")
-
-
-def test_a_trace_of_before_force_was_recorded_is_not_thinned(tmp_path: Path) -> None:
-    with in_format_2():
-        record(tmp_path / "old.mcap")
-    with pytest.raises(InvalidInput, match=r"is reckoned from all its periods$"):
-        write_thinned(read_trace(tmp_path / "old.mcap"), tmp_path / "thin.mcap")
-    assert not (tmp_path / "thin.mcap").exists()
 
 
 def test_nothing_is_left_where_it_cannot_be_written(

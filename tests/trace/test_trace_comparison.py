@@ -5,7 +5,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from recordings import EVENTS, Recording, in_format_2
+from recordings import EVENTS, Recording
 
 from handeye.program.events import Event
 from handeye.trace.compare import first_difference
@@ -48,16 +48,6 @@ def test_how_a_trace_is_packed_makes_no_difference(
     other = _changed(tmp_path / "b.mcap")
     assert Path(other.name).read_bytes() != Path(whole.name).read_bytes()
     assert first_difference(whole, other) is None
-
-
-def test_what_an_older_version_of_the_format_did_not_have_makes_no_difference(
-    tmp_path: Path, whole: Trace
-) -> None:
-    with in_format_2():
-        older = _changed(tmp_path / "b.mcap")
-    assert (older.version, older.counts.get("/hand")) == (2, None)
-    assert first_difference(older, whole) is None
-    assert first_difference(whole, older) is None
 
 
 def test_an_event_that_differs_is_named_with_what_is_different(tmp_path: Path, whole: Trace) -> None:

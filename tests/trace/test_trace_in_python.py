@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from recordings import HISTORY, Recording, in_format_2, record
+from recordings import HISTORY, Recording, record
 
 from handeye.core.errors import InvalidInput
 from handeye.execution.servo_period import ServoPeriod
@@ -63,7 +63,6 @@ def test_a_trace_without_motion_has_empty_columns(tmp_path: Path) -> None:
 
 def test_force_stands_beside_its_time_and_its_guard(trace: Trace) -> None:
     forces = trace.forces()
-    assert forces.recorded
     guarded = [period.guarded for period in PERIODS]
     assert np.array_equal(forces.estimated, guarded)
     efforts = np.array([period.effort for period in PERIODS])
@@ -128,11 +127,3 @@ def test_each_guarded_motion_can_be_had_by_itself(trace: Trace) -> None:
     motions = trace.forces().motions()
     assert len(motions) == 9
     assert all(motion.estimated.all() for motion in motions)
-
-
-def test_a_trace_of_an_older_version_is_not_taken_for_one_with_a_record_of_force(tmp_path: Path) -> None:
-    with in_format_2():
-        record(tmp_path / "old.mcap")
-    forces = read_trace(tmp_path / "old.mcap").forces()
-    assert not forces.recorded
-    assert not forces.estimated.any()  # its plan opens and closes the hand, and feels nothing

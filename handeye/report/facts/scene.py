@@ -9,7 +9,7 @@ def check_scene(run: Recorded) -> None:
     """Make sure that what moved in a run is in its scene.
 
     Raises:
-        InvalidInput: it is not, no task of that name is known here, or an older handeye recorded the run.
+        InvalidInput: it is not, or no task of that name is known here.
     """
     scene = run.trace.scene
     there = {scene.body(number).name for number in range(scene.nbody)}

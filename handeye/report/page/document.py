@@ -12,7 +12,7 @@ from handeye.core.plain_text import printable
 from handeye.report import player
 from handeye.report.animation import Animation
 from handeye.report.facts.corrections import corrections
-from handeye.report.facts.felt import GuardedMotion, guarded_motions, lost_trips
+from handeye.report.facts.felt import guarded_motions, lost_trips
 from handeye.report.facts.outcome import outcome
 from handeye.report.facts.planned import ends
 from handeye.report.facts.searches import searches
@@ -44,7 +44,7 @@ def report_page(run: Recorded, photographs: Album, animated: Animation | None) -
         animated: what is shown to walk round in; None: photographs only.
 
     Raises:
-        InvalidInput: its trace cannot be understood, or is of an older handeye.
+        InvalidInput: its trace cannot be understood.
     """
     came, heard = outcome(run), told(run)
     scripts = [*([] if animated is None else [player.script()]), resource("page.js")]
@@ -66,17 +66,12 @@ def _sections(run: Recorded, photographs: Album) -> Iterator[Markup]:
     yield view_section(run, photographs.stages)
     yield timing_section(run)
     yield seen_section(seen_pictures(run), lost=lost_pictures(run))
-    yield felt_section(felt, how=_felt_how(run, felt), lost=lost_trips(run, felt))
+    yield felt_section(
+        felt, how=How.THINNED if run.trace.thinned else How.RECORDED, lost=lost_trips(run, felt)
+    )
     yield planned_section(ends(run), corrections(run), searches(run), stages, run.trace.head.time)
     yield referee_section(run)
     yield record_section(run)
-
-
-def _felt_how(run: Recorded, felt: Sequence[GuardedMotion]) -> How:
-    """How a trace tells what was felt."""
-    if felt and not run.trace.forces().recorded:
-        return How.RECKONED
-    return How.THINNED if run.trace.thinned else How.RECORDED
 
 
 def head(name: str, style: str, scripts: Sequence[str], *also: str) -> Markup:

@@ -22,7 +22,6 @@ class How(StrEnum):
     """How a trace tells what was felt, as a sentence."""
 
     RECORDED = ""
-    RECKONED = " This trace is of before force was recorded: it is reckoned from joints and torques."
     THINNED = (
         f" This trace is thinned: the curves lie within {FELT[GuardKind.FORCE]:g} N and {FELT[GuardKind.MOMENT]:g} N m "
         "of what was recorded, and what was felt most is kept."

@@ -51,11 +51,7 @@ SOURCES: Final = Path(__file__).with_name("script")
 
 
 def scene_bytes(trace: Trace) -> bytes:
-    """The scene of a run, compressed: surfaces, materials, names, views.
-
-    Raises:
-        InvalidInput: an older handeye recorded the run, whose cell this one cannot build again.
-    """
+    """The scene of a run, compressed: surfaces, materials, names, views."""
     return scene.scene_bytes(trace.scene)
 
 

@@ -2,10 +2,10 @@
 
 from typing import Final, get_args
 
-from handeye.api.html import frame, page
 from handeye.cell.photograph import Photograph, check_size
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import NoSuchName, Refused
+from handeye.core.notebook import frame, page
 from handeye.systems.trig.jobs.benches import ArmName, SeenTable, new_session
 from handeye.systems.trig.language.full_display import full_display
 from handeye.systems.trig.language.partial_display import partial_display

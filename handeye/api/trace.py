@@ -1,0 +1,120 @@
+"""Traces as a caller from Python has them: opened, filmed, and shown in a notebook.
+
+>>> trace = handeye.open("out")
+>>> trace.joints[trace.times > 100.0]    # positions by the sensors, shape (n, 6)
+>>> trace.forces(line=91).force[:, 2]    # N, upwards, while line 91 of the script was carried out
+>>> trace.at(trace.head.time + 137).step.text    # what the arm was doing 137 s after the run began
+"""
+
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from handeye.core.arguments import given_file
+from handeye.core.errors import CannotWrite, InvalidInput, Taken
+from handeye.core.notebook import inked, line, page, sandbox
+from handeye.runs.folder import TRACE
+from handeye.trace import trace as recorded
+from handeye.trace.reading import read_trace_as
+
+if TYPE_CHECKING:
+    from handeye.video.making import Video
+
+FRAME_HEIGHT_PX: Final = 640
+_WITHOUT: Final = "A notebook shows the report without photographs; trace.frame(time) takes one."
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Trace(recorded.Trace):
+    """A trace that was read, and found sound. What is worked out from its messages is worked out once.
+
+    Times are those of the cell's clock, as in the events, s. It runs while the camera is calibrated too, before the
+    program begins: `elapsed` gives the time from there, which people see, and `State.time` is. There are n
+    servo periods, sixty a second, and m joints. Reading raises `InvalidInput` if a message is not what its channel
+    says. In a notebook it shows its report, in which one walks round the arm; `frame` gives a picture.
+    """
+
+    def video(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        camera: str = "orbit",
+        width: int = 480,
+        height: int = 360,
+        seconds: float | None = None,
+        speed: float | None = None,
+        first: str | int | None = None,
+        last: str | int | None = None,
+        captions: bool = False,
+        overwrite: bool = False,
+    ) -> "Video":
+        """Make a video of the run: an animated WebP or a WebM, by the ending of its name.
+
+        The long waits for the camera's mechanism are cut out. Nothing is simulated. It takes OpenGL.
+
+        Args:
+            camera: `orbit` sways round the cell, `follow` goes near to where the hand works; or one of the scene's.
+            seconds: how long it is, 14 where nobody says; short stages are slowed down so that each can be seen.
+            speed: how many times as fast as the run all of it is, in the place of a length.
+            first: the stage to begin with: its number, its name, or a piece of its name.
+            last: the stage to end with.
+            captions: tell stage and clock, and stand still for each picture that the program takes.
+            overwrite: a video that is there may be replaced.
+
+        Raises:
+            InvalidInput: as `frame`; there is no such stage, or nothing was recorded there; there is no such length or
+                speed; or it cannot be written there.
+        """
+        from handeye.core.arguments import given_file
+        from handeye.video.making import make_video
+        from handeye.video.wanted import Wanted
+
+        wanted = Wanted(
+            camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
+            captions=captions,
+        )  # fmt: skip
+        file = given_file(path, "a video is written to a file that ends in .webp or .webm")
+        try:
+            return make_video(self, file, wanted, overwrite=overwrite)
+        except Taken:
+            raise CannotWrite(f"{file} is there already; overwrite=True replaces it") from None
+
+    def _repr_html_(self) -> str:
+        """The report in a frame of its own, with what it weighs, or why there is none."""
+        try:
+            file = _report(self)
+        except InvalidInput as fault:
+            return page(line(inked(str(fault), "doubtful")))
+        weighs = f"The report of {self.head.program}, {self.head.world}: {len(file) / 1e6:.1f} MB in this notebook."
+        return page(line(weighs), sandbox(file, f"report of {self.head.program}", FRAME_HEIGHT_PX))
+
+
+def open(path: str | os.PathLike[str]) -> Trace:
+    """Read the trace of a run that has ended: a `trace.mcap`, or the folder of the run.
+
+    Raises:
+        InvalidInput: it cannot be read, or is not a sound trace.
+
+    >>> run = handeye.assemble(script="OPEN 1\\n", camera="ray", out=folder)
+    >>> handeye.open(folder).head.program
+    'script'
+    """
+    file = given_file(path, "a trace is a file or the folder of a run")
+    return read_trace_as(Trace, file / TRACE if file.is_dir() else file)
+
+
+def _report(trace: Trace) -> bytes:
+    """The page of the report.
+
+    Raises:
+        InvalidInput: the trace cannot be understood.
+    """
+    from handeye.report.animation import animation
+    from handeye.report.facts.scene import check_scene
+    from handeye.report.page.document import report_page
+    from handeye.report.photographs import no_album
+    from handeye.report.recorded import Recorded
+
+    run = Recorded(trace=trace)
+    check_scene(run)
+    return report_page(run, no_album(run, _WITHOUT), animation(run))
