@@ -15,8 +15,8 @@ from typing import Any, Final, Protocol
 import mujoco
 import numpy as np
 
-from handeye.cell.kept import INTEGRATION
 from handeye.cell.simulated import SimulatedCell
+from handeye.cell.snapshot_cell import INTEGRATION
 
 _CALLS: Final = ("mj_step", "mj_step1", "mj_step2", "mj_forward", "mj_resetData")
 """All by which a cell has its simulator work out anything that lasts."""

@@ -66,7 +66,7 @@ def gantry(clock: FakeClock) -> FakeAxes:
 
 def test_axes_go_where_they_are_told_by_themselves_within_their_limits() -> None:
     axes = gantry(clock := FakeClock())
-    axes.put(np.array([3.0]), hand=0.0)
+    axes.put(np.array([3.0]))
     clock.advance(1.0)
     assert axes.read().q == pytest.approx([0.5])
     clock.advance(5.0)
@@ -75,7 +75,7 @@ def test_axes_go_where_they_are_told_by_themselves_within_their_limits() -> None
 
 def test_axes_read_twice_within_a_step_give_the_same() -> None:
     axes = gantry(FakeClock())
-    axes.channels["left finger"] = 0.56
-    axes.put(np.array([1.0]), hand=0.0)
+    axes.felt["left finger"] = 0.56
+    axes.put(np.array([1.0]))
     first, second = axes.read(), axes.read()
     assert (first.time, first.q, first.channels) == (second.time, second.q, second.channels)

@@ -1,32 +1,54 @@
 """Bench: machines whose servos are closed outside the computer, in one scene under one clock."""
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Final
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any, Final
 
 import mujoco
 import numpy as np
 
 from handeye.cell.mechanism import Mechanism
-from handeye.core.errors import BadArgument, BadFile, InvalidInput
-from handeye.core.pose import Array
+from handeye.cell.physics_stepper import check_physics
+from handeye.cell.sleep import asleep
+from handeye.cell.snapshot_cell import SnapshotCell
+from handeye.core.errors import BadFile, NoSuchName
 from handeye.core.record import Record
-from handeye.ports.axes import Axes, AxesReading, AxisSpec
 from handeye.ports.clock import Clock, whole_steps
 
 MICROSECONDS: Final = 1_000_000
 _LATEST: Final = 10**15
+_FINEST: Final = 10**6
+"""Physics steps in a second, at most, for the step to be known as a fraction of one: 1/960, 1/1200, .001."""
 FASTEST: Final = 1000.0
 """m/s and rad/s: nothing on a bench gets near it, unless the solver of its contacts has failed."""
+_STRETCH: Final = Fraction(1, 60)
+"""s for which mechanisms may hold what they do to the simulator, at most."""
+
+
+class Due(Record, frozen=True, kw_only=True):
+    """An event that is to happen between two physics steps."""
+
+    microseconds: int
+    """When, on the clock of the bench."""
+    name: str
+    """By which the bench knows what is to be done."""
 
 
 class BenchTime(Record, frozen=True, kw_only=True):
-    """What the clock of a bench shows."""
+    """The clock of a bench, and what it waits for."""
 
-    microseconds: int
+    steps: int
+    """Physics steps since it was switched on."""
+    due: tuple[Due, ...] = ()
+    """In order."""
 
 
 class Bench(Clock, Mechanism[BenchTime]):
-    """A scene, and its time in whole microseconds: steps of the physics add up to it without rounding."""
+    """A scene whose time is counted in whole physics steps, so that machines of any periods stay in step.
+
+    Machines add themselves to it. Where the scene allows sleep, bodies that stand still are left out, and time passes
+    at once while all of them sleep: no hook of a step is called then.
+    """
 
     name = "clock"
     kind = BenchTime
@@ -34,149 +56,108 @@ class Bench(Clock, Mechanism[BenchTime]):
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model, self.data = model, mujoco.MjData(model)
         self.before_step: list[Callable[[], None]] = []
-        """What the machines do before every step of the physics."""
-        self.passed: list[Callable[[], None]] = []
-        """Those who look on: called whenever time has passed."""
-        self._step = round(model.opt.timestep * MICROSECONDS)
-        self._now = 0
+        """Called before every physics step."""
+        self.after_step: list[Callable[[], None]] = []
+        self.before_period: list[Callable[[], None]] = []
+        """Called whenever time is about to pass, for 1/60 s at most unless everything sleeps."""
+        self.after_period: list[Callable[[], None]] = []
+        self.handlers: dict[str, Callable[[], None]] = {}
+        """What is done about events that are due, by their names."""
+        self.step: Final = Fraction(model.opt.timestep).limit_denominator(_FINEST)
+        """s of a physics step."""
+        self._parts: list[Mechanism[Any]] = []
+        self._steps, self._stretch = 0, max(1, int(_STRETCH / self.step))
+        self._due: list[Due] = []
         mujoco.mj_forward(self.model, self.data)
+
+    def add(self, part: Mechanism[Any]) -> None:
+        """Let a mechanism act on the scene as time passes, behind those that were added before."""
+        self._parts.append(part)
+
+    def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
+        """Scene, clock and mechanisms as a cell whose state can be kept: the scene must not change any more.
+
+        Args:
+            others: what has a state, too, and does not act on the scene.
+        """
+        noise = np.random.Generator(np.random.PCG64(0))
+        return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)
 
     def replace(self, spec: mujoco.MjSpec) -> None:
         """Go on with a changed scene: what was there before is where it was."""
         self.model, self.data = spec.recompile(self.model, self.data)
         mujoco.mj_forward(self.model, self.data)
+        for part in self._parts:
+            part.bind(self.model, self.data)
+
+    # -- time -----------------------------------------------------------------------------------------
 
     @property
     def now(self) -> float:
-        return self._now / MICROSECONDS
-
-    @property
-    def step(self) -> float:
-        """s of one step of the physics."""
-        return self._step / MICROSECONDS
+        return float(self._steps * self.step)
 
     def advance(self, seconds: float) -> None:
-        for _ in range(whole_steps(seconds, self.step)):
+        end = self._steps + whole_steps(seconds, float(self.step))
+        while True:
+            self._handle_due()
+            if self._steps == end:
+                return
+            self._pass(min([end, *(self._begins(due) for due in self._due[:1])]) - self._steps)
+
+    def call_at(self, microseconds: int, name: str) -> None:
+        """Have an event handled at the first physics step that begins at a time or after it, by its name."""
+        if name not in self.handlers:
+            raise NoSuchName(f"nothing on the bench is called {name}; there are {', '.join(self.handlers)}")
+        self._due.append(Due(microseconds=microseconds, name=name))
+        self._due.sort(key=lambda due: due.microseconds)
+
+    def _begins(self, due: Due) -> int:
+        """The number of the physics step before which an event is handled."""
+        return -int(-Fraction(due.microseconds, MICROSECONDS) // self.step)
+
+    def _handle_due(self) -> None:
+        while self._due and self._begins(self._due[0]) <= self._steps:
+            self.handlers[self._due.pop(0).name]()
+
+    def _pass(self, most: int) -> None:
+        """Make some physics steps, at most so many: for a stretch, or all of them if everything sleeps."""
+        steps = min(most, self._stretch)
+        for part in self._parts:
+            part.before(float(steps * self.step))
+        for act in self.before_period:
+            act()
+        if asleep(self.data):
+            for part in self._parts:
+                part.rested(float((most - steps) * self.step))
+            self._steps += most
+        else:
+            self._make(steps)
+        self.data.time = self.now
+        for part in self._parts:
+            part.after()
+        for act in self.after_period:
+            act()
+
+    def _make(self, steps: int) -> None:
+        for _ in range(steps):
             for act in self.before_step:
                 act()
             mujoco.mj_step(self.model, self.data)
-            self._now += self._step
-        if not np.abs(self.data.qvel).max(initial=0.0) < FASTEST:  # nor is what is not a number
-            raise InvalidInput(f"the physics of the bench has failed at {self.now:.3f} s")
-        for look in self.passed:
-            look()
+            self._steps += 1
+            for act in self.after_step:
+                act()
+        check_physics(self.data, fastest=FASTEST)
+
+    # -- state ----------------------------------------------------------------------------------------
 
     def state(self) -> BenchTime:
-        return BenchTime(microseconds=self._now)
+        return BenchTime(steps=self._steps, due=tuple(self._due))
 
     def check(self, state: BenchTime) -> None:
-        if not 0 <= state.microseconds < _LATEST:
+        if not 0 <= state.steps < _LATEST or any(due.microseconds >= _LATEST for due in state.due):
             raise BadFile("its clock shows what it cannot")
+        if not {due.name for due in state.due} <= {*self.handlers}:
+            raise BadFile("it waits for events that this bench does not know")
 
     def restore(self, state: BenchTime) -> None:
-        self._now = state.microseconds
-
-
-class AxesState(Record, frozen=True, kw_only=True):
-    """What the controller of a machine holds."""
-
-    goal: tuple[float, ...]
-    """Where its servos are to be at the end of the period, m and rad."""
-    way: tuple[float, ...]
-    """How far they go in a step of the physics."""
-    left: int
-    """Steps of the period that are left."""
-
-
-class BenchAxes(Axes, Mechanism[AxesState]):
-    """One machine of a bench: joints with position servos, a hand, and what it senses."""
-
-    name = "axes"
-    kind = AxesState
-
-    def __init__(
-        self,
-        bench: Bench,
-        specs: Sequence[AxisSpec],
-        *,
-        hand: str,
-        period: float,
-        channels: Mapping[str, str],
-        bent: Callable[[Array], Array] = np.zeros_like,
-    ) -> None:
-        """Take joints of a scene for a machine.
-
-        Args:
-            specs: its axes, by the names of joints and servos.
-            hand: name of the servo of its hand.
-            period: s between two goals.
-            channels: sensors of three components by the channel that they are told as, with x, y and z behind it.
-            bent: how far axes are from where their potentiometers tell them to be, by what these tell, shape (n,).
-        """
-        self._bench, self._specs, self._period = bench, tuple(specs), period
-        self._hand, self._channels, self._bent = hand, channels, bent
-        q = self.read().q
-        self._goal, self._steps = q + bent(q), whole_steps(period, bench.step)
-        self._way, self._left = np.zeros(len(specs)), 0
-        self._servos: list[int] = []
-        bench.before_step.append(self._interpolate)
-
-    @property
-    def specs(self) -> tuple[AxisSpec, ...]:
-        return self._specs
-
-    @property
-    def period(self) -> float:
-        return self._period
-
-    def read(self) -> AxesReading:
-        data = self._bench.data
-        felt = {
-            channel + axis: float(value)
-            for channel, sensor in self._channels.items()
-            for axis, value in zip("xyz", data.sensor(sensor).data, strict=True)
-        }
-        gap = float(data.actuator(self._hand).length[0])
-        q = np.array([data.joint(spec.name).qpos[0] for spec in self._specs])
-        told = q - self._bent(q)  # bends are so gentle that this is exact to a hundredth of them
-        return AxesReading(time=self._bench.now, q=told, channels={**felt, "gap": gap})
-
-    def put(self, goal: Array, hand: float) -> None:
-        if not (np.isfinite(goal).all() and np.isfinite(hand)):
-            raise BadArgument("a goal of an axis is not a finite number")
-        data, told = self._bench.data, self._put
-        self._servos = self._numbers()
-        self._goal, self._left = goal + self._bent(goal), self._steps
-        self._way = (self._goal - told) / self._steps
-        data.actuator(self._hand).ctrl = hand
-
-    def state(self) -> AxesState:
-        return AxesState(goal=tuple(self._goal.tolist()), way=tuple(self._way.tolist()), left=self._left)
-
-    def check(self, state: AxesState) -> None:
-        if not len(state.goal) == len(state.way) == len(self._specs) or not 0 <= state.left <= self._steps:
-            raise BadFile("its machine has other axes")
-        if not np.isfinite((*state.goal, *state.way)).all():
-            raise BadFile("a goal of its machine is not a finite number")
-
-    def restore(self, state: AxesState) -> None:
-        self._goal, self._way, self._left = np.array(state.goal), np.array(state.way), state.left
-        self._servos = self._numbers()
-
-    def _numbers(self) -> list[int]:
-        """The numbers of its servos, which change with the scene."""
-        return [self._bench.data.actuator(spec.name).id for spec in self._specs]
-
-    def _interpolate(self) -> None:
-        """Go on towards the goal, evenly for a period: goals that jump shake what lies on the axes.
-
-        Measured: the platter's acceleration had peaks of 10.8 m/s2 on ways planned with 1, which drew blocks along.
-        """
-        if self._left:
-            self._left -= 1
-            self._bench.data.ctrl[self._servos] = self._put
-
-    @property
-    def _put(self) -> Array:
-        """What the servos are told now, shape (n,)."""
-        return self._goal - self._left * self._way
+        self._steps, self._due = state.steps, list(state.due)

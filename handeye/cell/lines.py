@@ -60,6 +60,9 @@ class Lines(Mechanism[LinesState]):
             if state.seconds is not None:
                 self._states[place] = DefectState(seconds=state.seconds + seconds, first=state.first)
 
+    def rested(self, seconds: float) -> None:
+        self.before(seconds)  # what is broken drifts on
+
     def carried(self, line: str, value: float) -> float:
         """What arrives of a number, SI."""
         return float(self._arriving(line, np.array(value, dtype=float))) if self.defects else value

@@ -25,6 +25,12 @@ class Mechanism(ABC, Generic[S]):
     def before(self, seconds: float) -> None:
         """Do what is due before time passes (s)."""
 
+    def rested(self, seconds: float) -> None:
+        """More time (s) passes at once than `before` was told of, because everything sleeps."""
+
+    def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Go on in a changed scene, where numbers of bodies, joints and servos may be others."""
+
     def after(self) -> None:
         """Read the simulator when time has passed, and once when the cell is switched on."""
 

@@ -9,14 +9,13 @@ import numpy as np
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.camera import SimulatedCamera
 from handeye.cell.hand import SimulatedHand
-from handeye.cell.kept import KeptCell
 from handeye.cell.lamp import SimulatedLamp
 from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.physics_stepper import PhysicsStepper, check_physics
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.sleep import asleep
-from handeye.cell.stepper import Stepper
-from handeye.core.errors import HandeyeError
+from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.ports.camera import Renderer
 from handeye.ports.clock import Clock, whole_steps
 from handeye.ports.workcell import Workcell
@@ -25,16 +24,7 @@ _HELD: Final = 1 / 60
 """s for which a device may hold what it does to the simulator: the finger servo moves on, threads take screws."""
 
 
-class SimulationError(HandeyeError):
-    """The physics of the simulated cell broke down; not an event of the assembly."""
-
-    def __init__(self, warning: str) -> None:
-        """Say which warning the simulator gave, by its name; when, a run knows by its own time."""
-        super().__init__(f"the simulated cell broke down ({warning})")
-        self.warning = warning
-
-
-class SimulatedCell(Clock, KeptCell):
+class SimulatedCell(Clock, SnapshotCell):
     """A cell in one drawn world. Equal worlds and equal drives give equal bytes."""
 
     def __init__(
@@ -49,7 +39,7 @@ class SimulatedCell(Clock, KeptCell):
         camera: SimulatedCamera | None = None,
         mechanisms: Sequence[Mechanism[Any]] = (),
         lines: Lines = SOUND,
-        stepper: Stepper | None = None,
+        stepper: PhysicsStepper | None = None,
         noise: np.random.Generator,
     ) -> None:
         """Switch a cell on; its devices are read for the first time.
@@ -74,13 +64,13 @@ class SimulatedCell(Clock, KeptCell):
             *mechanisms,
             *(() if camera is None else (camera,)),
         )
-        KeptCell.__init__(self, model, data, parts, noise)
+        SnapshotCell.__init__(self, model, data, parts, noise)
         self.devices = Workcell(
             clock=self, arm=arm, hand=hand, screwdriver=screwdriver, lamp=lamp, camera=camera
         )
         """The cell as the working phase knows it."""
         self._most = max(1, round(_HELD / model.opt.timestep))
-        self._stepper = stepper or Stepper(model, data)
+        self._stepper = stepper or PhysicsStepper(model, data)
         mujoco.mj_forward(model, data)
         self._read()
 
@@ -104,7 +94,7 @@ class SimulatedCell(Clock, KeptCell):
 
         Raises:
             InvalidInput: not a whole number of physics steps.
-            SimulationError: the physics broke down.
+            PhysicsFailed: the physics broke down.
         """
         model, data = self._model, self._data
         left = whole_steps(seconds, model.opt.timestep)
@@ -113,19 +103,15 @@ class SimulatedCell(Clock, KeptCell):
             for part in self._mechanisms:
                 part.before(steps * model.opt.timestep)
             if asleep(data):
-                self.lines.before((left - steps) * model.opt.timestep)  # what is broken drifts on
+                for part in self._mechanisms:
+                    part.rested((left - steps) * model.opt.timestep)
                 steps = left
                 data.time += steps * model.opt.timestep
             else:
                 self._stepper.step(steps)
-                self._check_physics()
+                check_physics(data)
             self._read()
             left -= steps
-
-    def _check_physics(self) -> None:
-        warnings = self._data.warning.number
-        if warnings.any():
-            raise SimulationError(mujoco.mjtWarning(int(np.argmax(warnings != 0))).name)
 
     def _read(self) -> None:
         for part in self._mechanisms:

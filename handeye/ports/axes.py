@@ -1,16 +1,18 @@
-"""Axes whose servos are closed outside the computer, which only names goals and watches channels."""
+"""Machines whose servos are closed outside the computer, which names goals and watches channels."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+from handeye.core.errors import InvalidInput, Refused
 from handeye.core.pose import Array
+from handeye.core.record import Record
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AxisSpec:
-    """One axis as its machine's manual describes it."""
+    """One axis as its machine's manual describes it; a hand that opens and closes is one, too."""
 
     name: str
     kind: Literal["revolute", "prismatic"]
@@ -19,6 +21,30 @@ class AxisSpec:
     upper: float
     speed: float
     """Greatest, rad/s or m/s."""
+    force: float | None = None
+    """Greatest force (N) or torque (N m) of its servo, as the grip of a hand; None: more than is ever needed."""
+    holds: bool = False
+    """Stays where it is when the power is off, by a brake or a gear that locks itself."""
+
+
+class Channel(Record, frozen=True, kw_only=True):
+    """A quantity that a device senses."""
+
+    name: str
+    unit: str = ""
+    """SI; empty: a switch or a count."""
+    width: int = 1
+    """Components of its values; three are called x, y and z."""
+    latched: bool = False
+    """Once it differs from zero it stays as it was then, until it is cleared."""
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Names of its components, by which readings have them: `range`, `force_x`, `beam_1`."""
+        if self.width == 1:
+            return (self.name,)
+        ends = "xyz" if self.width == len("xyz") else map(str, range(1, self.width + 1))
+        return tuple(f"{self.name}_{end}" for end in ends)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,18 +54,26 @@ class AxesReading:
     time: float
     """s on the cell's clock."""
     q: Array
-    """Where the axes are, shape (n,), rad or m."""
+    """Positions of the axes, shape (n,), rad or m."""
     channels: Mapping[str, float]
-    """Everything else that the machine senses, by name, SI."""
+    """Everything else that the machine senses, SI, by `Channel.parts`."""
 
 
 class Axes(ABC):
-    """A machine that goes where it is told by itself."""
+    """A machine whose axes go to their goals by themselves."""
+
+    name: str
+    """Name of the machine, unlike that of any other under the same clock."""
 
     @property
     @abstractmethod
     def specs(self) -> tuple[AxisSpec, ...]:
         """Its axes, in order."""
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """Quantities that it senses besides where its axes are."""
+        return ()
 
     @property
     @abstractmethod
@@ -51,9 +85,26 @@ class Axes(ABC):
         """Readings of the present moment. Reading twice without letting time pass gives the same values."""
 
     @abstractmethod
-    def put(self, goal: Array, hand: float) -> None:
-        """Name where the axes, shape (n,), rad or m, and the hand (m) are to go from now on.
+    def put(self, goal: Array) -> None:
+        """Name where the axes are to go from now on, shape (n,), rad or m.
 
         Raises:
             InvalidInput: a goal is not a finite number.
+            Refused: the power is off.
         """
+
+    def power(self, on: bool) -> None:
+        """Switch its servos on, which hold where they are then, or off.
+
+        Raises:
+            Refused: its power cannot be switched.
+        """
+        raise Refused(f"the power of {self.name} cannot be switched")
+
+    def clear(self, channel: str) -> None:
+        """Let a latched channel show again what is sensed.
+
+        Raises:
+            InvalidInput: it has no such channel, or it is not latched.
+        """
+        raise InvalidInput(f"{self.name} has no latched channel {channel}")

@@ -8,10 +8,10 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Final
 
-from handeye.cell.kept import KeptCell
-from handeye.cell.simulated import SimulatedCell, SimulationError
+from handeye.cell.simulated import SimulatedCell
+from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.entries import Capability, refusal, require
-from handeye.core.errors import BadArgument, BadFile, Refused
+from handeye.core.errors import BadArgument, BadFile, PhysicsFailed, Refused
 from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
 from handeye.execution.context import ExecutionContext
@@ -167,7 +167,7 @@ class Runner:
         return self.system.arm_cell
 
     @property
-    def cell(self) -> KeptCell:
+    def cell(self) -> SnapshotCell:
         """The simulated cell.
 
         Raises:
@@ -256,7 +256,7 @@ class Runner:
         except Halted:
             self._emit(PanicStopped(time=self.time))
             raise
-        except SimulationError as error:
+        except PhysicsFailed as error:
             self._broken = str(error)
             return
         self.position += 1

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 import msgspec
 import numpy as np
 
-from handeye.cell.kept import KeptCell
 from handeye.cell.simulated import SimulatedCell
+from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.entries import Entry, entry_named, refusal
 from handeye.core.errors import BadFile, Refused
 from handeye.core.record import Record
@@ -148,7 +148,7 @@ class RunningSystem(Protocol):
         """All that it remembers: the record it lives in."""
 
     @property
-    def cell(self) -> KeptCell | None:
+    def cell(self) -> SnapshotCell | None:
         """The simulated cell it acts on, if there is one."""
 
     @property
@@ -186,7 +186,7 @@ class RunningSystem(Protocol):
 
         Raises:
             Halted: the panic button was hit.
-            SimulationError: its cell broke down.
+            PhysicsFailed: its cell broke down.
         """
 
     def answer(self, choice: Choice) -> None:

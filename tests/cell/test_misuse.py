@@ -12,8 +12,8 @@ from robots import CARTESIAN
 
 from handeye.arm.dynamics import gravity
 from handeye.arm.robots.stanford import STANFORD
-from handeye.cell.simulated import SimulatedCell, SimulationError
-from handeye.core.errors import InvalidInput
+from handeye.cell.simulated import SimulatedCell
+from handeye.core.errors import InvalidInput, PhysicsFailed
 from handeye.core.pose import Array
 from handeye.core.variation import WorldSpec
 from handeye.ports.arm import ArmPort
@@ -149,7 +149,7 @@ def test_physics_that_broke_down_stay_so_until_the_cell_is_put_back(cell: Simula
     sound = cell.capture()
     cell.truth.data.qvel[:3] = 1e12
     for _ in range(2):
-        with pytest.raises(SimulationError, match=r"^the simulated cell broke down \(mjWARN_\w+\)$"):
+        with pytest.raises(PhysicsFailed, match=r"^the simulated cell broke down \(mjWARN_\w+\)$"):
             cell.advance(PERIOD)
     cell.restore(sound)
     cell.advance(PERIOD)

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from handeye.cell.stepper import LONGER, Stepper
+from handeye.cell.physics_stepper import LONGER, PhysicsStepper
 from handeye.core.pose import Array
 
 SHORT = 1 / 960
@@ -21,7 +21,7 @@ class Falling:
         self.model = mujoco.MjModel.from_xml_string(BALL.format(short=SHORT))
         self.data = mujoco.MjData(self.model)
         mujoco.mj_forward(self.model, self.data)
-        self.stepper = Stepper(self.model, self.data)
+        self.stepper = PhysicsStepper(self.model, self.data)
 
     def fall(self, periods: int, *, short: bool = False) -> Array:
         """Let time pass; heights of the ball (m) behind each servo period."""

@@ -12,8 +12,8 @@ from driving import BRAKED, Drive, tick
 from handeye.arm.dynamics import gravity
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
-from handeye.cell.simulated import SimulatedCell, SimulationError
-from handeye.core.errors import InvalidInput
+from handeye.cell.simulated import SimulatedCell
+from handeye.core.errors import InvalidInput, PhysicsFailed
 from handeye.core.pose import hand
 from handeye.core.units import DEGREE, INCH, JIFFY
 from handeye.ports.workcell import Sensed
@@ -220,7 +220,7 @@ def test_a_drive_that_is_not_a_number_is_refused(cell: SimulatedCell) -> None:
 
 def test_a_breakdown_of_the_physics_is_said_and_not_hidden(cell: SimulatedCell) -> None:
     cell.truth.data.qvel[:6] = 1e12
-    with pytest.raises(SimulationError, match=re.compile(r"^the simulated cell broke down \(mjWARN_\w+\)$")):
+    with pytest.raises(PhysicsFailed, match=re.compile(r"^the simulated cell broke down \(mjWARN_\w+\)$")):
         run(cell, LOOSE, 2)
 
 

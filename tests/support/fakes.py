@@ -206,18 +206,18 @@ class FakeAxes(Axes):
     """Axes that go to where they were told with their greatest speed."""
 
     specs: tuple[AxisSpec, ...] = ()
-    period = 1 / 100
+    period, name = 1 / 100, "fake"
 
     def __init__(self, clock: FakeClock, *specs: AxisSpec) -> None:
         self.clock, self.specs = clock, specs
         self.q = self.goal = np.zeros(len(specs))
-        self.channels: dict[str, float] = {}
+        self.felt: dict[str, float] = {}
         clock.devices = (*clock.devices, self)
 
     def read(self) -> AxesReading:
-        return AxesReading(time=self.clock.now, q=self.q.copy(), channels=dict(self.channels))
+        return AxesReading(time=self.clock.now, q=self.q.copy(), channels=dict(self.felt))
 
-    def put(self, goal: Array, hand: float) -> None:
+    def put(self, goal: Array) -> None:
         self.goal = np.clip(goal, [s.lower for s in self.specs], [s.upper for s in self.specs])
 
     def elapse(self, seconds: float) -> None:

@@ -6,21 +6,21 @@ import pytest
 
 from handeye.cell.bench import Bench
 from handeye.core.errors import InvalidInput
+from handeye.machines import machine
+from handeye.machines.purbrick import PURBRICK
 from handeye.ports.axes import AxisSpec
 from handeye.systems.trig.jobs.bench import NOMINAL, purbrick
-from handeye.systems.trig.jobs.machine import PERIOD, SPECS, machine, scene
 from handeye.systems.trig.jobs.table import HEIGHT, BlockTable
-from handeye.systems.trig.language.axes_arm import ACCELERATION, OPEN
 from handeye.systems.trig.language.no_arm import BLOCK, TRAVEL
 from handeye.systems.trig.language.place import Place
 
 
 @pytest.fixture
 def bench() -> Bench:
-    return Bench(scene().compile())
+    return Bench(PURBRICK.scene().compile())
 
 
-@pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.name)
+@pytest.mark.parametrize("spec", PURBRICK.axes, ids=lambda spec: spec.name)
 def test_the_scene_has_each_axis_as_the_machine_has_it(bench: Bench, spec: AxisSpec) -> None:
     joint = bench.model.joint(spec.name)
     kind = {"prismatic": mujoco.mjtJoint.mjJNT_SLIDE, "revolute": mujoco.mjtJoint.mjJNT_HINGE}[spec.kind]
@@ -30,7 +30,7 @@ def test_the_scene_has_each_axis_as_the_machine_has_it(bench: Bench, spec: AxisS
 
 def test_an_axis_moves_the_hand_over_the_platter() -> None:
     """By its own amount and in its own direction, and the tips touch the platter at zero."""
-    model = scene().compile()
+    model = PURBRICK.scene().compile()
     data = mujoco.MjData(model)
 
     def tip() -> np.ndarray:
@@ -43,12 +43,12 @@ def test_an_axis_moves_the_hand_over_the_platter() -> None:
     assert tip() == pytest.approx([0, 0, 0], abs=1e-9)
     for axis in range(3):
         data.qpos[:] = 0
-        data.joint(SPECS[axis].name).qpos[0] = 0.1
+        data.joint(PURBRICK.axes[axis].name).qpos[0] = 0.1
         assert tip() == pytest.approx(np.eye(3)[axis] * 0.1, abs=1e-9)
 
 
 def test_the_arm_that_is_imagined_has_the_travel_of_this_one() -> None:
-    assert tuple((spec.lower, spec.upper) for spec in SPECS) == TRAVEL
+    assert tuple((spec.lower, spec.upper) for spec in PURBRICK.axes) == TRAVEL
 
 
 def test_a_stack_of_twenty_blocks_stands_what_the_platter_does() -> None:
@@ -59,10 +59,10 @@ def test_a_stack_of_twenty_blocks_stands_what_the_platter_does() -> None:
     slides = [table.bench.data.joint(name) for name in "xy"]
     table.bench.before_step.append(lambda: measured.extend(abs(float(slide.qacc[0])) for slide in slides))
     arm.go(Place(x=0.05, y=0.03, z=0.3), lambda: False)
-    assert ACCELERATION[0] < max(measured) < tips_at == pytest.approx(1.226, abs=0.001)
+    assert PURBRICK.limits.acceleration[0] < max(measured) < tips_at == pytest.approx(1.226, abs=0.001)
 
 
-def test_a_bench_keeps_time_in_whole_microseconds(bench: Bench) -> None:
+def test_a_bench_keeps_time_in_whole_steps(bench: Bench) -> None:
     for _ in range(1000):
         bench.advance(0.001)
     assert bench.now == 1.0
@@ -71,16 +71,15 @@ def test_a_bench_keeps_time_in_whole_microseconds(bench: Bench) -> None:
 
 
 def test_the_axes_go_where_they_are_told(bench: Bench) -> None:
-    axes = machine(bench, np.zeros_like)
-    goal = np.array([0.01, -0.02, 0.1, 0.1, 0.0, -0.1])
-    axes.put(goal, OPEN)
+    axes = machine("purbrick").on_bench(bench)
+    goal = np.array([0.01, -0.02, 0.1, 0.1, 0.0, -0.1, PURBRICK.limits.open])
+    axes.put(goal)
     bench.advance(1.0)
     reading = axes.read()
-    assert reading.q == pytest.approx(goal, abs=1e-5)
-    assert reading.channels["gap"] == pytest.approx(OPEN, abs=1e-4)
-    assert (reading.time, axes.period) == (1.0, PERIOD)
+    assert reading.q == pytest.approx(goal, abs=1e-4)
+    assert (reading.time, axes.period) == (1.0, 0.01)
     with pytest.raises(InvalidInput, match=r"^a goal of an axis is not a finite number$"):
-        axes.put(goal * np.nan, OPEN)
+        axes.put(goal * np.nan)
 
 
 def test_what_lies_on_the_platter_stays_there_when_more_is_put_there() -> None:

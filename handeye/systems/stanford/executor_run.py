@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from msgspec import UNSET
 
-from handeye.cell.simulated import SimulatedCell, SimulationError
+from handeye.cell.simulated import SimulatedCell
 from handeye.core.diagnostics import quoted
 from handeye.core.entries import PLANNED
 from handeye.core.errors import (
@@ -17,6 +17,7 @@ from handeye.core.errors import (
     FrictionUnknown,
     InvalidInput,
     NoSuchName,
+    PhysicsFailed,
 )
 from handeye.core.plain_text import counted
 from handeye.core.units import DEGREE, INCH
@@ -135,7 +136,7 @@ class RunningPlan(RunningSystem):
         else:
             seconds = self._measure_joints()
         if self.trouble is not None:
-            with suppress(SimulationError):  # broken physics has no brakes either
+            with suppress(PhysicsFailed):  # broken physics has no brakes either
                 self.context.drive.stop()
         return [self._started(), *self._friction(seconds)]
 
@@ -220,7 +221,7 @@ class RunningPlan(RunningSystem):
         try:
             found = measure_joints(self._cell.devices, self.arm, self.state.drive, self._halt)
             self.state.drive.friction, self.state.drive.links = found.friction, found.links
-        except (FrictionUnknown, SimulationError) as error:
+        except (FrictionUnknown, PhysicsFailed) as error:
             self.state.unable = str(error)
         return round(self.time - before, 6)
 
@@ -242,7 +243,7 @@ class RunningPlan(RunningSystem):
                 cell, self.arm, drive, eye.drawing, eye.looks, self._halt, self._viewed
             )
             self.state.lens = eye.looks[-1].lens
-        except (CalibrationFailed, SimulationError) as error:
+        except (CalibrationFailed, PhysicsFailed) as error:
             self.state.unable = str(error)
         drive.hold_anew(cell.sense(), self.arm)
         self._take_calibration()

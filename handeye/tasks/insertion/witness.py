@@ -6,7 +6,7 @@ from typing import Final
 import mujoco
 import numpy as np
 
-from handeye.cell.stepper import Stepper
+from handeye.cell.physics_stepper import PhysicsStepper
 from handeye.core.pose import Array
 from handeye.tasks.insertion.scene import FACE, PUSH
 from handeye.tasks.water_pump.world.dimensions import dimensions
@@ -15,7 +15,7 @@ SEATED: Final = 2e-4
 """Height of the shoulder over the face up to which a pin is seated, m. Chosen: a hundredth of its way."""
 
 
-class Witness(Stepper):
+class Witness(PhysicsStepper):
     """Makes the same steps as a stepper, and looks at pin and plate after each in which anything touches."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:

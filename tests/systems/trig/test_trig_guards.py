@@ -7,11 +7,10 @@ from trig_bench import Bench, Ticking, low_palletiser
 from trig_sessions import Typist
 
 from handeye.core.pose import Array
+from handeye.machines.purbrick import PURBRICK
 from handeye.ports.axes import AxesReading
-from handeye.systems.trig.jobs.machine import SPECS
 from handeye.systems.trig.language.axes_arm import AxesArm
 from handeye.systems.trig.language.obstacles import (
-    RESISTANCE,
     HoldOff,
     LeftBehind,
     Missed,
@@ -70,24 +69,24 @@ class Hindered(FakeAxes):
     push, fast = 0.0, False
 
     def read(self) -> AxesReading:
-        away = bool(np.any(self.goal))
-        self.channels = {"force_x": self.push * away, "force_y": 0.0, "force_z": 0.0, "gap": 0.048}
+        away = bool(np.any(self.goal[:-1]))
+        self.felt = {"force_x": self.push * away, "force_y": 0.0, "force_z": 0.0}
         return super().read()
 
-    def put(self, goal: Array, hand: float) -> None:
-        super().put(goal, hand)
+    def put(self, goal: Array) -> None:
+        super().put(goal)
         self.elapse(0.0 if self.fast else self.period)
 
 
 def test_a_force_on_the_finger_stops_the_way_back_whatever_its_direction() -> None:
-    axes = Hindered(FakeClock(), *SPECS)
-    arm = AxesArm(axes, Ticking())
-    axes.push = RESISTANCE + 0.1
+    axes = Hindered(FakeClock(), *PURBRICK.specs)
+    arm = AxesArm(axes, Ticking(), PURBRICK.limits)
+    axes.push = PURBRICK.limits.resistance + 0.1
     met = arm.back(Place(x=0.05), lambda: False)
-    assert met == Resisted(force=RESISTANCE + 0.1, limit=RESISTANCE)
+    assert met == Resisted(force=PURBRICK.limits.resistance + 0.1, limit=PURBRICK.limits.resistance)
     assert arm.here().x < 0.001
     assert told(met) == "the finger met 3.1 N, and going back may meet 3.0 N"
-    axes.push = RESISTANCE - 0.1
+    axes.push = PURBRICK.limits.resistance - 0.1
     assert arm.back(Place(y=0.05), lambda: False) is None
 
 
@@ -95,20 +94,20 @@ def test_a_force_on_the_finger_stops_the_way_back_whatever_its_direction() -> No
 def test_half_as_much_again_as_a_move_met_is_no_obstacle_where_it_is_undone(
     push: float, limit: float | None
 ) -> None:
-    axes = Hindered(FakeClock(), *SPECS)
-    arm = AxesArm(axes, Ticking())
+    axes = Hindered(FakeClock(), *PURBRICK.specs)
+    arm = AxesArm(axes, Ticking(), PURBRICK.limits)
     axes.push = 3.6
     assert arm.go(Place(x=0.05), lambda: False)
     assert arm.met == pytest.approx(3.6)
-    axes = Hindered(FakeClock(), *SPECS)
-    back, axes.push = AxesArm(axes, Ticking()), push
+    axes = Hindered(FakeClock(), *PURBRICK.specs)
+    back, axes.push = AxesArm(axes, Ticking(), PURBRICK.limits), push
     found = back.back(Place(x=0.05), lambda: False, arm.met)
     assert found == (None if limit is None else Resisted(force=push, limit=limit))
 
 
 def test_an_axis_that_does_not_follow_stops_the_way_back() -> None:
-    axes = Hindered(FakeClock(), *SPECS)
-    arm = AxesArm(axes, Ticking())
+    axes = Hindered(FakeClock(), *PURBRICK.specs)
+    arm = AxesArm(axes, Ticking(), PURBRICK.limits)
     axes.fast = True
     met = arm.back(Place(y=0.05), lambda: False)
     assert isinstance(met, LeftBehind)

@@ -7,9 +7,9 @@ from trig_bench import Bench, Ticking, taught
 from trig_sessions import BUCKET, PALLETISE
 
 from handeye.core.units import OUNCE_FORCE
+from handeye.machines.purbrick import PURBRICK
 from handeye.ports.axes import AxesReading
-from handeye.systems.trig.jobs.machine import SPECS
-from handeye.systems.trig.language.axes_arm import GUARDED, AxesArm
+from handeye.systems.trig.language.axes_arm import AxesArm
 from handeye.systems.trig.language.place import Place
 
 pytestmark = pytest.mark.slow
@@ -43,10 +43,10 @@ class Pressed(FakeAxes):
     """N"""
 
     def read(self) -> AxesReading:
-        self.channels = {
+        self.felt = {
             "force_x": 0.0,
             "force_y": 0.0,
-            "force_z": self.bias - self.force * bool(np.any(self.goal)),
+            "force_z": self.bias - self.force * bool(np.any(self.goal[:-1])),
         }
         return super().read()
 
@@ -65,8 +65,8 @@ class Pressed(FakeAxes):
 def test_a_guarded_move_stops_beyond_its_threshold_and_not_at_it(
     ounces: float, weight: float, kind: str
 ) -> None:
-    axes = Pressed(FakeClock(), *SPECS)
-    arm = AxesArm(axes, Ticking())
+    axes = Pressed(FakeClock(), *PURBRICK.specs)
+    arm = AxesArm(axes, Ticking(), PURBRICK.limits)
     axes.force = ounces * OUNCE_FORCE
     arrival = arm.feel(Place(x=0.003), (0, 0, weight), 2 * OUNCE_FORCE, lambda: False)
     assert arrival.kind == kind
@@ -74,9 +74,9 @@ def test_a_guarded_move_stops_beyond_its_threshold_and_not_at_it(
 
 @pytest.mark.parametrize(("ounces", "kind"), [(1.9, "reached"), (2.1, "tripped")])
 def test_what_the_finger_tells_when_nothing_touches_it_is_no_force(ounces: float, kind: str) -> None:
-    axes = Pressed(FakeClock(), *SPECS)
+    axes = Pressed(FakeClock(), *PURBRICK.specs)
     axes.bias, axes.force = 3.0, ounces * OUNCE_FORCE
-    arm = AxesArm(axes, Ticking())
+    arm = AxesArm(axes, Ticking(), PURBRICK.limits)
     assert arm.feel(Place(x=0.003), (0, 0, 1), 2 * OUNCE_FORCE, lambda: False).kind == kind
 
 
@@ -95,7 +95,7 @@ def test_a_guarded_move_in_free_air_is_slow_and_straight(monkeypatch: pytest.Mon
     assert bench.arm.feel(goal, (0, 0, 1), 2 * OUNCE_FORCE, lambda: False).kind == "reached"
     way = np.array(seen)
     speeds = np.abs(np.diff(way, axis=0)) / bench.arm._axes.period
-    assert np.max(speeds) < 1.1 * GUARDED[0]
+    assert np.max(speeds) < 1.1 * PURBRICK.limits.guarded_speed[0]
     along = np.array(goal[:3]) - way[0]
     along /= np.linalg.norm(along)
     off = (way - way[0]) - np.outer((way - way[0]) @ along, along)

@@ -9,7 +9,7 @@ from msgspec import UNSET
 from trig_bench import low_job, low_script, low_setup
 
 import handeye
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import InvalidInput, Refused
 from handeye.core.variation import WorldSpec
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
@@ -359,4 +359,4 @@ def test_each_answer_to_a_taught_program_does_what_is_said(
 
 
 def _refused(*_: object) -> None:
-    raise InvalidInput("the arm cannot go there")
+    raise Refused("the arm cannot go there")

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from handeye.cell.stepper import Stepper
+from handeye.cell.physics_stepper import PhysicsStepper
 from handeye.core.pose import Array
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.tasks.insertion.scene import CORNERS, FACE, HOLE, build
@@ -25,7 +25,7 @@ class Rig:
     """A pin in the hole without a hand, pushed by nobody or by a pencil; the arm is far away, under its brakes."""
 
     def __init__(
-        self, high: float, stepper: Callable[[mujoco.MjModel, mujoco.MjData], Stepper] = Witness
+        self, high: float, stepper: Callable[[mujoco.MjModel, mujoco.MjData], PhysicsStepper] = Witness
     ) -> None:
         """A pin with its shoulder so far over the face, m."""
         self.model = build(BenchWorld.draw(WORLD))
@@ -92,7 +92,7 @@ def test_a_pin_that_falls_is_met_before_it_is_seated_and_hits_harder_than_it_wei
 
 
 def test_a_witness_changes_nothing() -> None:
-    seen, unseen = (Rig(0.005, stepper).run(0.3) for stepper in (Witness, Stepper))
+    seen, unseen = (Rig(0.005, stepper).run(0.3) for stepper in (Witness, PhysicsStepper))
     assert seen.data.qpos.tobytes() == unseen.data.qpos.tobytes()
 
 

@@ -1,6 +1,6 @@
 """The Purbrick arm for TRIG."""
 
-from handeye.systems.trig.jobs.machine import machine
+from handeye.machines.purbrick import PURBRICK
 from handeye.systems.trig.jobs.table import BlockTable
 from handeye.systems.trig.jobs.world import BlocksWorld
 from handeye.systems.trig.language.axes_arm import AxesArm
@@ -11,4 +11,4 @@ NOMINAL = BlocksWorld()
 def purbrick(world: BlocksWorld = NOMINAL) -> tuple[AxesArm, BlockTable]:
     """An arm that is switched on, with its hand open above the middle of an empty platter."""
     table = BlockTable(world)
-    return AxesArm(machine(table.bench, world.bending), table.bench), table
+    return AxesArm(PURBRICK.on_bench(table.bench, world.bending), table.bench, PURBRICK.limits), table

@@ -11,8 +11,8 @@ from handeye.systems.trig.language.tabletop import Tabletop
 
 if TYPE_CHECKING:
     from handeye.cell.bench import Bench
-    from handeye.cell.kept import KeptCell
     from handeye.cell.photograph import Photograph
+    from handeye.cell.snapshot_cell import SnapshotCell
     from handeye.judge.finding import Findings
     from handeye.ports.axes import Axes
     from handeye.systems.trig.language.axes_arm import AxesArm
@@ -129,7 +129,7 @@ class TaughtJob(ABC):
 
     @property
     @abstractmethod
-    def cell(self) -> "KeptCell":
+    def cell(self) -> "SnapshotCell":
         """The same with the table laid for a run, to be kept, put back and judged."""
 
     @abstractmethod

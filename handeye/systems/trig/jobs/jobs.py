@@ -6,17 +6,16 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Final
 
-import numpy as np
-
-from handeye.cell.bench import Bench, BenchAxes
-from handeye.cell.kept import KeptCell
+from handeye.cell.bench import Bench
+from handeye.cell.bench_axes import BenchAxes
+from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.pose import Array, Pose
 from handeye.core.resources import plans
 from handeye.core.source import read_source
 from handeye.core.units import MILLIMETRE
 from handeye.judge.finding import Findings
+from handeye.machines.purbrick import PURBRICK
 from handeye.systems.trig.jobs.benches import JobName, Lying, Moment, TaughtJob
-from handeye.systems.trig.jobs.machine import machine
 from handeye.systems.trig.jobs.referee import judge_program
 from handeye.systems.trig.jobs.table import BlockTable
 from handeye.systems.trig.jobs.task import BUCKET, BUCKET_TASK, PALLET, lay
@@ -47,8 +46,8 @@ class _Job(TaughtJob):
     def __init__(self, script: str, world: BlocksWorld) -> None:
         self._script, self._world = script, world
         self._table, self._witness = BlockTable(world), Witness()
-        self.axes = machine(self._table.bench, world.bending)
-        self.arm = AxesArm(self.axes, self._table.bench)
+        self.axes = PURBRICK.on_bench(self._table.bench, world.bending)
+        self.arm = AxesArm(self.axes, self._table.bench, PURBRICK.limits)
         self.session = Session(arm=self.arm, table=self._table, desk=Script(()), files=False)
 
     @property
@@ -56,9 +55,8 @@ class _Job(TaughtJob):
         return self._table.bench
 
     @cached_property
-    def cell(self) -> KeptCell:
-        bench, nothing = self._table.bench, np.random.Generator(np.random.PCG64(0))
-        return KeptCell(bench.model, bench.data, (bench, self.axes, self._witness), nothing)
+    def cell(self) -> SnapshotCell:
+        return self._table.bench.cell(self._witness)
 
     def teach(self, halted: Halted) -> None:
         script = Script(self._script.splitlines(), halted=halted, slip=self._world.slip)

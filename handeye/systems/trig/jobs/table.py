@@ -9,8 +9,8 @@ from handeye.cell.bench import Bench
 from handeye.cell.photograph import Photograph, photograph
 from handeye.core.errors import Refused
 from handeye.core.pose import Pose
+from handeye.machines.purbrick import PURBRICK
 from handeye.systems.trig.jobs.benches import SeenTable
-from handeye.systems.trig.jobs.machine import scene
 from handeye.systems.trig.jobs.witness import block_poses
 from handeye.systems.trig.jobs.world import ALIGNED, STACKED, TURNED, BlocksWorld
 
@@ -33,7 +33,7 @@ class BlockTable(SeenTable):
 
     def __init__(self, world: BlocksWorld) -> None:
         self._world, self._stacks = world, 0
-        self._spec = scene()
+        self._spec = PURBRICK.scene()
         for geom in (self._spec.geom("platter"), self._spec.find_default("block").geom):
             geom.friction[0] = world.friction
         self.bench = Bench(self._spec.compile())

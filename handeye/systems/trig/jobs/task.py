@@ -12,8 +12,8 @@ from handeye.core.pose import Array
 from handeye.core.units import MILLIMETRES
 from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Finding, Findings
+from handeye.machines.purbrick import PURBRICK
 from handeye.systems.trig.jobs.benches import read_taught_plan
-from handeye.systems.trig.jobs.machine import SPECS
 from handeye.systems.trig.jobs.referee import judge_back, judge_dropped, judge_hand, judge_placed
 from handeye.systems.trig.jobs.table import BlockTable
 from handeye.systems.trig.jobs.witness import SEEN, Began, Stood, stands
@@ -44,7 +44,7 @@ class _BlocksTask(AnyTask):
 
     @property
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
-        return {spec.name: spec.kind for spec in SPECS}
+        return {spec.name: spec.kind for spec in PURBRICK.axes}
 
     def variation(self, seed: int) -> Variation:
         """Nothing: worlds of these tasks are drawn from their numbers alone (`systems/trig/jobs/world.py`)."""

@@ -11,7 +11,7 @@ from handeye.cell.mechanism import Mechanism
 from handeye.core.errors import BadFile, Refused
 from handeye.core.pose import Array, Pose, pose
 from handeye.core.record import Record
-from handeye.systems.trig.jobs.machine import SPECS
+from handeye.machines.purbrick import PURBRICK
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.program import TrigProgram
 
@@ -38,7 +38,7 @@ class Stood(Record, frozen=True, kw_only=True):
     def sound(self) -> bool:
         """It can be so."""
         rows = [*self.blocks.values()]
-        whole = len(self.hand) == len(SPECS) and all(len(row) == _ENTRIES for row in rows)
+        whole = len(self.hand) == len(PURBRICK.axes) and all(len(row) == _ENTRIES for row in rows)
         return whole and all(np.isfinite(row).all() for row in (self.hand, *rows))
 
 
@@ -69,7 +69,7 @@ class Witness(Mechanism[Began]):
     kind = Began
 
     def __init__(self) -> None:
-        self.began = Began(blocks={}, hand=(0.0,) * len(SPECS), taught={})
+        self.began = Began(blocks={}, hand=(0.0,) * len(PURBRICK.axes), taught={})
 
     def look(self, data: mujoco.MjData, names: Iterable[str], program: TrigProgram) -> None:
         """Remember how it stands now: blocks of these names, and the places of a program."""
@@ -109,4 +109,4 @@ def block_poses(data: mujoco.MjData, names: Iterable[str]) -> dict[str, Pose]:
 
 def hand(data: mujoco.MjData) -> Array:
     """The truth: where the hand is over the platter, shape (6,)."""
-    return np.array([data.joint(spec.name).qpos[0] for spec in SPECS])
+    return np.array([data.joint(spec.name).qpos[0] for spec in PURBRICK.axes])

@@ -8,37 +8,18 @@ import numpy as np
 from handeye.arm.profiles import quintic, slow_line
 from handeye.core.pose import Array
 from handeye.core.record import Record, Vector3
+from handeye.machines.arm_machine import HandlingLimits
 from handeye.ports.axes import Axes
 from handeye.ports.clock import Clock
-from handeye.systems.trig.language.obstacles import RESISTANCE, LeftBehind, Obstacle, Resisted, Unsupported
+from handeye.systems.trig.language.obstacles import LeftBehind, Obstacle, Resisted, Unsupported
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.teachable import Arrival, Halted, Teachable
 
-OPEN: Final = 0.048
-"""m between the fingers."""
-CLOSED: Final = -0.020
-"""m, as told: it never gets there, and so presses with all its force."""
-ACCELERATION: Final = (0.8, 0.8, 0.8, 10.0, 10.0, 10.0)
-"""m/s2 and rad/s2. A stack of twenty blocks of 12 mm on 30 mm tips at 1.2 m/s2."""
-GUARDED: Final = (0.015, 0.015, 0.015, 0.2, 0.2, 0.2)
-"""m/s and rad/s of a guarded move."""
-SETTLING: Final = 0.15
-"""s that the servos are given behind a move."""
-STANDING: Final = np.array([*3 * (1e-3,), *3 * (1e-2,)])
-"""m and rad that an axis may be from where it was told to be. The platter's servo is pushed so far by 100 N."""
 APPROACH: Final = 5e-3
 """m from above, straight down, to where what the hand holds is set down: a slanted way would push over a stack."""
 DEEPER: Final = 2e-3
 """m below that place within which there must be something to set it down on. Places are taught to .3 mm, so that what
 was put down may have dropped by two or three of these, and is grasped again so much higher."""
-CARRIED: Final = 0.28
-"""N, an ounce: upwards on the finger when something else carries what it holds. A block weighs as much."""
-LAG: Final = 0.03
-"""s that an axis may lag behind where it is told to be. The servos lag by .02 s."""
-HAND_SPEED: Final = 0.2
-"""m/s of the gap: told to go at once, fingers strike a block with .8 m/s."""
-GRASPING: Final = 0.2
-"""s that the hand is given behind that."""
 AGAIN: Final = 1.5
 """Times the force that a move met: so much may be met where it is undone, as on the way back of the pump. A hand that
 presses what it holds onto something feels that force vanish as it rises."""
@@ -57,14 +38,15 @@ class ArmMemory(Record, frozen=True, kw_only=True):
 
 
 class AxesArm(Teachable):
-    """Six axes, X, Y, Z, roll, pitch and yaw, and a hand, behind the port of an axes machine."""
+    """Six axes, X, Y, Z, roll, pitch and yaw, and behind them a hand, at the port of an axes machine."""
 
-    def __init__(self, axes: Axes, clock: Clock) -> None:
-        self._axes, self._clock = axes, clock
-        self._goal, self._closed, self._opening = self._where(), False, OPEN
+    def __init__(self, axes: Axes, clock: Clock, limits: HandlingLimits) -> None:
+        self._axes, self._clock, self._limits = axes, clock, limits
+        self._goal, self._closed, self._opening = self._where(), False, limits.open
         self._met_force = 0.0
-        self._speed = np.array([spec.speed for spec in axes.specs])
-        self._wait(GRASPING)
+        self._speed = np.array([spec.speed for spec in axes.specs[:-1]])
+        self._acceleration = np.array(limits.acceleration)
+        self._wait(self._limits.grasping)
 
     def here(self) -> Place:
         return Place(*map(float, self._goal))
@@ -84,15 +66,15 @@ class AxesArm(Teachable):
 
     @property
     def travel(self) -> tuple[tuple[float, float], ...]:
-        return tuple((spec.lower, spec.upper) for spec in self._axes.specs)
+        return tuple((spec.lower, spec.upper) for spec in self._axes.specs[:-1])
 
     def go(self, goal: Place, halted: Halted) -> bool:
         self.check_travel(goal)
-        way = quintic(self._goal, np.array(goal), self._speed, np.array(ACCELERATION), self._axes.period)
+        way = quintic(self._goal, np.array(goal), self._speed, self._acceleration, self._axes.period)
         before = self._force()
         self._met_force = 0.0
         arrived = self._follow(way, halted, before)
-        self._wait(SETTLING)
+        self._wait(self._limits.settling)
         self._notice(before)
         return arrived
 
@@ -102,10 +84,12 @@ class AxesArm(Teachable):
 
     def feel(self, goal: Place, vector: Vector3, threshold: float, halted: Halted) -> Arrival:
         self.check_travel(goal)
-        self._wait(SETTLING)
+        self._wait(self._limits.settling)
         tare = self._tared()
         force = self._met_force = 0.0
-        for q in slow_line(self._goal, np.array(goal), np.array(GUARDED), self._axes.period):
+        for q in slow_line(
+            self._goal, np.array(goal), np.array(self._limits.guarded_speed), self._axes.period
+        ):
             force = float(np.dot(vector, self._force() - tare))
             self._notice(tare)
             if force > threshold or halted():
@@ -116,17 +100,17 @@ class AxesArm(Teachable):
 
     def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
         self.check_travel(goal)
-        tare, limit = self._tared(), max(RESISTANCE, AGAIN * met)
-        for q in quintic(self._goal, np.array(goal), self._speed, np.array(ACCELERATION), self._axes.period):
+        tare, limit = self._tared(), max(self._limits.resistance, AGAIN * met)
+        for q in quintic(self._goal, np.array(goal), self._speed, self._acceleration, self._axes.period):
             if halted():
-                self._wait(SETTLING)
+                self._wait(self._limits.settling)
                 return "halted"
             speed = (q - self._goal) / self._axes.period
             self._put(q)
             obstacle = self._obstacle(tare, speed, limit)
             if obstacle is not None:
                 return obstacle
-        self._wait(SETTLING)
+        self._wait(self._limits.settling)
         return self._obstacle(tare, np.zeros(len(self._goal)), limit)
 
     def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
@@ -135,33 +119,35 @@ class AxesArm(Teachable):
             return stop
         tare = self._tared()
         lowest = self.within_travel(goal._replace(z=goal.z - DEEPER))
-        for q in slow_line(self._goal, np.array(lowest), np.array(GUARDED), self._axes.period):
+        for q in slow_line(
+            self._goal, np.array(lowest), np.array(self._limits.guarded_speed), self._axes.period
+        ):
             if halted():
                 self._stand()
                 return "halted"
             speed = (q - self._goal) / self._axes.period
             self._put(q)
-            if (self._force() - tare)[2] > CARRIED:
+            if (self._force() - tare)[2] > self._limits.carried:
                 self._stand()
                 return None
-            obstacle = self._obstacle(tare, speed)
+            obstacle = self._obstacle(tare, speed, self._limits.resistance)
             if obstacle is not None:
                 return obstacle
         return Unsupported()
 
     @property
     def gap(self) -> float:
-        return self._axes.read().channels["gap"]
+        return float(self._axes.read().q[-1])
 
     def hand(self, closed: bool) -> None:
         self._closed = closed
-        way = np.array([self._opening]), np.array([CLOSED if closed else OPEN])
-        for opening in slow_line(*way, np.array([HAND_SPEED]), self._axes.period):
+        way = np.array([self._opening]), np.array([self._limits.closed if closed else self._limits.open])
+        for opening in slow_line(*way, np.array([self._axes.specs[-1].speed]), self._axes.period):
             self._opening = float(opening[0])
             self._put(self._goal)
-        self._wait(GRASPING)
+        self._wait(self._limits.grasping)
 
-    def _obstacle(self, tare: Array, speed: Array, limit: float = RESISTANCE) -> Obstacle | None:
+    def _obstacle(self, tare: Array, speed: Array, limit: float) -> Obstacle | None:
         """What stops the arm, which then stands still: a force on the finger, or an axis that is left behind.
 
         Args:
@@ -177,20 +163,20 @@ class AxesArm(Teachable):
     def _stand(self) -> None:
         """Stand still where the axes are by now, and not where they were told to be."""
         self._goal = self._where()
-        self._wait(SETTLING)
+        self._wait(self._limits.settling)
 
     def _where(self) -> Array:
         """Where the axes are, within their travel: at its ends, potentiometers may tell a little more."""
         lower, upper = np.transpose(self.travel)
-        return np.clip(self._axes.read().q, lower, upper)
+        return np.clip(self._axes.read().q[:-1], lower, upper)
 
     def _resistance(self, tare: Array, limit: float) -> Resisted | None:
         force = float(np.linalg.norm(self._force() - tare))
         return Resisted(force=round(force, 6), limit=round(limit, 6)) if force > limit else None
 
     def _left_behind(self, speed: Array) -> LeftBehind | None:
-        off = np.abs(self._goal - self._axes.read().q)
-        limits = STANDING + LAG * np.abs(speed)
+        off = np.abs(self._goal - self._axes.read().q[:-1])
+        limits = np.array(self._limits.standing) + self._limits.lag * np.abs(speed)
         axis = int(np.argmax(off / limits))
         if off[axis] <= limits[axis]:
             return None
@@ -210,7 +196,7 @@ class AxesArm(Teachable):
 
     def _put(self, q: Array) -> None:
         self._goal = q
-        self._axes.put(q, self._opening)
+        self._axes.put(np.append(q, self._opening))
         self._clock.advance(self._axes.period)
 
     def _wait(self, seconds: float) -> None:

@@ -4,17 +4,10 @@ Going back, an arm takes the world for what it was. It may be another one by now
 taken it away. So every step is undone under guards, and the first that trips ends it.
 """
 
-from typing import Final
-
 from handeye.core.plain_text import told_apart
 from handeye.core.record import Record
 from handeye.core.units import MILLIMETRE
 from handeye.systems.trig.language.place import AXES, SIZES, UNITS
-
-RESISTANCE: Final = 3.0
-"""N on the finger, since the step began to be undone. Measured: at most 1.8 on the way back of a palletiser of four
-blocks, where closed fingers come back to the stack; 5.8 and more where a block was pressed a third of a millimetre too
-deep on it."""
 
 
 class Resisted(Record, frozen=True, kw_only=True, tag="resisted"):

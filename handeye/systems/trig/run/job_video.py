@@ -73,7 +73,7 @@ class JobVideo:
                 words = active.name or active.position or active.type
                 self._moments.append(_Moment(bench.now, bench.data.qpos.copy(), words))
 
-        bench.passed.append(look)
+        bench.after_period.append(look)
 
     def write(self, job: TaughtJob, ended: float | None, told: Callable[[int, int], None]) -> None:
         """Draw what was seen, and write it, whole or not at all.

@@ -1,13 +1,14 @@
 """The system of taught programs: TRIG, at the arm of a bench."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
-from handeye.cell.kept import KeptCell
-from handeye.core.errors import BadFile, InvalidInput, Refused
+from handeye.cell.snapshot_cell import SnapshotCell
+from handeye.core.errors import BadFile, Refused
 from handeye.core.mutable_records import put_back
 from handeye.core.pose import Array
 from handeye.core.record import Vector3
@@ -18,8 +19,9 @@ from handeye.execution.servo import Halted
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.undo.done import Undoing
 from handeye.judge.finding import Findings
+from handeye.machines.purbrick import PURBRICK
 from handeye.planfile.store import written_digest
-from handeye.ports.workcell import Sensed
+from handeye.ports.workcell import sense_axes
 from handeye.program.events import (
     AnyEvent,
     Choice,
@@ -53,8 +55,6 @@ from handeye.systems.trig.language.script import Script
 from handeye.systems.trig.run.plan import TaughtStep, decode, encode, imagined, listing, text_now
 from handeye.systems.trig.run.state import Executed, TaughtState, Turn
 
-ARM: Final = "purbrick"
-
 
 class RunningJob(RunningSystem):
     """Teaches a program in the world of a run, and carries it out."""
@@ -72,7 +72,7 @@ class RunningJob(RunningSystem):
         self.job: TaughtJob = open_job(self._plan.job, setup.world.seed, self._plan.script)
         self._state = TaughtState(at=0)
         self._laid = False
-        self._q = self.job.axes.read().q
+        self._sensed = sense_axes([self.job.axes])
         self._rest, self._felt = np.zeros(3), 0.0
 
     @property
@@ -80,7 +80,7 @@ class RunningJob(RunningSystem):
         return self._state
 
     @property
-    def cell(self) -> KeptCell:
+    def cell(self) -> SnapshotCell:
         if not self._laid:
             self.job.lay()
             self.job.session.program = imagined(self._plan)
@@ -89,7 +89,7 @@ class RunningJob(RunningSystem):
 
     @property
     def joints(self) -> tuple[str, ...]:
-        return tuple(spec.name for spec in self.job.axes.specs)
+        return tuple(spec.name for spec in PURBRICK.axes)
 
     @property
     def time(self) -> float:
@@ -118,7 +118,7 @@ class RunningJob(RunningSystem):
                 program=self._plan.job,
                 steps=len(self._steps),
                 plan=written_digest(encode(self._plan)),
-                arm=ARM,
+                arm=PURBRICK.name,
                 arm_digest="",
                 world=self._setup.world,
                 task=self._setup.task,
@@ -162,7 +162,7 @@ class RunningJob(RunningSystem):
         """Carry out a step and what nobody sees behind it; why the arm refuses to, if it does."""
         try:
             next = self.job.session.runner.carry_out(step.node, self._state.came)
-        except InvalidInput as error:  # by the arm: it cannot go where the step wants it
+        except Refused as error:  # it cannot go where the step wants it
             return str(error)
         if next is None:
             raise Halted
@@ -201,7 +201,7 @@ class RunningJob(RunningSystem):
         """Have the last step undone; why the arm has stopped, if it has."""
         try:
             ran = job.session.runner.back(1)
-        except InvalidInput as error:  # by the arm: it cannot go back to where it was
+        except Refused as error:  # it cannot go back to where it was
             return str(error)
         if ran.end == "halted":
             raise Halted
@@ -296,7 +296,7 @@ class RunningJob(RunningSystem):
         assert state.arm is not None
         self.job.arm.remember(state.arm)
         session.desk = Script((), halted=self._around.halt)
-        self._q = self.job.axes.read().q
+        self._sensed = sense_axes([self.job.axes])
 
     @property
     def shown(self) -> Mapping[str, Any]:
@@ -338,24 +338,20 @@ class RunningJob(RunningSystem):
     def _force(self) -> Array:
         """The force on the finger, shape (3,), N."""
         channels = self.job.axes.read().channels
-        return np.array([channels[f"force_{axis}"] for axis in "xyz"])
+        return np.array([channels[part] for part in PURBRICK.force.parts])
 
     def _look_on(self) -> None:
         """From now on tell of every period of the machine."""
         self._laid = True
-        self._q = self.job.axes.read().q
-        self.job.bench.passed.append(self._tell)
+        self._sensed = sense_axes([self.job.axes])
+        self.job.bench.after_period.append(self._tell)
 
     def _tell(self) -> None:
-        axes = self.job.axes
-        reading = axes.read()
-        rate, self._q = (reading.q - self._q) / axes.period, reading.q
+        self._sensed = sensed = sense_axes([self.job.axes], self._sensed)
+        *_, gap = sensed.q
+        arm = replace(sensed, q=sensed.q[:-1], qd=sensed.qd[:-1], gap=float(gap))
         self._felt = max(self._felt, float(np.linalg.norm(self._force() - self._rest)))
-        sensed = Sensed(
-            time=reading.time, q=reading.q, qd=rate, gap=reading.channels["gap"], touch=(False, False),
-            tool_torque=0.0, braked=False,
-        )  # fmt: skip
-        self._around.watch(ServoPeriod(sensed=sensed, effort=np.zeros(len(rate)), wrench=-self._force()))
+        self._around.watch(ServoPeriod(sensed=arm, effort=np.zeros(len(arm.q)), wrench=-self._force()))
 
 
 def plan_of(setup: Setup) -> TaughtPlan:
@@ -401,7 +397,7 @@ class TaughtSystem(System):
         return RunningJob(setup, around)
 
     def machine(self, plan: TaughtPlan) -> tuple[str, str]:
-        return ARM, ""
+        return PURBRICK.name, ""
 
     def check(self, setup: Setup) -> None:
         super().check(setup)

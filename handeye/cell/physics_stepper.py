@@ -8,12 +8,27 @@ of a joint are constraints, too: a joint that friction holds creeps at up to 9e-
 from typing import Final
 
 import mujoco
+import numpy as np
+
+from handeye.core.errors import PhysicsFailed
 
 LONGER: Final = 4
 """Short steps in a long one. Chosen: a servo period has a whole number of long ones, and friction holds."""
 
 
-class Stepper:
+def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
+    """Raise PhysicsFailed if the simulator has warned, or something moves faster (m/s, rad/s) than anything can."""
+    warnings = data.warning.number
+    if warnings.any():
+        name = mujoco.mjtWarning(int(np.argmax(warnings != 0))).name
+        raise PhysicsFailed(f"the simulated cell broke down ({name})")
+    if not np.abs(data.qvel).max(initial=0.0) < fastest:  # nor is what is not a number
+        raise PhysicsFailed(
+            f"the simulated cell broke down (something moves faster than {fastest:g} m/s or rad/s)"
+        )
+
+
+class PhysicsStepper:
     """Lets the physics of a cell go on.
 
     A long step in which anything comes into contact is taken back, and short ones are made instead, from the last

@@ -17,7 +17,7 @@ INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 """MuJoCo's integration state: enough to continue from a state."""
 
 
-class KeptCell:
+class SnapshotCell:
     """All that a run needs of a cell, whatever works in it: to keep it, to put it back, and to look at it."""
 
     def __init__(

@@ -1,0 +1,278 @@
+"""Machines of a bench: joints and tendons with servos of their own, what they sense, and what they switch."""
+
+from collections.abc import Callable, Mapping, Sequence
+
+import mujoco
+import numpy as np
+
+from handeye.cell.bench import Bench
+from handeye.cell.mechanism import Mechanism
+from handeye.cell.sleep import allow, wake
+from handeye.core.errors import BadArgument, BadFile, NoSuchName, Refused
+from handeye.core.pose import Array
+from handeye.core.record import Record
+from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel
+from handeye.ports.clock import whole_steps
+from handeye.ports.outputs import Outputs
+
+Sense = Callable[[mujoco.MjModel, mujoco.MjData], Sequence[float] | Array]
+"""What a channel shows of a scene: as many numbers as it has components."""
+
+
+def sensor(name: str) -> Sense:
+    """The values of a sensor of the scene."""
+    return lambda _, data: np.asarray(data.sensor(name).data)
+
+
+def switch(name: str, above: float = 0.0) -> Sense:
+    """A switch: 1 while the sensor of a name shows more than a threshold, else 0."""
+    return lambda _, data: (float(data.sensor(name).data[0] > above),)
+
+
+class AxesState(Record, frozen=True, kw_only=True):
+    """State of the controller of a machine of n axes."""
+
+    goal: tuple[float, ...]
+    """Where its servos are to be at the end of the period, m and rad, n numbers."""
+    way: tuple[float, ...]
+    """How far they go in a physics step, n numbers."""
+    left: int
+    """Physics steps of the period that are left."""
+    powered: bool = True
+    latched: dict[str, tuple[float, ...]]
+    """Values of the latched channels that have differed from zero since they were cleared."""
+
+
+class BenchAxes(Axes, Mechanism[AxesState]):
+    """One machine of a bench: joints or tendons with position servos of the same names, and channels."""
+
+    kind = AxesState
+    changes = ("actuator_gainprm", "actuator_biasprm", "tree_sleep_policy")
+
+    def __init__(
+        self,
+        bench: Bench,
+        specs: Sequence[AxisSpec],
+        *,
+        period: float,
+        name: str = "axes",
+        channels: Mapping[Channel, Sense] | None = None,
+        at_once: Sequence[str] = (),
+        bent: Callable[[Array], Array] = np.zeros_like,
+    ) -> None:
+        """Take joints of a scene for a machine, and add it to the bench.
+
+        Args:
+            specs: its axes, by the names of joints and servos; where only the servo is there, it works a tendon.
+            period: s between two goals.
+            channels: what it senses, and how.
+            at_once: axes whose servos are given a goal at once, not bit by bit in the course of the period.
+            bent: how far axes are from where their potentiometers show them to be, by what these show, shape (n,).
+        """
+        self.name, self._bench, self._specs, self._period = name, bench, tuple(specs), period
+        self._senses, self._bent = channels or {}, bent
+        self._holds = np.array([spec.holds for spec in specs])
+        self._gradual = np.array([spec.name not in at_once for spec in specs])
+        self._powered, self._latched = True, dict[str, tuple[float, ...]]()
+        self._steps, self._left = whole_steps(period, float(bench.step)), 0
+        self._way = np.zeros(len(specs))
+        self.bind(bench.model, bench.data)
+        q = self.read().q
+        self._goal = q + self._bent(q)
+        bench.add(self)
+        bench.before_step.append(self._interpolate)
+        if any(channel.latched for channel in self._senses):
+            bench.after_step.append(self._latch)
+
+    def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Find its joints and servos in a scene."""
+        self._servos = np.array([model.actuator(spec.name).id for spec in self._specs], dtype=int)
+        joints = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, spec.name) for spec in self._specs]
+        self._jointed = np.array([joint >= 0 for joint in joints], dtype=bool)
+        self._qpos = model.jnt_qposadr[[joint for joint in joints if joint >= 0]]
+        for servo, spec in zip(self._servos, self._specs, strict=True):
+            if spec.force is not None:
+                model.actuator_forcelimited[servo] = True
+                model.actuator_forcerange[servo] = (-spec.force, spec.force)
+        self._gains = model.actuator_gainprm[self._servos].copy(), model.actuator_biasprm[self._servos].copy()
+        self._sleeps = bool(model.opt.enableflags & int(mujoco.mjtEnableBit.mjENBL_SLEEP))
+        self._dofs = [int(model.jnt_dofadr[joint]) for joint in self._moved_joints(model)]
+        self._allow_sleep(allowed=True)
+        if not self._powered:
+            self._switch(on=False)
+
+    def _moved_joints(self, model: mujoco.MjModel) -> list[int]:
+        """Joints that its servos work, directly or by tendons."""
+        found: list[int] = []
+        for servo in self._servos:
+            target = int(model.actuator_trnid[servo, 0])
+            if model.actuator_trntype[servo] == int(mujoco.mjtTrn.mjTRN_TENDON):
+                start, count = int(model.tendon_adr[target]), int(model.tendon_num[target])
+                wraps = range(start, start + count)
+                found += [
+                    int(model.wrap_objid[w])
+                    for w in wraps
+                    if model.wrap_type[w] == mujoco.mjtWrap.mjWRAP_JOINT
+                ]
+            else:
+                found.append(target)
+        return found
+
+    @property
+    def specs(self) -> tuple[AxisSpec, ...]:
+        return self._specs
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        return tuple(self._senses)
+
+    @property
+    def period(self) -> float:
+        return self._period
+
+    def read(self) -> AxesReading:
+        q = self._true()
+        felt: dict[str, float] = {}
+        for channel in self._senses:
+            values = self._latched.get(channel.name) or self._sensed(channel)
+            felt.update(zip(channel.parts, values, strict=True))
+        told = q - self._bent(q)  # bends are so gentle that this is exact to a hundredth of them
+        return AxesReading(time=self._bench.now, q=told, channels=felt)
+
+    def _sensed(self, channel: Channel) -> tuple[float, ...]:
+        return tuple(map(float, self._senses[channel](self._bench.model, self._bench.data)))
+
+    def _true(self) -> Array:
+        """Where its axes are, shape (n,)."""
+        data = self._bench.data
+        q = data.actuator_length[self._servos].copy()
+        q[self._jointed] = data.qpos[self._qpos]
+        return np.asarray(q)
+
+    def put(self, goal: Array) -> None:
+        if not np.isfinite(goal).all():
+            raise BadArgument("a goal of an axis is not a finite number")
+        if not self._powered:
+            raise Refused(f"the power of {self.name} is off")
+        here = self._set_point
+        self._goal, self._left = goal + self._bent(goal), self._steps
+        self._way = np.where(self._gradual, (self._goal - here) / self._steps, 0.0)
+        self._allow_sleep(allowed=bool((self._goal == here).all()))
+
+    def power(self, on: bool) -> None:
+        if on == self._powered:
+            return
+        self._powered = on
+        self._goal, self._way, self._left = self._true(), np.zeros(len(self._specs)), 0
+        self._switch(on=on)
+        self._bench.data.ctrl[self._servos] = self._goal
+        self._allow_sleep(allowed=False)
+
+    def clear(self, channel: str) -> None:
+        if not any(each.name == channel and each.latched for each in self._senses):
+            super().clear(channel)
+        self._latched.pop(channel, None)
+
+    # -- as time passes -------------------------------------------------------------------------------
+
+    def _interpolate(self) -> None:
+        """Go on towards the goal, evenly for a period: goals that jump shake what lies on the axes.
+
+        Measured: a platter's acceleration had peaks of 10.8 m/s2 on ways planned with 1, which drew blocks along.
+        """
+        if self._left:
+            self._left -= 1
+            self._bench.data.ctrl[self._servos] = self._set_point
+            if not self._left:
+                self._allow_sleep(allowed=True)
+
+    @property
+    def _set_point(self) -> Array:
+        """Set-points of the servos now, shape (n,)."""
+        return self._goal - self._left * self._way
+
+    def _latch(self) -> None:
+        for channel in self._senses:
+            if channel.latched and channel.name not in self._latched:
+                values = self._sensed(channel)
+                if any(values):
+                    self._latched[channel.name] = values
+
+    def _switch(self, *, on: bool) -> None:
+        """Give the servos their gains, or those that do not hold none."""
+        model, slack = self._bench.model, self._servos[~self._holds]
+        gain, bias = (gains[~self._holds] if on else 0.0 for gains in self._gains)
+        model.actuator_gainprm[slack], model.actuator_biasprm[slack] = gain, bias
+
+    def _allow_sleep(self, *, allowed: bool) -> None:
+        """Let its bodies sleep when they stand still, or keep them awake."""
+        if not self._sleeps:
+            return
+        for dof in self._dofs:
+            allow(self._bench.model, int(self._bench.model.dof_treeid[dof]), allowed=allowed)
+            if not allowed:
+                wake(self._bench.data, dof)
+
+    # -- state ----------------------------------------------------------------------------------------
+
+    def state(self) -> AxesState:
+        goal, way = tuple(self._goal.tolist()), tuple(self._way.tolist())
+        return AxesState(
+            goal=goal, way=way, left=self._left, powered=self._powered, latched=dict(self._latched)
+        )
+
+    def check(self, state: AxesState) -> None:
+        if not len(state.goal) == len(state.way) == len(self._specs) or not 0 <= state.left <= self._steps:
+            raise BadFile("its machine has other axes")
+        if not np.isfinite((*state.goal, *state.way)).all():
+            raise BadFile("a goal of its machine is not a finite number")
+        widths = {channel.name: channel.width for channel in self._senses if channel.latched}
+        if any(widths.get(name) != len(values) for name, values in state.latched.items()):
+            raise BadFile("its machine has other channels")
+
+    def restore(self, state: AxesState) -> None:
+        self._goal, self._way, self._left = np.array(state.goal), np.array(state.way), state.left
+        self._powered, self._latched = state.powered, dict(state.latched)
+
+
+class OutputsState(Record, frozen=True, kw_only=True):
+    """State of outputs."""
+
+    values: dict[str, float]
+
+
+class BenchOutputs(Outputs, Mechanism[OutputsState]):
+    """Outputs of a machine of a bench: each is 0 until it is set."""
+
+    kind = OutputsState
+
+    def __init__(self, bench: Bench, name: str, outputs: Mapping[str, Callable[[float], None]]) -> None:
+        """Outputs by their names, with what is done as time passes about the value that each is set to."""
+        self.name, self._outputs = name, outputs
+        self._values = dict.fromkeys(outputs, 0.0)
+        bench.add(self)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(self._outputs)
+
+    def set(self, name: str, value: float) -> None:
+        if name not in self._outputs:
+            raise NoSuchName(f"there is no output {name}; there are {', '.join(self._outputs)}")
+        if not np.isfinite(value):
+            raise BadArgument(f"the output {name} is set to what is not a finite number")
+        self._values[name] = float(value)
+
+    def before(self, seconds: float) -> None:
+        for name, act in self._outputs.items():
+            act(self._values[name])
+
+    def state(self) -> OutputsState:
+        return OutputsState(values=dict(self._values))
+
+    def check(self, state: OutputsState) -> None:
+        if {*state.values} != {*self._outputs} or not np.isfinite([*state.values.values()]).all():
+            raise BadFile("its outputs are those of another machine")
+
+    def restore(self, state: OutputsState) -> None:
+        self._values = dict(state.values)

@@ -1,0 +1,90 @@
+"""An arm with axes and a hand as a value: what its manual says, and how it is put on a bench."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from handeye.core.pose import Array
+from handeye.core.resources import scenes
+from handeye.ports.axes import AxisSpec, Channel
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.bench import Bench
+    from handeye.cell.bench_axes import BenchAxes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HandlingLimits:
+    """How fast an arm may move what it holds, and what its finger may feel. Tuples have a number for each axis."""
+
+    acceleration: tuple[float, ...]
+    """m/s2 and rad/s2."""
+    guarded_speed: tuple[float, ...]
+    """m/s and rad/s of a guarded move."""
+    settling: float
+    """s that the servos are given behind a move."""
+    standing: tuple[float, ...]
+    """m and rad that an axis may be from its goal while it stands."""
+    lag: float
+    """s that an axis may lag behind its goal while it moves."""
+    open: float
+    """m between the fingers, as `closed`: the goals of an open and of a closed hand."""
+    closed: float
+    grasping: float
+    """s that the hand is given behind its goal."""
+    carried: float
+    """N upwards on the finger when something else carries what it holds."""
+    resistance: float
+    """N on the finger that are an obstacle on a way back."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArmMachine:
+    """An arm with axes, a hand, and a finger that feels force."""
+
+    name: str
+    scene_file: str
+    """Its scene, below the folder of scenes."""
+    period: float
+    """s between two goals that its controller takes."""
+    axes: tuple[AxisSpec, ...]
+    hand: AxisSpec
+    force: Channel
+    """Force that the finger exerts, N, shape (3,)."""
+    force_sensor: str
+    """The sensor of the scene that shows it."""
+    limits: HandlingLimits
+
+    @property
+    def specs(self) -> tuple[AxisSpec, ...]:
+        """Its axes, with the hand as the last one."""
+        return (*self.axes, self.hand)
+
+    def scene(self) -> mujoco.MjSpec:
+        """The scene with the arm, and nothing for it to work on."""
+        import mujoco
+
+        return mujoco.MjSpec.from_file(str(scenes() / self.scene_file))
+
+    def on_bench(self, bench: Bench, bent: Callable[[Array], Array] = np.zeros_like) -> BenchAxes:
+        """The arm in the scene of a bench.
+
+        Args:
+            bent: how far its axes are from where their potentiometers show them to be, by what these show, without
+                the hand.
+        """
+        from handeye.cell.bench_axes import BenchAxes, sensor
+
+        def bent_axes(q: Array) -> Array:
+            return np.append(bent(q[:-1]), 0.0)
+
+        return BenchAxes(
+            bench, self.specs, period=self.period, name=self.name,
+            channels={self.force: sensor(self.force_sensor)}, at_once=[self.hand.name], bent=bent_axes,
+        )  # fmt: skip

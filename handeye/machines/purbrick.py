@@ -1,0 +1,45 @@
+"""The Purbrick arm as its machine's manual would describe it, and as the scene has it.
+
+The paper tells of six axes, of which the platter has two, of two fingers, and of a force sensor in one of them. It
+gives no figures: all of them are chosen or measured, and said to be in scenes/purbrick_arm/README.md.
+"""
+
+import math
+from typing import Final
+
+from handeye.machines.arm_machine import ArmMachine, HandlingLimits
+from handeye.ports.axes import AxisSpec, Channel
+
+_TURN: Final = math.radians(170)
+
+PURBRICK: Final = ArmMachine(
+    name="purbrick",
+    scene_file="purbrick_arm/purbrick.xml",
+    period=0.01,
+    axes=(  # values of X and Y are those of the hand over the platter
+        AxisSpec(name="x", kind="prismatic", lower=-0.2, upper=0.2, speed=0.2),
+        AxisSpec(name="y", kind="prismatic", lower=-0.2, upper=0.2, speed=0.2),
+        AxisSpec(name="z", kind="prismatic", lower=0.0, upper=0.3, speed=0.2),
+        AxisSpec(name="roll", kind="revolute", lower=-_TURN, upper=_TURN, speed=1.0),
+        AxisSpec(name="pitch", kind="revolute", lower=-_TURN, upper=_TURN, speed=1.0),
+        AxisSpec(name="yaw", kind="revolute", lower=-_TURN, upper=_TURN, speed=1.0),
+    ),
+    # told to go at once, fingers strike a block with .8 m/s
+    hand=AxisSpec(name="hand", kind="prismatic", lower=0.0, upper=0.048, speed=0.2, force=30.0),
+    force=Channel(name="force", unit="N", width=3),
+    force_sensor="strain",
+    limits=HandlingLimits(
+        acceleration=(0.8, 0.8, 0.8, 10.0, 10.0, 10.0),  # a stack of 20 blocks on 30 mm tips at 1.2 m/s2
+        guarded_speed=(0.015, 0.015, 0.015, 0.2, 0.2, 0.2),
+        settling=0.15,
+        standing=(*3 * (1e-3,), *3 * (1e-2,)),  # the platter's servo is pushed so far by 100 N
+        lag=0.03,  # the servos lag by .02 s
+        open=0.048,
+        closed=-0.020,  # it never gets there, and so presses with all its force
+        grasping=0.2,
+        carried=0.28,  # an ounce: a block weighs as much
+        # Measured: at most 1.8 on the way back of a palletiser of four blocks, where closed fingers come back to the
+        # stack; 5.8 and more where a block was pressed a third of a millimetre too deep on it.
+        resistance=3.0,
+    ),
+)
