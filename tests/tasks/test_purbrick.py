@@ -6,7 +6,7 @@ import pytest
 
 from handeye.cell.bench import Bench
 from handeye.core.errors import InvalidInput
-from handeye.machines import machine
+from handeye.machines import find_machine
 from handeye.machines.purbrick import PURBRICK
 from handeye.ports.axes import AxisSpec
 from handeye.systems.trig.jobs.bench import NOMINAL, purbrick
@@ -71,7 +71,7 @@ def test_a_bench_keeps_time_in_whole_steps(bench: Bench) -> None:
 
 
 def test_the_axes_go_where_they_are_told(bench: Bench) -> None:
-    axes = machine("purbrick").on_bench(bench)
+    axes = find_machine("purbrick").on_bench(bench)
     goal = np.array([0.01, -0.02, 0.1, 0.1, 0.0, -0.1, PURBRICK.limits.open])
     axes.put(goal)
     bench.advance(1.0)
