@@ -69,14 +69,6 @@ class FrictionUnknown(HandeyeError):
     """The arm did not move as it must for its friction to be measured, or has links of a weight that cannot be."""
 
 
-class Refused(InvalidInput):
-    """What is asked for is understood, but this machine, system or state does not do it."""
-
-
-class PhysicsFailed(HandeyeError):
-    """The simulation of a work cell broke down; not an event of its work."""
-
-
 JOINT_LIMIT: Final = 1
 NOTHING_HELD: Final = 2
 NO_SOLUTION: Final = 3

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Final
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName
 from handeye.machines.arm_machine import ArmMachine
 from handeye.machines.purbrick import PURBRICK
 
@@ -15,7 +15,7 @@ MACHINES: Final[Mapping[str, ArmMachine]] = {machine.name: machine for machine i
 
 
 def find_machine(name: str) -> ArmMachine:
-    """The machine of a name; raises InvalidInput if there is none."""
+    """The machine of a name; raises NoSuchName if there is none."""
     if name not in MACHINES:
-        raise InvalidInput(f"there is no machine {quoted(name)}; there are {', '.join(MACHINES)}")
+        raise NoSuchName(f"there is no machine {quoted(name)}; there are {', '.join(MACHINES)}")
     return MACHINES[name]

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from handeye.core.errors import InvalidInput, Refused
+from handeye.core.errors import NoSuchName, Refused
 from handeye.core.pose import Array
 from handeye.core.record import Record
 
@@ -107,4 +107,4 @@ class Axes(ABC):
         Raises:
             InvalidInput: it has no such channel, or it is not latched.
         """
-        raise InvalidInput(f"{self.name} has no latched channel {channel}")
+        raise NoSuchName(f"{self.name} has no latched channel {channel}")
