@@ -21,7 +21,9 @@ OWN: Final = ("handeye.systems.stanford:ENTRY", "handeye.systems.trig:ENTRY")
 PLANNED: Final = "program"
 """The system that carries out plans of motions, which is meant where none is named."""
 
-Capability = Literal["plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format"]
+Capability = Literal[
+    "plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format", "console"
+]
 VERBS: Final[Mapping[Capability, str]] = {
     "plans": "follow a plan of motions",
     "undo": "undo what it did",
@@ -32,6 +34,7 @@ VERBS: Final[Mapping[Capability, str]] = {
     "video": "make a film of its run",
     "chaos": "be broken off by chance",
     "format": "format its scripts",
+    "console": "take lines that are typed",
 }
 """What a system may be asked for, as it stands behind `cannot`."""
 

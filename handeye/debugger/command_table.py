@@ -38,8 +38,9 @@ def find(line: str) -> tuple[StepperCommand, str]:
 def commands_of(runner: Runner) -> tuple[StepperCommand, ...]:
     """The commands that do something in a run, with what they do there."""
     words = runner.kind.words
+    without = (*words.without, *(() if "console" in runner.kind.entry.can else ("type",)))
     return tuple(
-        replace(c, help=words.commands.get(c.usage, c.help)) for c in COMMANDS if c.name not in words.without
+        replace(c, help=words.commands.get(c.usage, c.help)) for c in COMMANDS if c.name not in without
     )
 
 
@@ -133,6 +134,10 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     Command(
         usage="set position NAME x y z [o a t]", group=_TRYING, act=acts.experiment,
         help="set a position, in the frame that `show positions` shows",
+    ),
+    Command(
+        usage="type TASK TEXT", group=_TRYING, act=acts.type_line,
+        help="type a line at the console of a task",
     ),
     Command(
         usage="proceed", group=_CALLED, act=acts.answer("proceed"), help="continue after the step that called"

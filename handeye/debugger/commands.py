@@ -188,6 +188,13 @@ def experiment(hands: DebugSession, rest: str) -> CommandResult:
     return CommandResult()
 
 
+def type_line(hands: DebugSession, rest: str) -> CommandResult:
+    """Type a line at the console of a task."""
+    task, _, text = rest.partition(" ")
+    hands.runner.type_line(text, task)
+    return CommandResult(source=hands.source())
+
+
 def answer(choice: Choice) -> Callable[[DebugSession, str], CommandResult]:
     """Answer for the operator."""
 

@@ -20,6 +20,7 @@ from handeye.debugger.view_records import (
     PositionView,
     SearchView,
     Shown,
+    TaskView,
 )
 from handeye.results.pauses import pause_sentence, stop_name
 
@@ -152,6 +153,15 @@ def _picture(picture: PictureShown) -> list[str]:
     return [picture.name if picture.file is None else f"{picture.name}, in {picture.file}"]
 
 
+def _tasks(tasks: tuple[TaskView, ...]) -> list[str]:
+    width = max(len(each.task) for each in tasks)
+    return [
+        f"{each.task:{width}}  {line_name(each.line, each.file):>5}  {each.text}"
+        + (f", waits for {each.waits_for}" if each.waits_for else "")
+        for each in tasks
+    ]
+
+
 def _positions(positions: dict[str, PositionView]) -> list[str]:
     width = max(map(len, positions))
     lines = []
@@ -179,6 +189,7 @@ _TITLES: Final[dict[str, tuple[str, Callable[[Any], list[str]]]]] = {
     "parts": ("parts", _parts),
     "picture": ("picture", _picture),
     "positions": ("positions", _positions),
+    "tasks": ("tasks", _tasks),
     "state": ("state", lambda state: [f"{name} {value}" for name, value in state.items()]),
 }
 """Of each field: its title, and how to tell it."""

@@ -1,9 +1,12 @@
 """The program to look at: its stages and steps, its labels, and the source around a line."""
 
+from collections.abc import Sequence
+
 from handeye.core.plain_text import counted, one_line, printable
 from handeye.core.record import Record
 from handeye.core.source import Source, line_name
 from handeye.debugger.source_places import text_of
+from handeye.debugger.view_records import TaskView
 from handeye.runs.system import Listing
 
 
@@ -37,6 +40,8 @@ class SourceLine(Record, frozen=True, kw_only=True, omit_defaults=True):
     text: str
     here: bool
     """The run stands at it."""
+    tasks: tuple[str, ...] = ()
+    """Tasks that stand at it, of a system that has several."""
 
 
 def listing(program: Listing) -> tuple[ListedStage, ...]:
@@ -73,25 +78,43 @@ def listing_text(program: Listing) -> list[str]:
 
 
 def excerpt(
-    program: Listing, line: int, here: int | None, around: int, file: str = ""
+    program: Listing,
+    line: int,
+    here: int | None,
+    around: int,
+    file: str = "",
+    tasks: Sequence[TaskView] = (),
 ) -> tuple[SourceLine, ...]:
-    """The source, or a required file, from `around` lines before `line` to as many after it; `here` is marked."""
+    """The source, or a required file, from `around` lines before `line` to as many after it.
+
+    `here` is marked, and the lines at which the tasks stand.
+    """
+    standing: dict[int, list[str]] = {}
+    for each in tasks:
+        if each.file == file:
+            standing.setdefault(each.line, []).append(each.task)
     text = text_of(program, file).removesuffix("\n")
     source, last = Source(name=program.name, text=text), text.count("\n") + 1
     return tuple(
         SourceLine(
-            file=file, line=number, text=printable(source.line(number).expandtabs()), here=number == here
+            file=file,
+            line=number,
+            text=printable(source.line(number).expandtabs()),
+            here=number == here,
+            tasks=tuple(standing.get(number, ())),
         )
         for number in range(max(1, line - around), min(last, line + around) + 1)
     )
 
 
 def excerpt_lines(lines: tuple[SourceLine, ...], mark: str = "→") -> list[str]:
-    """An excerpt as lines of text, `mark` before the line where the run stands."""
+    """An excerpt as lines of text: `mark` before the line where the run stands, `·` where only other tasks do."""
     width = len(str(lines[-1].line)) if lines else 0
     head = [f"    {printable(lines[0].file.expandtabs())}"] if lines and lines[0].file else []
     return head + [
-        f"{mark if line.here else ' ':>3} {line.line:{width}}  {line.text}".rstrip() for line in lines
+        f"{mark if line.here else '·' if line.tasks else ' ':>3} {line.line:{width}}  {line.text}".rstrip()
+        + (f"   [{', '.join(line.tasks)}]" if line.tasks else "")
+        for line in lines
     ]
 
 

@@ -5,7 +5,7 @@ from msgspec import UNSET, UnsetType
 from handeye.core.record import Record
 from handeye.debugger.listing import SourceLine
 from handeye.debugger.step_summary import StepSummary
-from handeye.debugger.view_records import Shown
+from handeye.debugger.view_records import Shown, TaskView
 from handeye.program.events import AnyEvent
 from handeye.runs.advance import Pause
 from handeye.runs.stops import AnyStop
@@ -65,6 +65,8 @@ class Reply(CommandResult, frozen=True, kw_only=True):
     """Its statement."""
     script: str = ""
     """The required file its line is in; empty: the script itself."""
+    tasks: tuple[TaskView, ...] | UnsetType = UNSET
+    """Where each task stands, of a system that has several."""
     did: tuple[StepSummary, ...] = ()
     """Steps that were done, in words."""
     events: tuple[AnyEvent, ...] = ()

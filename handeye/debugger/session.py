@@ -11,6 +11,7 @@ from handeye.debugger.listing import SourceLine, excerpt
 from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Break
 from handeye.debugger.source_places import Place
+from handeye.debugger.views import task_views
 from handeye.execution.servo import Halted
 from handeye.program.events import StepStarted
 from handeye.runs.advance import Pause, advance, ended
@@ -222,4 +223,4 @@ class DebugSession:
         """The script around a line, by default around where the run stands."""
         file, line = place or self.place
         here = self.place[1] if self.place[0] == file else None
-        return excerpt(self.program, line, here, around, file)
+        return excerpt(self.program, line, here, around, file, task_views(self.runner))

@@ -15,6 +15,7 @@ _BETWEEN: Final = (
     happened.StageStarted,
     happened.OperatorAnswered,
     happened.ExperimentMade,
+    happened.LineTyped,
     happened.UndoOrdered,
 )
 """Events between two steps."""

@@ -5,6 +5,7 @@ from functools import partial
 from pathlib import Path
 
 import msgspec
+from msgspec import UNSET
 
 from handeye.core.errors import HandeyeError, Refused
 from handeye.debugger.command_table import MEANWHILE, find
@@ -13,6 +14,7 @@ from handeye.debugger.live import Ear, Live, LiveJson, LiveText
 from handeye.debugger.reply import CommandResult, Reply
 from handeye.debugger.session import DebugSession
 from handeye.debugger.step_summary import step_summaries
+from handeye.debugger.views import task_views
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -113,6 +115,7 @@ class Stepper:
             script="" if step is None else step.file,
             line=None if step is None else step.line,
             text=None if step is None else step.text,
+            tasks=task_views(runner) or UNSET,
             did=step_summaries(events, hands.program, hands.runner.task.measures),
             events=tuple(events),
             error=error,

@@ -71,6 +71,20 @@ class PictureShown(Record, frozen=True, kw_only=True):
     file: str | None
 
 
+class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
+    """Where a task stands, of a system that has several."""
+
+    task: str
+    step: int
+    """The step that it does next."""
+    file: str = ""
+    """The required file its line is in; empty: the script itself."""
+    line: int
+    text: str
+    waits_for: str = ""
+    """What it waits for, in words; empty: its turn."""
+
+
 class Shown(Record, frozen=True, kw_only=True):
     """Views that somebody asked for; the rest is left out."""
 
@@ -89,5 +103,6 @@ class Shown(Record, frozen=True, kw_only=True):
     parts: dict[str, PartShown] | UnsetType = UNSET
     picture: PictureShown | UnsetType | None = UNSET
     positions: dict[str, PositionView] | UnsetType = UNSET
+    tasks: tuple[TaskView, ...] | UnsetType = UNSET
     state: dict[str, Any] | UnsetType = UNSET
     """All that a system remembers of which nobody has made a view."""

@@ -7,8 +7,9 @@ from typing import Any
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import CannotWrite, NoSuchName, Refused
 from handeye.core.files import write_whole
+from handeye.core.plain_text import one_line
 from handeye.debugger.breakpoints import meant
-from handeye.debugger.view_records import PictureShown, Shown
+from handeye.debugger.view_records import PictureShown, Shown, TaskView
 from handeye.program.events import PictureTaken
 from handeye.results.pictures import annotated_png
 from handeye.runs.runner import Runner
@@ -24,7 +25,7 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
     Raises:
         InvalidInput: no such topic, or the picture cannot be written.
     """
-    known = runner.kind.topics
+    known = {**runner.kind.topics, **({"tasks": ("tasks", task_views)} if task_views(runner) else {})}
     names = [_topic(word, known) for word in what.split()] or [n for n in known if n != "positions"]
     fields: dict[str, Any] = {}
     for name in names:
@@ -34,6 +35,23 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
     if last is not None and pictures is not None:
         fields["picture"] = _kept(runner, last.name, pictures)
     return Shown(**fields)
+
+
+def task_views(runner: Runner) -> tuple[TaskView, ...]:
+    """Where each task stands; empty where tasks have no names, as of a system that has only one."""
+    steps = runner.listing.steps
+    return tuple(
+        TaskView(
+            task=place.task,
+            step=place.step,
+            file=steps[place.step].file,
+            line=steps[place.step].line,
+            text=one_line(steps[place.step].text),
+            waits_for=place.waits_for,
+        )
+        for place in runner.places
+        if place.task
+    )
 
 
 def write_picture(runner: Runner, file: Path) -> str:

@@ -377,6 +377,7 @@ class Runner:
         Raises:
             InvalidInput: the system has no console, or no such task.
         """
+        self.require("console")
         self.system.type_line(text, task)
         self._settle()
 

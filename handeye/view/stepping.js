@@ -4,8 +4,14 @@
   const { byId, facts, say, tell } = live;
   const breaks = new Map();
 
-  function stand({ script, line, stage_number: number, stage }) {
+  function stand({ script, line, stage_number: number, stage, tasks = [] }) {
     document.querySelector("#script li.on")?.classList.remove("on");
+    for (const row of document.querySelectorAll("#script li.task")) { row.classList.remove("task"); row.removeAttribute("title"); }
+    for (const task of tasks) {
+      const row = byId(`line-${Math.max(facts.files.indexOf(task.file ?? ""), 0)}-${task.line}`);
+      row?.classList.add("task");
+      if (row) row.title = task.waits_for ? `${task.task} waits for ${task.waits_for}` : task.task;
+    }
     if (line === null) return;
     const row = byId(`line-${Math.max(facts.files.indexOf(script), 0)}-${line}`);
     row?.classList.add("on");

@@ -1,10 +1,14 @@
 """A line that a person types at the console of a system is an event, and is typed again where a run is repeated."""
 
+import msgspec
 import pytest
 from short_runs import history
 from toy_system import CounterMachine, Registers, begin_toy
 
+from handeye.core import entries
+from handeye.core.entries import entry_named
 from handeye.core.errors import InvalidInput
+from handeye.debugger.stepper import Stepper
 from handeye.program.events import LineTyped
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode
@@ -25,6 +29,8 @@ def add(machine: CounterMachine, text: str, task: str) -> None:
 def typed(monkeypatch: pytest.MonkeyPatch) -> Runner:
     """A run in which a line was typed after three steps, and that went on to its end."""
     monkeypatch.setattr(CounterMachine, "type_line", add)
+    console = msgspec.structs.replace(entry_named("toy"), can=("console",))
+    monkeypatch.setitem(entries._registered, "toy", console)
     runner = Runner(begin_toy())
     advance(runner, steps=3)
     runner.type_line("B 100", "COUNT")
@@ -65,5 +71,17 @@ def test_a_line_that_is_refused_has_not_happened(typed: Runner) -> None:
 
 
 def test_a_system_without_a_console_refuses_politely() -> None:
-    with pytest.raises(InvalidInput, match=r"^this system has no console to type at$"):
+    with pytest.raises(InvalidInput, match=r"^the counter machine cannot take lines that are typed$"):
         Runner(begin_toy()).type_line("B 1")
+
+
+@pytest.mark.usefixtures("typed")
+def test_the_stepper_types_it() -> None:
+    stepper = Stepper(Runner(begin_toy()))
+    reply = stepper.do("type COUNT B 7")
+    assert (reply.error, [step.text for step in reply.did]) == (None, ["typed to COUNT: B 7"])
+    assert "type TASK TEXT" in str(stepper.do("help").said)
+
+
+def test_a_stepper_without_a_console_does_not_tell_of_one() -> None:
+    assert "type TASK TEXT" not in str(Stepper(Runner(begin_toy())).do("help").said)
