@@ -165,7 +165,7 @@ def _again(given: FileName, wanted: Wanted) -> Start:
 
 def _check_same(path: Path, begun: Setup, wanted: Wanted) -> None:
     """Raises InvalidInput unless a run carries out a plan, in the world and with the camera that are wanted."""
-    require(begun.system, "plans", str(path))
+    require(begun.system, "python", str(path))
     if wanted.of_task not in (None, begun.task):
         told = f"{quoted(begun.task)}, not of {quoted(str(wanted.of_task))}"
         raise Refused(f"the run in {path} is of the task {told}")

@@ -13,7 +13,8 @@ from handeye.cli.common import note, put, say, show
 from handeye.core.diagnostics import has_errors, quoted, suggestion
 from handeye.core.errors import BadArgument, BadFile
 from handeye.core.files import write_whole
-from handeye.core.source import Source
+from handeye.core.source import Source, read_source
+from handeye.program.language import own_language
 
 STANDARD_INPUT = Path("-")
 
@@ -38,7 +39,10 @@ def fmt(
         _check_name(file)
     code = 0
     for file in files:
-        source = _standard_input() if file == STANDARD_INPUT else read_script(file)
+        if file == STANDARD_INPUT:
+            source = _standard_input()
+        else:
+            source = read_script(file) if own_language(file.name) is None else read_source(file)
         code = max(code, _fmt(file, source, check=check))
     return code
 
@@ -51,12 +55,13 @@ def _check_name(file: Path) -> None:
 
 
 def _fmt(file: Path, source: Source, *, check: bool) -> int:
-    mistakes = check_form(source)
+    own = own_language(source.name)
+    mistakes = check_form(source) if own is None else own.check(source)
     if has_errors(mistakes):
         show(mistakes, source, json=False)
         note(f"{source.name} is unchanged")
         return 2
-    tidy = format_text(source.text)
+    tidy = format_text(source.text) if own is None else own.formatted(source.text)
     if check:
         if tidy != source.text:
             say(f"{source.name} would change")
@@ -86,8 +91,7 @@ def explain(word: str | None = None, /) -> int:
     """
     from handeye.editor.explain import explanation, listing
 
-    text = listing() if word is None else explanation(word)
-    say(text)
+    say(listing() if word is None else explanation(word))
     return 0
 
 

@@ -24,8 +24,9 @@ from handeye.core.diagnostics import arranged, has_errors
 from handeye.core.errors import InvalidInput
 from handeye.core.files import beside
 from handeye.core.plain_text import counted
+from handeye.core.source import read_source
 from handeye.planfile.store import write_plan
-from handeye.program.language import language_of
+from handeye.program.language import language_of, own_language
 from handeye.runs.scripts import LANGUAGES, planned, taught_beside
 
 if TYPE_CHECKING:
@@ -100,6 +101,8 @@ def watched(file: Path, check: Callable[[], int], pause: Callable[[], None] = _w
 
 def _files(file: Path) -> list[Path]:
     """The files that a check of a script looks at."""
+    if own_language(file.name) is not None:
+        return [file]
     try:
         required = [Path(text.name) for text in language_of(file, LANGUAGES).read(file).required]
     except InvalidInput:
@@ -117,10 +120,15 @@ def _version(path: Path) -> Version:
 
 
 def _check(file: Path, work: "Task", *, json: bool, strict: bool) -> int:
-    language = language_of(file, LANGUAGES)
-    source = language.read(file)
-    diagnostics = planned(source, taught_beside(file), work, language).diagnostics
-    if strict:
+    own = own_language(file.name)
+    if own is not None:
+        source = read_source(file)
+        diagnostics = own.check(source)
+    else:
+        language = language_of(file, LANGUAGES)
+        source = language.read(file)
+        diagnostics = planned(source, taught_beside(file), work, language).diagnostics
+    if strict and own is None:
         diagnostics = arranged([*diagnostics, *extensions(source)])
     show(diagnostics, source, json=json)
     if has_errors(diagnostics):

@@ -59,14 +59,16 @@ class Diagnostic:
     help: str | None = None
     meant: Meant | None = None
     """In the place of what the primary label marks, or behind it."""
+    own: Severity | None = None
+    """Severity of a code that a system has for its own language; None: the code is one of `CODES`."""
 
     def __post_init__(self) -> None:
-        assert self.code in CODES, self.code
+        assert self.own or self.code in CODES, self.code
 
     @property
     def severity(self) -> Severity:
         """`error` or `warning`, by its code."""
-        return CODES[self.code].severity
+        return self.own or CODES[self.code].severity
 
 
 def problem(
@@ -78,12 +80,14 @@ def problem(
     notes: tuple[str, ...] = (),
     help: str | None = None,
     meant: Meant | None = None,
+    own: Severity | None = None,
 ) -> Diagnostic:
     """A diagnostic at a span; `text` stands beside the mark."""
     primary = Label(span=span, text=text)
     return Diagnostic(
-        code=code, message=message, primary=primary, secondary=secondary, notes=notes, help=help, meant=meant
-    )
+        code=code, message=message, primary=primary, secondary=secondary, notes=notes, help=help, meant=meant,
+        own=own,
+    )  # fmt: skip
 
 
 def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:

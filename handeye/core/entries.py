@@ -22,7 +22,7 @@ PLANNED: Final = "program"
 """The system that carries out plans of motions, which is meant where none is named."""
 
 Capability = Literal[
-    "plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format", "console"
+    "plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format", "console", "python"
 ]
 VERBS: Final[Mapping[Capability, str]] = {
     "plans": "follow a plan of motions",
@@ -35,6 +35,7 @@ VERBS: Final[Mapping[Capability, str]] = {
     "chaos": "be broken off by chance",
     "format": "format its scripts",
     "console": "take lines that are typed",
+    "python": "have its runs taken up from Python",
 }
 """What a system may be asked for, as it stands behind `cannot`."""
 
@@ -60,7 +61,7 @@ class Entry(Record, frozen=True, kw_only=True):
     events: str = ""
     """`module:NAME` of a tuple of the kinds of events that it adds to those of all systems."""
     languages: dict[str, str] = field(default_factory=dict)
-    """`module:NAME` of the `TextLanguage` of each file ending."""
+    """`module:NAME` of the `OwnLanguage` (`handeye/program/language.py`) of each ending of its files."""
     files: tuple[str, ...] = ()
     """Names of the files that its finished runs leave in their folders, besides those of every run."""
 
@@ -109,11 +110,11 @@ def loaded(place: str) -> Any:
     return getattr(import_module(module), name)
 
 
-def language_at(file_name: str) -> str | None:
-    """`module:NAME` of the language of the longest ending that a file's name has; None: no system has that ending."""
-    known = {ending: place for entry in entries().values() for ending, place in entry.languages.items()}
-    fitting = [ending for ending in known if file_name.lower().endswith(ending)]
-    return known[max(fitting, key=len)] if fitting else None
+def entry_of_file(name: str) -> tuple[Entry | None, str]:
+    """The entry whose language a file has by its name, and the longest ending that says so; None if none says so."""
+    known = {ending: entry for entry in entries().values() for ending in entry.languages}
+    ending = max(filter(name.lower().endswith, known), key=len, default="")
+    return known.get(ending), ending
 
 
 def refusal(name: str, capability: Capability, whose: str = "") -> Refused:

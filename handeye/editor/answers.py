@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Callable
+from functools import wraps
 from typing import Any, Final
 
 from lsprotocol import types as lsp
@@ -9,13 +10,15 @@ from pygls.exceptions import JsonRpcInvalidParams
 
 from handeye.al.formatter import format_text
 from handeye.core.errors import InvalidInput
-from handeye.core.source import Span
+from handeye.core.source import Source, Span
+from handeye.editor import wire
 from handeye.editor.completion import completions
 from handeye.editor.fixes import fixes
 from handeye.editor.hover import hover
 from handeye.editor.navigation import definition, references, renamable, rename
 from handeye.editor.outline import STAGE, Symbol, outline
 from handeye.editor.server import ArmServer
+from handeye.program.language import OwnLanguage, own_language
 
 _PROPOSED: Final = {
     "instruction": lsp.CompletionItemKind.Function,
@@ -41,8 +44,18 @@ def make_server() -> ArmServer:
     """A server that answers everything it can."""
     server = ArmServer()
     for name, answer in _ANSWERS.items():
-        server.feature(name, _OPTIONS.get(name))(answer)
+        server.feature(name, _OPTIONS.get(name))(answer if name in _OF_ALL else _of_scripts(answer))
     return server
+
+
+def _of_scripts(answer: Callable[..., Any]) -> Callable[..., Any]:
+    """An answer about scripts for planned programs; of a text in a system's own language nothing is known here."""
+
+    @wraps(answer)
+    def answered(server: ArmServer, params: Any) -> Any:
+        return answer(server, params) if own_language(params.text_document.uri) is None else None
+
+    return answered
 
 
 async def _opened(server: ArmServer, params: lsp.DidOpenTextDocumentParams) -> None:
@@ -80,6 +93,8 @@ def _hover(server: ArmServer, params: lsp.HoverParams) -> lsp.Hover | None:
 
 
 def _completion(server: ArmServer, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
+    if (language := own_language(params.text_document.uri)) is not None:
+        return _own_words(server, language, params)
     script = server.script(params.text_document.uri)
     span, proposals = completions(script.document, script.offset(params.position))
     return [
@@ -91,6 +106,19 @@ def _completion(server: ArmServer, params: lsp.CompletionParams) -> list[lsp.Com
             text_edit=lsp.TextEdit(range=script.range(span), new_text=proposal.text),
         )
         for proposal in proposals
+    ]
+
+
+def _own_words(
+    server: ArmServer, language: OwnLanguage, params: lsp.CompletionParams
+) -> list[lsp.CompletionItem]:
+    text = server.workspace.get_text_document(params.text_document.uri)
+    source = Source(name=text.uri, text=text.source)
+    at = wire.offset(source, params.position, text.position_codec.client_num_units)
+    kind = lsp.CompletionItemKind.Keyword
+    return [
+        lsp.CompletionItem(label=word, kind=kind, detail=meaning)
+        for word, meaning in language.words(source, at)
     ]
 
 
@@ -184,6 +212,14 @@ _ANSWERS: Final[dict[str, Callable[..., Any]]] = {
     lsp.TEXT_DOCUMENT_CODE_ACTION: _code_actions,
 }
 """Handlers of requests and notifications."""
+_OF_ALL: Final = {
+    lsp.TEXT_DOCUMENT_DID_OPEN,
+    lsp.TEXT_DOCUMENT_DID_CHANGE,
+    lsp.TEXT_DOCUMENT_DID_CLOSE,
+    lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES,
+    lsp.TEXT_DOCUMENT_COMPLETION,
+}
+"""What is answered about texts in languages of other systems, too."""
 _OPTIONS: Final[dict[str, Any]] = {
     lsp.TEXT_DOCUMENT_CODE_ACTION: lsp.CodeActionOptions(code_action_kinds=[lsp.CodeActionKind.QuickFix]),
     lsp.TEXT_DOCUMENT_RENAME: lsp.RenameOptions(prepare_provider=True),

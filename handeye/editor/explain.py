@@ -19,6 +19,7 @@ from handeye.editor.error_numbers import error_text
 from handeye.editor.fix import cured
 from handeye.editor.fixes import fixes
 from handeye.editor.samples import SAMPLE
+from handeye.program.language import own_languages
 
 _FOUND: Final = {
     "language": "while the script is checked",
@@ -38,6 +39,9 @@ def explanation(word: str) -> str:
         return _instruction(EXPLAINED[word.upper()])
     if (number := word.lstrip("0")) in _NUMBERS:
         return error_text(_NUMBERS[number])
+    for language in own_languages():
+        if (text := language.explanation(word)) is not None:
+            return text
     near = suggestion(word, {*CODES, *EXPLAINED, *map(str, ERRORS)}) or suggestion(
         word, [code for code in CODES if word.lower() in code]
     )

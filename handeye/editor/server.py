@@ -9,8 +9,10 @@ from pygls.lsp.server import LanguageServer
 from handeye.core.diagnostics import Diagnostic
 from handeye.core.source import Source, Span
 from handeye.core.versions import HANDEYE
+from handeye.editor import wire
 from handeye.editor.checking import planning
 from handeye.editor.script import EditedScript
+from handeye.program.language import OwnLanguage, own_language
 from handeye.program.taught import Taught
 
 PAUSE: Final = 0.3
@@ -44,8 +46,23 @@ class ArmServer(LanguageServer):
             lsp.PublishDiagnosticsParams(uri=script.uri, version=script.version, diagnostics=found)
         )
 
+    async def publish_own(self, uri: str, language: OwnLanguage) -> None:
+        """Tell the client what a system says about a text in its own language."""
+        text = self.workspace.get_text_document(uri)
+        source, units = Source(name=uri, text=text.source), text.position_codec.client_num_units
+        found = [
+            wire.diagnostic(problem, wire.range_(source, problem.primary.span, units), ())
+            for problem in await asyncio.to_thread(language.check, source)
+        ]
+        self.text_document_publish_diagnostics(
+            lsp.PublishDiagnosticsParams(uri=uri, version=text.version, diagnostics=found)
+        )
+
     async def check(self, uri: str) -> None:
         """Say what the text tells; when nobody has typed for a while, what the planner tells too."""
+        if (language := own_language(uri)) is not None:
+            await self.publish_own(uri, language)
+            return
         script = self.script(uri)
         self.publish(script)
         program = None if script.problem is not None else script.document.compiled[0]

@@ -9,6 +9,7 @@ from typing import Any, Final
 
 import msgspec
 
+from handeye.core.entries import entry_of_file, refusal
 from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole, write_over
 from handeye.planfile.plan import VERSION, Plan
@@ -87,6 +88,9 @@ def read_plan(path: Path) -> Plan:
     Raises:
         InvalidInput: as `decode`, or the file cannot be read.
     """
+    entry, _ = entry_of_file(path.name)
+    if entry is not None:
+        raise refusal(entry.name, "plans", str(path))
     data = read_whole(path)
     if not data.lstrip().startswith((b"{", b"[")):
         raise BadFile(f"{path} is not a plan; is it a script? `handeye plan {path}` makes the plan")

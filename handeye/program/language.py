@@ -1,10 +1,12 @@
 """Languages as values, chosen by file ending, so that no skill knows a language."""
 
-from collections.abc import Callable, Iterable, Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 
 from handeye.core.diagnostics import Diagnostic
+from handeye.core.entries import entries, entry_of_file, loaded, refusal
 from handeye.core.source import Source
 from handeye.program.findings import PlanningFinding
 from handeye.program.program import Program
@@ -25,6 +27,44 @@ class Language:
     compile: Callable[[Source, Taught], Compiled]
     phrase: Callable[[Program, NamedArm, Iterable[PlanningFinding]], list[Diagnostic]]
     """Diagnostics for planning findings, at their places in the text."""
+
+
+class OwnLanguage(ABC):
+    """A language that a system has for files of its own: what commands and editors are answered about a text of it."""
+
+    system: str
+    """Name of the system."""
+
+    @abstractmethod
+    def check(self, source: Source) -> list[Diagnostic]:
+        """What there is to say about a text; nothing moves."""
+
+    def formatted(self, text: str) -> str:
+        """The text in its usual form; raises Refused if there is none."""
+        raise refusal(self.system, "format")
+
+    def explanation(self, word: str) -> str | None:
+        """An explanation of a word, or of the code of a diagnostic, of this language; None if it is neither."""
+        return None
+
+    def words(self, source: Source, offset: int) -> Sequence[tuple[str, str]]:
+        """Words that may stand at an offset, each with what it means."""
+        return ()
+
+
+def own_language(file: str) -> OwnLanguage | None:
+    """The language that a system has for files of this name; None: the file is a script for a planned program."""
+    entry, ending = entry_of_file(file)
+    if entry is None:
+        return None
+    language: OwnLanguage = loaded(entry.languages[ending])
+    return language
+
+
+def own_languages() -> Iterator[OwnLanguage]:
+    """The languages of all systems, each once."""
+    for place in dict.fromkeys(place for entry in entries().values() for place in entry.languages.values()):
+        yield loaded(place)
 
 
 def language_of(file: PurePath, languages: Mapping[str, Language]) -> Language:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 from handeye import tasks
 from handeye.al import AL, sewn
 from handeye.core.diagnostics import quoted
+from handeye.core.entries import entry_of_file, refusal
 from handeye.core.errors import BadArgument
 from handeye.core.files import beside
 from handeye.core.resources import plans
@@ -94,6 +95,9 @@ def plan_script(file: Path, known: Taught | None = None, work: Task | None = Non
     Raises:
         InvalidInput: the script, or what is taught for it, cannot be read.
     """
+    entry, _ = entry_of_file(file.name)
+    if entry is not None:
+        raise refusal(entry.name, "plans", str(file))
     language = language_of(file, LANGUAGES)
     source = language.read(file)
     return planned(source, taught_beside(file) if known is None else known, work or task_of(file), language)

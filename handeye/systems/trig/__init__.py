@@ -9,6 +9,7 @@ ENTRY = Entry(
     system="handeye.systems.trig.run.system:TAUGHT",
     can=("undo",),
     reasons={
+        "python": "`handeye resume` goes on with one",
         "plans": "its programs are taught, and their places are those of the world they are taught in",
     },
     commands="""
@@ -18,6 +19,10 @@ trials pallet = handeye.systems.trig.cli.pallet_trials:pallet_trials: Palletise 
     tasks={
         "palletise": "handeye.systems.trig.jobs.task:PALLET",
         "bucket": "handeye.systems.trig.jobs.task:BUCKET_TASK",
+    },
+    languages={
+        ".trig": "handeye.systems.trig.own_language:LANGUAGE",
+        ".trig.json": "handeye.systems.trig.own_language:LANGUAGE",
     },
     files=("job.json", "program.trig.json"),
 )

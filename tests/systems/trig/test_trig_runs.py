@@ -285,7 +285,8 @@ def test_python_takes_up_only_runs_of_plans(tmp_path: Path) -> None:
     open_new(path, low_setup(0, seed=1)).close()
     for out in (None, path):
         with pytest.raises(
-            InvalidInput, match=r"system `trig`; from Python only runs of plans are taken up$"
+            InvalidInput,
+            match=r"TRIG cannot have its runs taken up from Python: `handeye resume` goes on with one$",
         ):
             handeye.begin(path, out=out)
 
@@ -324,7 +325,7 @@ def test_the_stepper_tells_of_a_taught_program_what_is_true_of_it(monkeypatch: p
     stepper = Stepper(runner)
     manual = str(stepper.do("help").said)
     assert all(word not in manual for word in ("set saved", "picture", "inches", "repeat the stage", "AOJ"))
-    assert stepper.do("help set").error == "`set` has nothing to do in a run of a taught program"
+    assert stepper.do("help set").error == "`set` does nothing in a run of TRIG"
     hand, _, grasp = stepper.do("step 3").did[1:]
     assert hand.outcome.startswith("hand at (")
     assert hand.outcome.endswith(") mm")
@@ -341,7 +342,7 @@ def test_the_stepper_tells_of_a_taught_program_what_is_true_of_it(monkeypatch: p
 
 
 def test_no_breakpoint_waits_for_an_error_that_a_taught_program_never_raises() -> None:
-    with pytest.raises(InvalidInput, match=r"^steps of a taught program raise no errors; where the arm"):
+    with pytest.raises(InvalidInput, match=r"^steps of this program raise no errors; where it"):
         breakpoint("error:23", listing(TaughtPlan(job="palletise", script=low_script(1))))
 
 

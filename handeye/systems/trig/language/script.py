@@ -78,6 +78,14 @@ class Script(Desk):
         raise error
 
 
+class LineRefused(BadFile):
+    """A line of a script cannot be carried out."""
+
+    def __init__(self, name: str, number: int, why: str) -> None:
+        super().__init__(f"{name}, line {number}: {why}")
+        self.number, self.why = number, why
+
+
 def type_script(session: Session, script: Script, name: str) -> int:
     """Type all lines of a script, or as many as come before it leaves.
 
@@ -95,6 +103,6 @@ def type_script(session: Session, script: Script, name: str) -> int:
         try:
             hear(session, line)
         except InvalidInput as error:
-            raise BadFile(f"{name}, line {script.number}: {error}") from None
+            raise LineRefused(name, script.number, str(error)) from None
         count += not line.startswith("*")
     return count

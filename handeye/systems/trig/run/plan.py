@@ -94,10 +94,15 @@ def decode(data: bytes, name: str) -> TaughtPlan:
 
 
 def imagined(plan: TaughtPlan) -> TrigProgram:
+    """The program that a plan's script teaches an imagined arm; raises InvalidInput if it cannot be typed."""
+    return typed(plan.script, f"{plan.job}.trig")
+
+
+def typed(text: str, name: str) -> TrigProgram:
     """The program that a script teaches an imagined arm: its steps are those of any arm, its places are not.
 
     Raises:
-        InvalidInput: the script cannot be typed, or what is run in it does not end.
+        InvalidInput: a line is refused (`LineRefused`), or what is run in it does not end.
     """
     session, asked = new_session("none"), 0
 
@@ -108,9 +113,9 @@ def imagined(plan: TaughtPlan) -> TrigProgram:
             raise Refused("what is run in it does not end")
         return False
 
-    script = Script(plan.script.splitlines(), halted=ask)
+    script = Script(text.splitlines(), halted=ask)
     session.desk, session.files = script, False  # a plan comes with checkpoints and traces, whoever made them
-    type_script(session, script, f"{plan.job}.trig")
+    type_script(session, script, name)
     return session.program
 
 

@@ -1,0 +1,60 @@
+"""What commands and editors are answered about scripts of lines typed at TRIG, and programs that W has written."""
+
+from typing import Final
+
+from handeye.core.diagnostics import Diagnostic, problem
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Source, Span
+from handeye.program.language import OwnLanguage
+from handeye.systems.trig import ENTRY
+from handeye.systems.trig.language.command_table import COMMANDS, SYNONYMS
+from handeye.systems.trig.language.hearing import help
+from handeye.systems.trig.language.script import LineRefused
+from handeye.systems.trig.language.storage import ENDING, decoded
+from handeye.systems.trig.run.plan import typed
+
+REFUSED: Final = "line-refused"
+UNSOUND: Final = "program-unsound"
+_CODES: Final = {
+    REFUSED: "a line of a script cannot be carried out at an imagined arm; the lines behind it were not typed",
+    UNSOUND: "the file is no program that W has written",
+}
+
+
+class TrigLanguage(OwnLanguage):
+    """Scripts are typed at an imagined arm; nothing moves."""
+
+    system = ENTRY.name
+
+    def check(self, source: Source) -> list[Diagnostic]:
+        """The line that is refused first, or why the file is no program."""
+        first = Span(start=0, end=len(source.line(1)))
+        try:
+            if source.name.endswith(ENDING):
+                decoded(source.text.encode(), source.name)
+            else:
+                typed(source.text, source.name)
+        except LineRefused as refused:
+            start = sum(len(line) + 1 for line in source.text.split("\n")[: refused.number - 1])
+            span = Span(start=start, end=start + len(source.line(refused.number)))
+            return [problem(REFUSED, refused.why, span, own="error")]
+        except InvalidInput as error:
+            code = UNSOUND if source.name.endswith(ENDING) else REFUSED
+            return [problem(code, str(error), first, own="error")]
+        return []
+
+    def explanation(self, word: str) -> str | None:
+        if word in _CODES:
+            return f"error[{word}]: {_CODES[word]}"
+        return help(word) if SYNONYMS.get(word.upper(), word.upper()) in COMMANDS else None
+
+    def words(self, source: Source, offset: int) -> list[tuple[str, str]]:
+        """Commands, where a line begins."""
+        number, column = source.position(offset)
+        before = source.line(number)[: column - 1].removeprefix(">").split()
+        if len(before) > 1:
+            return []
+        return [(word, command.help) for word, command in COMMANDS.items()]
+
+
+LANGUAGE: Final = TrigLanguage()
