@@ -77,9 +77,9 @@ class Measures:
 
 
 INCHES: Final = Measures(length=UNITS["in"], places=2, force=UNITS["oz"])
-"""Those of the arm language."""
+"""Inches and ounces, those of the arm language."""
 MILLIMETRES: Final = Measures(length=UNITS["mm"], places=1, force=UNITS["N"])
-"""Those of TRIG."""
+"""Millimetres and newtons."""
 
 _WRITTEN: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", re.IGNORECASE | re.ASCII)
 

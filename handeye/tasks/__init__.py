@@ -15,7 +15,7 @@ import numpy as np
 
 from handeye.arm import robots
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.entries import entries
+from handeye.core.entries import entries, refusal
 from handeye.core.errors import BadArgument, InvalidInput, NoSuchName, Refused
 from handeye.tasks.interface import AnyTask, Task
 
@@ -104,7 +104,10 @@ def task(name: str = DEFAULT) -> Task:
 def planned(task: AnyTask) -> Task:
     """The task itself, if planned programs do it; raises InvalidInput otherwise."""
     if not isinstance(task, Task):
-        raise Refused(f"the task {quoted(task.name)} is done by a taught program, not by a planned one")
+        system = next((entry.name for entry in entries().values() if task.name in entry.tasks), None)
+        if system is not None:
+            raise refusal(system, "plans", f"the task {quoted(task.name)}")
+        raise Refused(f"the task {quoted(task.name)} is not done by planned programs")
     return task
 
 

@@ -21,7 +21,7 @@ NO_VECTOR: Final = (np.nan, np.nan, np.nan)
 class Forces:
     """Force of the hand on the world, and the guard that watches it, in n servo periods.
 
-    Vectors are in world axes; of a taught program, in the hand's own. The program estimates force in guarded and
+    Vectors are in the axes that the task names (`AnyTask.force_axes`). The program estimates force in guarded and
     compliant motions only, and takes what it feels as they begin for zero. Elsewhere there is nothing to tell, and
     figures are NaN.
     """
