@@ -1,6 +1,6 @@
 """The referee's findings on a finished pump, and on one that was taken apart, point by point."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from math import degrees, isfinite
 from typing import Final
 
@@ -17,7 +17,6 @@ from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.threads import Thread, holes_of
 from handeye.tasks.water_pump.world.dimensions import dimensions
 
-_MM: Final = 1e3
 _PINS: Final = ("pin0", "pin1")
 _PARTS: Final = {"base": limits.APART, "gasket": limits.APART_GASKET, "top": limits.APART}
 
@@ -52,37 +51,42 @@ def _places(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
     }
 
 
+def _mm(value_m: float, limit_mm: float, subject: str) -> Finding:
+    return at_most(value_m * 1e3, limit_mm, "mm", subject)
+
+
+def _deg(value_rad: float, limit_deg: float, subject: str) -> Finding:
+    return at_most(degrees(value_rad), limit_deg, "deg", subject)
+
+
 def _base(measured: Measured) -> Findings:
     turn = degrees(yaw(measured.relative("base", "blocks")) % (2 * np.pi)) - 180
-    findings = {
-        f"base_{side}": at_most(
-            abs(measured.gap("plate", f"block_{side}")) * _MM, limits.BLOCK_GAP, "mm",
-            f"gap between the base and the {side} block",
-        )
-        for side in ("far", "left")
-    }  # fmt: skip
-    findings["base_yaw"] = at_most(abs(turn), limits.BASE_YAW, "deg", "turn of the base against the blocks")
     X_WB = measured.pose("base")
-    findings["base_height"] = at_most(
-        abs(X_WB[2, 3]) * _MM, limits.BASE_HEIGHT, "mm", "height of the base off the table"
-    )
-    findings["base_tilt"] = at_most(degrees(tilt(X_WB)), limits.BASE_TILT, "deg", "tilt of the base")
-    return findings
+    gaps = {side: abs(measured.gap("plate", f"block_{side}")) for side in ("far", "left")}
+    return {
+        **{
+            f"base_{side}": _mm(gap, limits.BLOCK_GAP, f"gap between the base and the {side} block")
+            for side, gap in gaps.items()
+        },
+        "base_yaw": at_most(abs(turn), limits.BASE_YAW, "deg", "turn of the base against the blocks"),
+        "base_height": _mm(abs(X_WB[2, 3]), limits.BASE_HEIGHT, "height of the base off the table"),
+        "base_tilt": _deg(tilt(X_WB), limits.BASE_TILT, "tilt of the base"),
+    }  # fmt: skip
 
 
 def _layer(measured: Measured, layer: str, holes: tuple[Thread, ...]) -> Findings:
     """Height of gasket or top, and whether every screw passes its hole there without cutting into it."""
     off = measure.corner_height(measured, layer, len(holes))
-    room = [measure.clearance(measured, layer, k) for k in range(len(holes))]
+    margin = [measure.clearance(measured, layer, k) for k in range(len(holes))]
     apart = [measure.misfit(measured, layer, k) for k in range(len(holes))]
-    hole = max(range(len(holes)), key=lambda k: apart[k] - room[k])
+    hole = max(range(len(holes)), key=lambda k: apart[k] - margin[k])
     return {
-        f"{layer}_height": at_most(
-            off * _MM, limits.LAYER_HEIGHT, "mm",
+        f"{layer}_height": _mm(
+            off, limits.LAYER_HEIGHT,
             f"farthest corner of the {layer} off its nominal {measure.under(layer) / INCH:.2f} in",
         ),
-        f"{layer}_place": at_most(
-            apart[hole] * _MM, round(room[hole] * _MM + limits.SOFT, 3), "mm",
+        f"{layer}_place": _mm(
+            apart[hole], round(margin[hole] * 1e3 + limits.SOFT, 3),
             f"axis of screw hole {hole + 1} of the base from that of the {layer}",
         ),
     }  # fmt: skip
@@ -95,29 +99,22 @@ def _screws(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
         (abs(measure.head_gap(measured, k)) for k in filled), default=size("screw.length")
     )  # no screw is like one that stands full length high
     aside = max((measure.thread_offset(measured, k) for k in filled), default=0.0)
-    lengths = [measure.thread_length(measured, k) for k in filled]
+    length = min((measure.thread_length(measured, k) for k in filled), default=0.0)
     lean = max((measure.screw_lean(measured, k) for k in filled), default=0.0)
+    crossed, scarred = sum(thread.crossed for thread in holes), sum(thread.scarred for thread in holes)
     return {
         "screws": at_least(
             len({holes[k].screw for k in filled}), len(holes), "screws", "screws in their threads"
         ),
-        "screws_depth": at_most(gap * _MM, limits.SCREW_GAP, "mm", "greatest gap under a screw's head"),
+        "screws_depth": _mm(gap, limits.SCREW_GAP, "greatest gap under a screw's head"),
         "screws_thread": at_least(
-            min(lengths, default=0.0) * _MM,
-            limits.SCREW_THREAD,
-            "mm",
-            "shortest thread of a screw in the base",
+            length * 1e3, limits.SCREW_THREAD, "mm", "shortest thread of a screw in the base"
         ),
-        "screws_place": at_most(
-            aside * _MM, limits.SCREW_PLACE, "mm", "farthest axis of a screw from that of its tapped hole"
-        ),
-        "screws_lean": at_most(degrees(lean), limits.SCREW_LEAN, "deg", "greatest lean of a screw"),
-        "screws_crossed": at_most(
-            sum(thread.crossed for thread in holes), 0, "screws", "cross-threaded screws"
-        ),
+        "screws_place": _mm(aside, limits.SCREW_PLACE, "farthest axis of a screw from that of its tapped hole"),
+        "screws_lean": _deg(lean, limits.SCREW_LEAN, "greatest lean of a screw"),
+        "screws_crossed": at_most(crossed, 0, "screws", "cross-threaded screws"),
         "threads_scarred": at_most(
-            sum(thread.scarred for thread in holes), limits.SCARS, "threads",
-            "threads that a crossed screw has scarred", caution=True,
+            scarred, limits.SCARS, "threads", "threads that a crossed screw has scarred", caution=True
         ),
     }  # fmt: skip
 
@@ -128,39 +125,34 @@ def _cell(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
     loose = [name for k, name in enumerate(screws) if k not in in_threads]
     parts = ("base", "gasket", "top", *_PINS, "driver", *loose)
     lowest = min(measured.pose(name)[2, 3] for name in parts)
-    pins, dispenser, rack = (
-        measured.strayed(things, places) * _MM
-        for things, places in ((_PINS, _PINS), (loose, screws), (("driver",), ("driver",)))
-    )
-    lean = max(tilt(measured.pose(pin)) for pin in _PINS)
+    rack = measured.strayed(("driver",), ("driver",))
+    dispenser = measured.strayed(loose, screws)
     return {
-        "pins": at_most(pins, limits.PIN_PLACE, "mm", "farther pin from its hole in the holder"),
-        "pins_tilt": at_most(degrees(lean), limits.PIN_TILT, "deg", "lean of a pin in its holder"),
-        "rack": at_most(rack, limits.RACK_PLACE, "mm", "screwdriver from its rack"),
-        "rack_tilt": at_most(
-            degrees(tilt(measured.pose("driver"))),
-            limits.RACK_TILT,
-            "deg",
-            "lean of the screwdriver in its rack",
-        ),
-        "dispenser": at_most(dispenser, limits.PIN_PLACE, "mm", "loose screw from the dispenser"),
-        "floor": at_least(lowest * _MM, limits.FLOOR, "mm", "lowest part over the table top"),
-        "hand": at_least(
-            hand_room(measured, parts) * _MM, limits.HAND_CLEAR, "mm", "hand from the nearest part"
-        ),
-    }
+        "pins": _mm(measured.strayed(_PINS, _PINS), limits.PIN_PLACE, "farther pin from its hole in the holder"),
+        "pins_tilt": _tilt(measured, _PINS, limits.PIN_TILT, "lean of a pin in its holder"),
+        "rack": _mm(rack, limits.RACK_PLACE, "screwdriver from its rack"),
+        "rack_tilt": _tilt(measured, ("driver",), limits.RACK_TILT, "lean of the screwdriver in its rack"),
+        "dispenser": _mm(dispenser, limits.PIN_PLACE, "loose screw from the dispenser"),
+        "floor": at_least(lowest * 1e3, limits.FLOOR, "mm", "lowest part over the table top"),
+        "hand": _hand(measured, parts),
+    }  # fmt: skip
 
 
-def hand_room(measured: Measured, parts: Iterable[str]) -> float:
-    """Distance of the hand from the nearest of some parts and what is fixed to them, m; at most twice its limit."""
+def _tilt(measured: Measured, bodies: Sequence[str], limit_deg: float, subject: str) -> Finding:
+    return _deg(max(tilt(measured.pose(body)) for body in bodies), limit_deg, subject)
+
+
+def _hand(measured: Measured, parts: Iterable[str]) -> Finding:
+    """Distance of the hand from the nearest of some parts and what is fixed to them; at most twice its limit."""
     model = measured.model
     solid = (model.geom_contype | model.geom_conaffinity) != 0
     tree = model.body_rootid[model.geom_bodyid]
     arm = np.array([model.body(body).name.startswith(ARM) for body in model.geom_bodyid])
     mine = np.isin(tree, [model.body(part).id for part in parts])
-    return measured.nearest(
-        np.flatnonzero(arm & solid), np.flatnonzero(mine & solid), 2 * limits.HAND_CLEAR / _MM
+    nearest = measured.nearest(
+        np.flatnonzero(arm & solid), np.flatnonzero(mine & solid), 2 * limits.HAND_CLEAR / 1e3
     )
+    return at_least(nearest * 1e3, limits.HAND_CLEAR, "mm", "hand from the nearest part")
 
 
 def _clamp(measured: Measured, holes: tuple[Thread, ...]) -> Finding:
@@ -171,26 +163,16 @@ def _clamp(measured: Measured, holes: tuple[Thread, ...]) -> Finding:
 def _rotor(measured: Measured) -> Finding:
     torque = measure.rotor_torque(measured)
     value = torque if isfinite(torque) else 2 * limits.ROTOR_TORQUE  # did not turn all the way
-    return at_most(
-        value,
-        limits.ROTOR_TORQUE,
-        "N m",
-        f"torque that turns the rotor {limits.ROTOR_SWING:.0f} degrees and back",
-    )
+    subject = f"torque that turns the rotor {limits.ROTOR_SWING:.0f} degrees and back"
+    return at_most(value, limits.ROTOR_TORQUE, "N m", subject)
 
 
 def _overlap(bores: Overlap, others: Overlap) -> Findings:
+    cut = f"deepest cut of a shank or pin into a bore, of {bores.between}"
     return {
-        "overlap_bores": at_most(
-            bores.depth * _MM,
-            limits.SOFT,
-            "mm",
-            f"deepest cut of a shank or pin into a bore, of {bores.between}",
-        ),
-        "overlap": at_most(
-            others.depth * _MM, limits.PENETRATION, "mm", f"deepest overlap, of {others.between}"
-        ),
-    }
+        "overlap_bores": _mm(bores.depth, limits.SOFT, cut),
+        "overlap": _mm(others.depth, limits.PENETRATION, f"deepest overlap, of {others.between}"),
+    }  # fmt: skip
 
 
 def judge_apart(truth: Truth) -> Findings:
@@ -202,35 +184,26 @@ def judge_apart(truth: Truth) -> Findings:
 
 
 def _apart(measured: Measured) -> Findings:
-    screws = [name for name in _bodies(measured) if name.startswith("screw") and name[5:].isdecimal()]
-    findings = {
-        f"{name}_back": at_most(
-            measured.strayed((name,), (name,)) * _MM, limit, "mm", f"{name} from where the run found it"
-        )
-        for name, limit in _PARTS.items()
-    }
+    names = [measured.model.body(number).name for number in range(measured.model.nbody)]
+    screws = [name for name in names if name.startswith("screw") and name[5:].isdecimal()]
     turned = max(measured.turned(name) for name in _PARTS)
-    findings["parts_turn"] = at_most(
-        degrees(turned), limits.APART_TURN, "deg", "turn of base, gasket or top against how the run found it"
-    )
-    for name, things, what in (
-        ("pins", _PINS, "farther pin from its hole in the holder"),
-        ("dispenser", screws, "farthest screw from its place in the dispenser"),
-        ("rack", ("driver",), "screwdriver from its rack"),
-    ):
-        findings[name] = at_most(measured.strayed(things, things) * _MM, limits.APART, "mm", what)
-    for name, things, most, what in (
-        ("pins_tilt", _PINS, limits.PIN_TILT, "lean of a pin in its holder"),
-        ("rack_tilt", ("driver",), limits.RACK_TILT, "lean of the screwdriver in its rack"),
-    ):
-        lean = max(tilt(measured.pose(thing)) for thing in things)
-        findings[name] = at_most(degrees(lean), most, "deg", what)
-    parts = (*_PARTS, *_PINS, "driver", *screws)
-    findings["hand"] = at_least(
-        hand_room(measured, parts) * _MM, limits.HAND_CLEAR, "mm", "hand from the nearest part"
-    )
-    return findings
-
-
-def _bodies(measured: Measured) -> list[str]:
-    return [measured.model.body(number).name for number in np.arange(measured.model.nbody)]
+    return {
+        **{
+            f"{name}_back": _mm(measured.strayed((name,), (name,)), limit, f"{name} from where the run found it")
+            for name, limit in _PARTS.items()
+        },
+        "parts_turn": _deg(
+            turned, limits.APART_TURN, "turn of base, gasket or top against how the run found it"
+        ),
+        **{
+            name: _mm(measured.strayed(things, things), limits.APART, what)
+            for name, things, what in (
+                ("pins", _PINS, "farther pin from its hole in the holder"),
+                ("dispenser", screws, "farthest screw from its place in the dispenser"),
+                ("rack", ("driver",), "screwdriver from its rack"),
+            )
+        },
+        "pins_tilt": _tilt(measured, _PINS, limits.PIN_TILT, "lean of a pin in its holder"),
+        "rack_tilt": _tilt(measured, ("driver",), limits.RACK_TILT, "lean of the screwdriver in its rack"),
+        "hand": _hand(measured, (*_PARTS, *_PINS, "driver", *screws)),
+    }  # fmt: skip
