@@ -12,7 +12,7 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.tasks import task
-from handeye.tasks.water_pump.faults.after import FAR, THIN, bystanders
+from handeye.tasks.water_pump.faults.after import MOVED_M, THIN_RATIO, bystanders
 from handeye.trials import disturbing
 from handeye.trials.disturbing import Disturbed, disturbances_of, disturbed
 
@@ -64,12 +64,12 @@ def test_each_disturbance_does_what_it_says() -> None:
     made("gasket.glued", there)
     made("pin.swapped", there)
     there.advance(1 / 60)
-    assert place(there, "base") - first[0] == pytest.approx([FAR, 0, 0], abs=2e-4)
+    assert place(there, "base") - first[0] == pytest.approx([MOVED_M, 0, 0], abs=2e-4)
     assert place(there, "pin0")[2] < 0
     model, data = there.truth.model, there.truth.data
     assert data.eq_active[model.equality("merge_gasket").id]
     thick, thin = (model.geom_size[model.body(pin).geomadr[0], 0] for pin in ("pin0", "pin1"))
-    assert thin == pytest.approx(THIN * thick)
+    assert thin == pytest.approx(THIN_RATIO * thick)
 
 
 @pytest.mark.slow

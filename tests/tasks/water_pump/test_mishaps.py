@@ -10,7 +10,7 @@ from handeye.core.errors import InvalidInput
 from handeye.core.pose import Array
 from handeye.core.variation import WorldSpec
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.faults.during import LIFTED, MOVE, PUSH, MishapsState, mishap_faults
+from handeye.tasks.water_pump.faults.during import LIFTED_M, MOVE_S, PUSH_S, MishapsState, mishap_faults
 from handeye.tasks.water_pump.task import WATER_PUMP
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
@@ -59,7 +59,7 @@ def test_somebody_moves_the_base_so_far_and_no_farther() -> None:
     cell = cell_with("base.moved.y")
     before = place(cell, "base")
     cell.begin_stage(2)
-    cell.advance(MOVE + 1.0)
+    cell.advance(MOVE_S + 1.0)
     moved = place(cell, "base") - before
     assert moved[1] == pytest.approx(0.0254, abs=0.002)
     assert abs(moved[0]) < 0.002
@@ -70,8 +70,8 @@ def test_somebody_pushes_the_hand_for_two_seconds() -> None:
     cell = cell_with("arm.pushed.z")
     assert not any(force.any() for force in ways(cell, 0.5))
     cell.begin_stage(2)
-    pushed = sum(force.tolist() == [0.0, 0.0, 40.0] for force in ways(cell, PUSH + 1.0))
-    assert pushed * PERIOD == pytest.approx(PUSH, abs=2 * PERIOD)
+    pushed = sum(force.tolist() == [0.0, 0.0, 40.0] for force in ways(cell, PUSH_S + 1.0))
+    assert pushed * PERIOD == pytest.approx(PUSH_S, abs=2 * PERIOD)
 
 
 @pytest.mark.slow
@@ -81,7 +81,7 @@ def test_a_part_is_lost_when_it_has_been_lifted_and_not_before() -> None:
     cell.advance(0.5)
     assert over(cell) == [False]
     joint = cell.truth.model.joint("pin0")
-    cell.truth.data.qpos[joint.qposadr[0] + 2] += 1.1 * LIFTED
+    cell.truth.data.qpos[joint.qposadr[0] + 2] += 1.1 * LIFTED_M
     cell.advance(PERIOD)
     assert (over(cell), place(cell, "pin0")[2] < -0.2) == ([True], True)
 

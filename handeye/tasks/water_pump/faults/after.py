@@ -1,6 +1,6 @@
 """Faults after a run: disturbances of a finished pump, behind the arm's back, before the arm undoes what it did.
 
-Nobody simulates the hand that does it. What is taken away lies on the tray under the floor from then on, where nothing
+The hand that does it is not simulated. What is taken away lies on the tray under the floor from then on, where nothing
 meets it; what is moved is elsewhere, at rest; what is glued is welded. A hand that tightens a screw is a torque.
 """
 
@@ -18,16 +18,11 @@ from handeye.tasks.interface import Disturbance
 from handeye.tasks.water_pump.faults.during import Scene
 from handeye.tasks.water_pump.scene.arm import ARM
 
-TIGHT: Final = 1.5
-"""N m with which a hand tightens a screw: five times what the driver has."""
-_TIGHTENING: Final = 0.5
-"""s for which it does."""
-FAR: Final = 0.005
-"""m by which somebody moves the base, away from a block, with all that stands on it."""
-THIN: Final = 0.6
-"""Thickness of a pin that somebody puts in the place of another, for one of the pin."""
-TOP_ON: Final = 7
-"""Number of the stage that puts the top on."""
+TIGHT_TORQUE_NM: Final = 1.5  # five times what the driver has
+_TIGHTENING_S: Final = 0.5
+MOVED_M: Final = 0.005  # away from a block
+THIN_RATIO: Final = 0.6  # thickness of the pin that takes the place of another
+TOP_ON_STAGE: Final = 7
 _FINGERS: Final = (f"{ARM}finger_a", f"{ARM}finger_b")
 _PARTS: Final = ("base", "gasket", "top", "pin0", "pin1", "driver")
 
@@ -41,7 +36,7 @@ def _of_a_pump() -> Iterator[Disturbance]:
     yield Disturbance(
         name="screw.tightened", meaning="A screw is tightened by hand, with 1.5 N m.", make=_tighten
     )
-    for axis, way in (("x", (FAR, 0.0)), ("y", (0.0, -FAR))):
+    for axis, way in (("x", (MOVED_M, 0.0)), ("y", (0.0, -MOVED_M))):
         yield Disturbance(
             name=f"pump.moved.{axis}",
             meaning=f"The pump is moved by 5 mm along table {axis}, away from its block.",
@@ -63,25 +58,28 @@ def _of_a_stack() -> Iterator[Disturbance]:
         ("top.glued", "The top is glued to the base.", _glued("top")),
         ("top.removed", "The top is taken away.", _removed("top")),
         ("gasket.removed", "The gasket is taken out from under the top.", _removed("gasket")),
-        ("stack.moved", "The base is moved by 5 mm along table x, with gasket and top.", _moved((FAR, 0.0))),
+        (
+            "stack.moved",
+            "The base is moved by 5 mm along table x, with gasket and top.",
+            _moved((MOVED_M, 0.0)),
+        ),
     ):
-        yield Disturbance(name=name, meaning=meaning, make=make, after=TOP_ON)
+        yield Disturbance(name=name, meaning=meaning, make=make, after=TOP_ON_STAGE)
 
 
 Make = Callable[[SimulatedCell], None]
 
 
 def _scene(cell: SimulatedCell) -> Scene:
-    """The scene of a cell, for somebody's hand: no port leads to it."""
     return Scene(cell.truth.model, cell.truth.data)
 
 
 def _tighten(cell: SimulatedCell) -> None:
     scene = _scene(cell)
     dof = int(scene.model.joint("thread_turn0").dofadr[0])
-    scene.data.qfrc_applied[dof] = -TIGHT
+    scene.data.qfrc_applied[dof] = -TIGHT_TORQUE_NM
     wake(scene.data, dof)
-    cell.advance(_TIGHTENING)
+    cell.advance(_TIGHTENING_S)
     scene.data.qfrc_applied[dof] = 0.0
 
 
@@ -113,7 +111,7 @@ def _thinned(pin: str) -> Make:
         for geom in np.flatnonzero(model.geom_bodyid == model.body(pin).id):
             thick, _, high = model.geom_size[geom]  # of a mesh: half of what encloses it
             model.geom_type[geom] = mujoco.mjtGeom.mjGEOM_CYLINDER
-            model.geom_size[geom] = (THIN * thick, high, 0.0)
+            model.geom_size[geom] = (THIN_RATIO * thick, high, 0.0)
 
     return make
 

@@ -34,29 +34,24 @@ from handeye.tasks.water_pump.world.variation import screws
 if TYPE_CHECKING:
     import mujoco
 
-Change = Callable[["mujoco.MjSpec", float], None]
-"""Changes a scene, by the value of a fault (SI)."""
+Change = Callable[["mujoco.MjSpec", float], None]  # of a scene, by the value of a fault (SI)
 
 GONE: Final = {
     "base": (-0.15, 0.15), "gasket": (-0.15, -0.15), "top": (0.15, -0.2), "driver": (0.2, 0.2), "pin0": (0.0, 0.1),
     "pin1": (0.05, 0.1), **{f"screw{k}": (0.05 * k - 0.1, 0.05) for k in range(7)},
 }  # fmt: skip
 """Places (m) for what is missing: on the tray under the floor, where nothing can meet it."""
-OVER: Final = 0.12
-"""m over the tray: what hangs below a part's origin."""
+OVER_TRAY_M: Final = 0.12  # what hangs below a part's origin
 
-_JAM: Final = 20.0
-"""N m of friction: more than the arm can turn."""
+_JAM_FRICTION_NM: Final = 20.0  # more than the arm can turn
 _THREAD: Final = "thread"
 _SCARRED: Final = "scarred"
 _CROSSES: Final = "crosses"
 _SCREW: Final = "screw"
 _SLOTLESS: Final = "slotless"
 _SMOOTH: Final = "bit.smooth"
-_CARD: Final = 0.08
-"""m: half the side of a card that throws a shadow."""
-_FOREMOST: Final = 3
-"""Priority in a contact over all shapes of the scene."""
+_CARD_HALF_M: Final = 0.08
+_FOREMOST: Final = 3  # priority in a contact, over all shapes of the scene
 METAL: Final = ((0.004, 1.0), (0.999, 0.9999, 0.0001, 0.5, 2.0))
 """Stiffness of what ends a hole. Measured: a thread drives its screw straight through MuJoCo's own limit of a joint."""
 _AWAY: Final = Size(unit="mm", usual=6.0, limits=(-50.0, 50.0))
@@ -257,7 +252,8 @@ def _holes(count: int) -> Iterator[PartFault]:
              f"The thread of tapped hole {number} is worn away: a screw slides in and holds nothing.", _strip(hole),
              Expected(calls=(loose, detect.lost_screw(screw))), None),
             (f"{_THREAD}.{number}.full",
-             f"The shank of a broken screw fills tapped hole {number} up to its mouth.", _fill(hole), full, None),
+             f"The shank of a broken screw fills tapped hole {number} up to its mouth.",
+             _block(hole, "stub"), full, None),
         ):  # fmt: skip
             yield _fault(name, meaning, breaks, detect.if_used(number, expected), size)
 
@@ -281,38 +277,31 @@ def _light() -> Iterator[PartFault]:
 
 
 def scarred_threads(faults: Sequence[Fault]) -> frozenset[int]:
-    """The tapped holes, from 0, in which faults have had a screw crossed."""
-    return _threads(faults, _SCARRED)
+    """Indices of the tapped holes in which a screw was crossed before."""
+    return _numbered(faults, _THREAD, _SCARRED)
 
 
 def crossing_threads(faults: Sequence[Fault]) -> frozenset[int]:
-    """The tapped holes, from 0, in which by faults every screw crosses."""
-    return _threads(faults, _CROSSES)
+    """Indices of the tapped holes in which every screw crosses."""
+    return _numbered(faults, _THREAD, _CROSSES)
 
 
 def slipping_screws(faults: Sequence[Fault], count: int) -> frozenset[int]:
-    """Those of so many screws, from 0, on which by faults the bit slips: they have no slot, or it is smooth.
-
-    No thread takes one, also if something else than the bit turns it a little.
-    """
+    """Indices of screws that the bit slips on and no thread takes: those without a slot, all if the bit is smooth."""
     if any(fault.name == _SMOOTH for fault in faults):
         return frozenset(range(count))
     return _numbered(faults, _SCREW, _SLOTLESS)
 
 
-def _threads(faults: Sequence[Fault], what: str) -> frozenset[int]:
-    return _numbered(faults, _THREAD, what)
-
-
 def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
-    """Those of some things, from 0, that a fault is of."""
+    """Indices, from 0, in the faults called THING.NUMBER.WHAT."""
     names = (fault.name.split(".") for fault in faults)
     return frozenset(
         int(name[1]) - 1 for name in names if len(name) == 3 and (name[0], name[2]) == (thing, what)
     )
 
 
-# -- what they change ---------------------------------------------------------------------------------
+# -- changes of the scene -----------------------------------------------------------------------------
 
 
 def _as_drawn(spec: mujoco.MjSpec, _: float) -> None:
@@ -322,7 +311,7 @@ def _as_drawn(spec: mujoco.MjSpec, _: float) -> None:
 def _missing(part: str) -> Change:
     def change(spec: mujoco.MjSpec, _: float) -> None:
         x, y = GONE[part]
-        spec.body(part).pos[:] = (x, y, spec.geom("tray").pos[2] + OVER)
+        spec.body(part).pos[:] = (x, y, spec.geom("tray").pos[2] + OVER_TRAY_M)
 
     return change
 
@@ -360,7 +349,7 @@ def _yaw(spec: mujoco.MjSpec, part: str) -> float:
 
 
 def _thicken(spec: mujoco.MjSpec, factor: float) -> None:
-    """Make the gasket so many times as thick."""
+    """Scale the gasket's thickness."""
     gasket = spec.body("gasket")
     for mesh in {geom.meshname for geom in gasket.geoms if geom.meshname}:
         spec.mesh(mesh).scale[2] *= factor
@@ -376,7 +365,7 @@ def _thicken(spec: mujoco.MjSpec, factor: float) -> None:
 
 
 def _jam(spec: mujoco.MjSpec, _: float) -> None:
-    spec.joint("rotor").frictionloss = _JAM
+    spec.joint("rotor").frictionloss = _JAM_FRICTION_NM
 
 
 def _slippery(shape: str) -> Change:
@@ -413,7 +402,10 @@ def _shade(spec: mujoco.MjSpec, _: float) -> None:
     card = spec.worldbody.add_geom(
         name="card", type=spec.geom("hub").type, contype=0, conaffinity=0, group=2, rgba=[0.2, 0.2, 0.2, 1.0]
     )
-    card.pos[:], card.size[:] = (light + base) / 2 + (_CARD, 0.0, 0.0), (_CARD, _CARD, 0.0005)
+    card.pos[:], card.size[:] = (
+        (light + base) / 2 + (_CARD_HALF_M, 0.0, 0.0),
+        (_CARD_HALF_M, _CARD_HALF_M, 0.0005),
+    )
 
 
 def _thick_nose(pin: str) -> Change:
@@ -452,7 +444,3 @@ def _block(hole: int, plug_name: str = "plug") -> Change:
         slide.range[0], slide.solref_limit[:], slide.solimp_limit[:] = -depth, *METAL
 
     return change
-
-
-def _fill(hole: int) -> Change:
-    return lambda spec, _: _block(hole, "stub")(spec, 0.0)

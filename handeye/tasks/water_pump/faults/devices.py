@@ -36,8 +36,7 @@ _DRIFT: Final = {
     "deg": Size(unit="deg/s", usual=0.01, limits=(-1.0, 1.0)),
     "in": Size(unit="in/s", usual=0.003, limits=(-1.0, 1.0)),
 }
-_LEFT: Final = (0.0, 100.0)
-"""%: what is left of something that is weak."""
+_PERCENT_LEFT: Final = (0.0, 100.0)
 
 Lines = tuple[Sequence[str], Callable[[float], Effect]]
 """The lines that a fault breaks, and what it does to them, by its value."""
@@ -100,7 +99,7 @@ def _hand() -> Iterator[DeviceFault]:
     yield _fault("finger_motor.dead", "The fingers press with nothing.", "finger_motor", DEAD, expected)
     yield _fault(
         "finger_motor.weak", "So much is left of the force with which the fingers press.", "finger_motor", Scaled,
-        expected, Size(unit="%", usual=10.0, limits=_LEFT),
+        expected, Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
     )  # fmt: skip
 
 
@@ -134,13 +133,13 @@ def _joints() -> Iterator[DeviceFault]:
         yield _fault(f"{tachometer}.dead", f"The rate {joint} reads zero.", tachometer, DEAD, wrong)
         yield _fault(
             f"{drive}.weak", f"So much is left of the torque that the drive {joint} is told.", drive, Scaled,
-            Expected(errors=(FORCE_WRONG, SERVO_LAG), at_setup=True), Size(unit="%", usual=50.0, limits=_LEFT),
+            Expected(errors=(FORCE_WRONG, SERVO_LAG), at_setup=True), Size(unit="%", usual=50.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
         yield _fault(
             f"brake.{number}.slips", f"So much is left of what the brake {joint} holds.", f"brake.{number}", Scaled,
             replace(wrong, harmless="The brakes hold for as long as a picture takes, and the potentiometers tell where "
                     "the arm sank."),
-            Size(unit="%", usual=10.0, limits=_LEFT),
+            Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
 
 
@@ -172,7 +171,7 @@ def _screwdriver() -> Iterator[DeviceFault]:
             calls=tuple(call for calls in lost for call in calls),
             harmless="A screw weighs .06 N, a hundredth of that force: what bears it holds it straight, too.",
         ),
-        Size(unit="%", usual=1.0, limits=_LEFT),
+        Size(unit="%", usual=1.0, limits=_PERCENT_LEFT),
     )  # fmt: skip
 
 

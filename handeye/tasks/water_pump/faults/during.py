@@ -1,7 +1,7 @@
 """Faults that set in during a run: mishaps, by a person's hand or by chance.
 
 Each begins with a stage and lasts a stated time. What is taken away or lost lies from that moment on the tray under
-the floor, where nothing meets it: nobody simulates the hand that takes it. A push is a force; so is the hand that moves
+the floor, where nothing meets it: the hand that takes it is not simulated. A push is a force; so is the hand that moves
 the base, a spring to a point that goes at a constant speed, and friction drags along what stands on the base.
 """
 
@@ -23,21 +23,16 @@ from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.core.units import INCH
 from handeye.tasks.water_pump.faults import expected_detection as detect
-from handeye.tasks.water_pump.faults.before import GONE, OVER
+from handeye.tasks.water_pump.faults.before import GONE, OVER_TRAY_M
 from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
 from handeye.tasks.water_pump.scene.arm import ARM
 
-PUSH: Final = 2.0
-"""s for which somebody pushes the arm."""
-MOVE: Final = 1.0
-"""s in which somebody moves the base."""
+PUSH_S: Final = 2.0
+MOVE_S: Final = 1.0
 HAND: Final = (4000.0, 60.0, 150.0)
-"""N/m, N s/m and N: spring and damper of that somebody's hand, and its greatest force. Measured: it moves the base by 2
-mm less than it means to."""
-LIFTED: Final = 0.02
-"""m: a part that has come up by so much is held by the hand, and not by what it stood in."""
-UPON: Final = 0.15
-"""m from the middle of the base, along the table: what is there, and higher than the table, stands on it."""
+"""Spring (N/m), damper (N s/m), greatest force (N) of the hand that moves the base; measured: it ends 2 mm short."""
+LIFTED_M: Final = 0.02  # a part that has come up by this is held by the hand, and not by what it stood in
+ON_BASE_M: Final = 0.15  # from its middle, along the table: what is there, and higher, stands on it
 _STACK: Final = ("gasket", "top", "pin0", "pin1")
 
 
@@ -60,18 +55,18 @@ class MishapsState(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A scene that things happen to."""
+    """The scene of a cell, in which parts can be moved by hand."""
 
     model: mujoco.MjModel
     data: mujoco.MjData
 
     def dofs(self, part: str) -> slice:
-        """Where the speeds of a free part are in the simulator's."""
+        """Indices of a free part's degrees of freedom."""
         start = int(self.model.body_dofadr[self.model.body(part).id])
         return slice(start, start + 6)
 
     def place(self, part: str) -> Array:
-        """Where a free part is, m; the array is the simulator's own."""
+        """Place of a free part, m: a view of the simulator's own array."""
         start = int(self.model.jnt_qposadr[self.model.body_jntadr[self.model.body(part).id]])
         return np.asarray(self.data.qpos[start : start + 3])
 
@@ -86,41 +81,41 @@ class Scene:
         (x, y, z), parts = self.place("base"), ["base"]
         for part in _STACK:
             aside, high = self.place(part)[:2] - (x, y), self.place(part)[2] - z
-            if np.hypot(*aside) < UPON and high >= 0:
+            if np.hypot(*aside) < ON_BASE_M and high >= 0:
                 parts.append(part)
         return parts
 
     def to_tray(self, part: str) -> Array:
         """The way of a part to its place on the tray, m, shape (3,)."""
         (x, y), tray = GONE[part], self.model.geom("tray").id
-        return np.array([x, y, self.data.geom_xpos[tray][2] + OVER]) - self.place(part)
+        return np.array([x, y, self.data.geom_xpos[tray][2] + OVER_TRAY_M]) - self.place(part)
 
 
 class Mishap(ABC):
-    """Something that happens once."""
+    """An event that happens once."""
 
     __slots__ = ()
 
     @property
     def watched(self) -> str | None:
-        """The part whose place it must know, as it was when it began."""
+        """The part whose place at the beginning it needs, if any."""
         return None
 
     @abstractmethod
     def act(self, scene: Scene, state: MishapState) -> bool:
-        """Do what is due in the next moment; True when it is over."""
+        """Act for one physics tick; true when it is over."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pushed(Mishap):
-    """Somebody pushes the hand of the arm."""
+    """The hand of the arm is pushed."""
 
     axis: int
     """Of the table: 0 is x."""
     force_N: float
 
     def act(self, scene: Scene, state: MishapState) -> bool:
-        over = (state.seconds or 0.0) >= PUSH
+        over = (state.seconds or 0.0) >= PUSH_S
         body = scene.model.body(f"{ARM}link6").id
         scene.data.xfrc_applied[body, self.axis] = 0.0 if over else self.force_N
         return over
@@ -128,7 +123,7 @@ class Pushed(Mishap):
 
 @dataclass(frozen=True, slots=True)
 class Moved(Mishap):
-    """Somebody moves the base along the table."""
+    """The base is moved along the table."""
 
     axis: int
     """Of the table: 0 is x."""
@@ -143,19 +138,19 @@ class Moved(Mishap):
         seconds, (spring, damper, most) = state.seconds or 0.0, HAND
         way = np.zeros(2)
         way[self.axis] = self.way_m
-        goal = np.add(state.place[:2], way * (seconds / MOVE))
+        goal = np.add(state.place[:2], way * (seconds / MOVE_S))
         away = goal - scene.place("base")[:2]
-        late = way / MOVE - scene.data.qvel[scene.dofs("base")][:2]
+        late = way / MOVE_S - scene.data.qvel[scene.dofs("base")][:2]
         force = spring * away + damper * late
         force *= min(1.0, most / max(float(np.hypot(*force)), 1e-9))
-        over = seconds >= MOVE
+        over = seconds >= MOVE_S
         scene.data.xfrc_applied[scene.model.body("base").id, :2] = 0.0 if over else force
         return over
 
 
 @dataclass(frozen=True, slots=True)
 class TakenAway(Mishap):
-    """Somebody takes the base away, and all that stands on it."""
+    """The base is taken away, with all that stands on it."""
 
     def act(self, scene: Scene, state: MishapState) -> bool:
         way = scene.to_tray("base")
@@ -176,7 +171,7 @@ class Dropped(Mishap):
 
     def act(self, scene: Scene, state: MishapState) -> bool:
         assert state.place is not None
-        if scene.place(self.part)[2] < state.place[2] + LIFTED:
+        if scene.place(self.part)[2] < state.place[2] + LIFTED_M:
             return False
         scene.shift(self.part, scene.to_tray(self.part))
         return True
@@ -226,7 +221,7 @@ def _pushes() -> Iterator[MishapFault]:
         harmless="The drives bear a push that is over before the hand feels for anything.",
     )
     for number, axis in enumerate("xyz"):
-        meaning = f"Somebody pushes the hand along table {axis} for {PUSH:g} s."
+        meaning = f"Somebody pushes the hand along table {axis} for {PUSH_S:g} s."
         yield _fault(f"arm.pushed.{axis}", meaning, partial(Pushed, number), expected, size, stage=3)
 
 
@@ -239,7 +234,7 @@ def _base() -> Iterator[MishapFault]:
         harmless="The hand feels for the base around where it was seen.",
     )
     for number, axis in enumerate("xy"):
-        meaning = f"Somebody moves the base along table {axis} within {MOVE:g} s, with what stands on it."
+        meaning = f"Somebody moves the base along table {axis} within {MOVE_S:g} s, with what stands on it."
         yield _fault(f"base.moved.{axis}", meaning, partial(Moved, number), expected, size, stage=2)
     meaning = "Somebody takes the base away, and all that stands on it."
     yield _fault("base.removed", meaning, lambda _: TakenAway(), detect.NO_HOLE_FOR_PIN, stage=4)
@@ -262,7 +257,7 @@ def _losses() -> Iterator[MishapFault]:
         ("gasket", "gasket", "the gasket", gasket),
         ("top", "top", "the top", top),
     ):
-        meaning = f"The hand loses {told} as soon as it has lifted it by {LIFTED / INCH:.1f} in."
+        meaning = f"The hand loses {told} as soon as it has lifted it by {LIFTED_M / INCH:.1f} in."
         yield _fault(f"{name}.dropped", meaning, _dropping(part), expected)
 
 

@@ -42,10 +42,8 @@ def dress(shaper: Shaper) -> None:
     add_bevels(shaper)
 
 
-_REEL: Final = 0.100
-"""Radius of a reel, m."""
-_TELETYPE: Final = (-1.70, -0.55)
-"""Where the teletype stands, m."""
+_REEL_RADIUS_M: Final = 0.100
+_TELETYPE_PLACE_M: Final = (-1.70, -0.55)
 _TURN: Final = [math.cos(math.radians(-5)), 0.0, 0.0, math.sin(math.radians(-5))]
 """How it is turned: towards people's lamp, for faces that are nearly in line with its light are full of specks."""
 
@@ -69,12 +67,14 @@ def _add_reel(shaper: Shaper, number: str, at: Vector, tape: float) -> None:
     body, (x, y, z) = shaper.spec.worldbody, at
     shaper.cylinder(body, "scenery", tape, (x, y, z), (x, y + 0.012, z), "tape", f"tape{number}")
     shaper.cylinder(body, "scenery", 0.024, (x, y, z), (x, y + 0.024, z), "black", f"tape_hub{number}")
-    shaper.scenery(body, "tape_reel", "reel", _flange(), (x, y + 0.012, z)).name = f"tape_reel{number}"
+    shaper.look(
+        body, "tape_reel", "reel", _flange(), (x, y + 0.012, z), style="scenery"
+    ).name = f"tape_reel{number}"
 
 
 def _flange() -> solids.Surface:
     """The front flange of a reel, with three windows, its axis along y."""
-    disc = solids.disc(_REEL)
+    disc = solids.disc(_REEL_RADIUS_M)
     for k in range(3):
         angle = 2 * math.pi * k / 3 + 0.5
         disc -= solids.disc(0.030, 0.060 * math.cos(angle), 0.060 * math.sin(angle), 24)
@@ -83,10 +83,10 @@ def _flange() -> solids.Surface:
 
 def add_teletype(shaper: Shaper) -> None:
     """A teletype on its stand, with keyboard, platen and paper, and a punch for paper tape; it looks along its x."""
-    place = (*_TELETYPE, -dimensions()("table.height"))
+    place = (*_TELETYPE_PLACE_M, -dimensions()("table.height"))
     body = shaper.spec.worldbody.add_body(name="teletype", pos=place, quat=_TURN)
-    shaper.scenery(body, "teletype_case", "case", _case())
-    shaper.scenery(body, "teletype_keys", "black", _keys())
+    shaper.look(body, "teletype_case", "case", _case(), style="scenery")
+    shaper.look(body, "teletype_keys", "black", _keys(), style="scenery")
     for name, low, high, material in (
         ("teletype_stand", (-0.15, -0.20, 0.02), (0.12, 0.16, 0.60), "case"),
         ("teletype_foot", (-0.22, -0.24, 0.0), (0.22, 0.20, 0.03), "iron"),
@@ -183,7 +183,7 @@ def add_boom_cables(shaper: Shaper) -> None:
     for number, z in enumerate(np.linspace(_BACK + 0.05, _FRONT - 0.05, 8)):
         low, high = (-0.0385, _MIDDLE - 0.010, z - 0.006), (-0.030, _MIDDLE + 0.010, z + 0.006)
         shaper.box(boom, "scenery", low, high, "steel", f"cable_clip{number}")
-    shaper.scenery(boom, "cable_loop", "black", _loop(), (_SIDE, _MIDDLE, _BACK))
+    shaper.look(boom, "cable_loop", "black", _loop(), (_SIDE, _MIDDLE, _BACK), style="scenery")
 
 
 def _loop() -> solids.Surface:
@@ -193,10 +193,8 @@ def _loop() -> solids.Surface:
     return solids.surface(solids.tube(way, 0.006))
 
 
-BEVEL: Final = 0.0005
-"""m"""
-_BEVELLED: Final = ("block", "enamel", "red", "iron")
-"""Materials of blocks, fixtures and tools."""
+BEVEL_M: Final = 0.0005
+_BEVELLED: Final = ("block", "enamel", "red", "iron")  # materials of blocks, fixtures and tools
 
 
 def add_bevels(shaper: Shaper) -> None:
@@ -206,7 +204,9 @@ def add_bevels(shaper: Shaper) -> None:
         if box.material in _BEVELLED:
             half = box.size.copy()
             name = "bevelled_" + "_".join(f"{1e6 * side:.0f}" for side in half)
-            look = shaper.scenery(box.parent, name, box.material, bevelled(half), box.pos.tolist())
+            look = shaper.look(
+                box.parent, name, box.material, bevelled(half), box.pos.tolist(), style="scenery"
+            )
             look.name = box.name and f"{box.name}_bevelled"
             box.group = PLAIN
 
@@ -214,5 +214,5 @@ def add_bevels(shaper: Shaper) -> None:
 def bevelled(half: Array) -> solids.Surface:
     """Surface of a box from -`half` to `half` (m) with bevels all around."""
     corners = np.array(list(product((-1.0, 1.0), repeat=3)))
-    inner = np.where(np.eye(3, dtype=bool), half, half - BEVEL)
+    inner = np.where(np.eye(3, dtype=bool), half, half - BEVEL_M)
     return solids.surface(Manifold.hull_points((corners[:, None] * inner).reshape(-1, 3)))

@@ -12,8 +12,7 @@ from handeye.cell.looks import BOX, CYLINDER, MESH, SPHERE
 from handeye.core.pose import Array
 
 Vector = Sequence[float]
-_MARK = 1e-4
-"""Half the height of the disc that marks a hole, m."""
+_MARK_HALF_HEIGHT_M = 1e-4  # of the disc that marks a hole
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,26 +112,14 @@ class Shaper:
 
     def hole(self, body: mujoco.MjsBody, name: str, mouth: Vector, radius: float) -> None:
         """Mark a hole: a site on its axis at the upper face (m), whose first size is the hole's radius."""
-        body.add_site(name=name, type=CYLINDER, pos=mouth, size=[radius, _MARK, 0.0], group=5)
+        body.add_site(name=name, type=CYLINDER, pos=mouth, size=[radius, _MARK_HALF_HEIGHT_M, 0.0], group=5)
 
     def look(
         self, body: mujoco.MjsBody, name: str, material: str, surface: tuple[Array, NDArray[np.int32]],
-        at: Vector = (0.0, 0.0, 0.0),
+        at: Vector = (0.0, 0.0, 0.0), style: str = "look",
     ) -> mujoco.MjsGeom:  # fmt: skip
-        """Visual surface without collisions: vertices, shape (n, 3), and triangles, shape (m, 3)."""
-        return self._surface("look", body, name, material, surface, at)
-
-    def scenery(
-        self, body: mujoco.MjsBody, name: str, material: str, surface: tuple[Array, NDArray[np.int32]],
-        at: Vector = (0.0, 0.0, 0.0),
-    ) -> mujoco.MjsGeom:  # fmt: skip
-        """The same for people alone."""
-        return self._surface("scenery", body, name, material, surface, at)
-
-    def _surface(
-        self, style: str, body: mujoco.MjsBody, name: str, material: str,
-        surface: tuple[Array, NDArray[np.int32]], at: Vector,
-    ) -> mujoco.MjsGeom:  # fmt: skip
+        """A surface without collisions: vertices, shape (n, 3), and triangles, shape (m, 3); style `scenery` is for
+        people alone."""
         if self.spec.mesh(name) is None:
             self.spec.add_mesh(
                 name=name,
