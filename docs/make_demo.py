@@ -16,7 +16,7 @@ ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
 import handeye  # noqa: E402
-from handeye.trace.thinned_file import write_thinned  # noqa: E402
+from handeye.trace.thinning import write_thinned  # noqa: E402
 
 DEMO = ROOT / "demo"
 SEED = 15

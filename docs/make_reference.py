@@ -65,7 +65,7 @@ GROUPS: Final = {
     "Traces": {
         "handeye.open": "api.trace.open",
         "handeye.Trace": "api.trace.Trace",
-        "Motion": "trace.motion.Motion",
+        "Motion": "trace.replay.Motion",
         "Forces": "trace.forces.Forces",
         "Moment": "trace.replay.Moment",
         "Table": "trace.table.Table",
@@ -73,7 +73,7 @@ GROUPS: Final = {
         "handeye.compare": "api.comparing.compare",
         "handeye.Comparison": "comparison.comparison.Comparison",
         "First": "comparison.first.First",
-        "Differing": "trace.quantities.Differing",
+        "QuantityDifference": "trace.quantities.QuantityDifference",
         "Parting": "comparison.parting.Parting",
         "Place": "comparison.place.Place",
     },

@@ -5,13 +5,13 @@ from typing import TYPE_CHECKING
 
 from handeye.core.arguments import given_file
 from handeye.core.errors import BadArgument, CannotWrite, Taken
-from handeye.runs.exhibit import Exhibit
+from handeye.runs.exported_state import ExportedState
 
 if TYPE_CHECKING:
     from handeye.results.export import Export
 
 
-def exported(given: object, shown: Callable[[], Exhibit], part: object, *, overwrite: bool) -> "Export":
+def exported(given: object, shown: Callable[[], ExportedState], part: object, *, overwrite: bool) -> "Export":
     """Write what is shown to where somebody says; arguments are those of `Run.export`.
 
     Raises:

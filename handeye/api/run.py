@@ -35,12 +35,12 @@ from handeye.results.pictures import annotated_webp
 from handeye.results.result import Result
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
-from handeye.runs.exhibit import present
+from handeye.runs.exported_state import present_state
 from handeye.runs.folder import TRACE, RunFolder
 from handeye.runs.host_seconds import Meter
 from handeye.runs.operator import Operator, attend, beginnings
 from handeye.runs.setup import plan_of
-from handeye.runs.stops import AfterSteps, AnyStop, AtStage, BrokenOff
+from handeye.runs.stops import AfterSteps, AnyStop, AtStage, DriverFailure
 from handeye.runs.undo_orders import stage_began
 from handeye.trace.reading import read_trace_as
 
@@ -84,7 +84,7 @@ class Run:
         self._why: str | None = why
         self._closed: Result | None = None
         self._outcome: tuple[int, Result] | None = None
-        self._broken: BrokenOff | None = None
+        self._broken: DriverFailure | None = None
 
     # -- going on -------------------------------------------------------------------------------------
 
@@ -367,7 +367,7 @@ class Run:
         >>> run.export(folder).moment
         'unfinished'
         """
-        return exported(path, lambda: present(self._runner), part, overwrite=overwrite)
+        return exported(path, lambda: present_state(self._runner), part, overwrite=overwrite)
 
     def close(self) -> None:
         """End the run, and complete its folder: trace, pictures, result, and a checkpoint if it can go on."""
@@ -407,7 +407,7 @@ class Run:
         self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
     ) -> None:
         if kind is not None:
-            self._broken = BrokenOff(exception=kind.__name__)
+            self._broken = DriverFailure(exception=kind.__name__)
         self.close()
 
     # -- showing --------------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ from handeye.core.notebook import heading, page, table
 from handeye.core.variation import SPREADS, Level, WorldSpec, checked_seed
 from handeye.core.world_options import overrides
 from handeye.results.world_page import QuantityReport, report
-from handeye.runs.exhibit import drawn
+from handeye.runs.exported_state import initial_state
 
 if TYPE_CHECKING:
     from handeye.results.export import Export
@@ -136,7 +136,7 @@ class World:
         Raises:
             InvalidInput: it cannot be written there, or there is no such part.
         """
-        return exported(path, lambda: drawn(self.spec, self._task), part, overwrite=overwrite)
+        return exported(path, lambda: initial_state(self.spec, self._task), part, overwrite=overwrite)
 
     def _repr_html_(self) -> str:
         rows = [(each.name, f"{each.value:.4g}", each.unit, each.override or "") for each in self.quantities]

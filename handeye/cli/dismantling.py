@@ -81,9 +81,9 @@ def _newest(path: Path) -> "Checkpoint":
     Raises:
         InvalidInput: there is none.
     """
-    from handeye.runs.catching_up import caught_up, done_since
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.runs.folder import EVENTS, open_again
+    from handeye.runs.undo_orders import caught_up, done_since
     from handeye.trace.eventlist import effective, read_events
 
     if not path.is_dir():

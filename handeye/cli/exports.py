@@ -13,7 +13,7 @@ from handeye.tasks import planned
 
 if TYPE_CHECKING:
     from handeye.results.export import Export
-    from handeye.runs.exhibit import Exhibit
+    from handeye.runs.exported_state import ExportedState
 
 Run = Annotated[
     Path, Parameter(help="The folder of a run, or a checkpoint; without one, a world as it is drawn.")
@@ -66,22 +66,22 @@ def _told(written: "Export", *, json: bool) -> int:
     return 0
 
 
-def _exhibit(run: Path | None, world: WorldOptions) -> "Exhibit":
+def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
     """What is to be exported; a note says what is wrong with it.
 
     Raises:
         InvalidInput: there is no such run or world.
     """
-    from handeye.runs.exhibit import drawn, kept
+    from handeye.runs.exported_state import initial_state, kept_state
 
     wanted = made_known(world.task)
     if run is None:
-        return drawn(world.spec, planned(world.work).name)
+        return initial_state(world.spec, planned(world.work).name)
     if world.chosen:
         raise BadArgument(
             f"{run} brings its own world; --seed, --level, --without and --set do not go with it"
         )
-    exhibit, faults = kept(run)
+    exhibit, faults = kept_state(run)
     check_task(wanted, exhibit.task, run)
     for fault in faults:
         note(f"left out: {fault}")

@@ -23,7 +23,7 @@ def thin(
     """
     from handeye.core.files import check_free, check_place
     from handeye.trace.reading import TRACE, read_trace
-    from handeye.trace.thinned_file import write_thinned
+    from handeye.trace.thinning import write_thinned
 
     whole = trace_file(file)
     trace = read_trace(whole)

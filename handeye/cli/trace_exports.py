@@ -35,8 +35,8 @@ def plot(
 
     Exit code 0: it is written; 2: bad input.
     """
+    from handeye.trace.plot import KINDS, drawn
     from handeye.trace.plot import plot as plot_of
-    from handeye.trace.plot_drawing import KINDS, drawn
 
     kind = KINDS.get(output.suffix.lower())
     if kind is None:

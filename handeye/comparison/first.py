@@ -17,7 +17,7 @@ from handeye.inspection.difference import step_changes
 from handeye.program.events import AnyEvent, StepStarted
 from handeye.report.recorded import Recorded
 from handeye.tasks import known
-from handeye.trace.quantities import Differing
+from handeye.trace.quantities import QuantityDifference
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,7 +30,7 @@ class First:
     """That of the second run."""
     period: int | None = None
     """The servo period of the step, from 1; None: it is of none."""
-    differing: Differing
+    differing: QuantityDifference
     """The quantity, and both values."""
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
     """What happened next, where that is what differs; None: the step went on, or the run ended."""
@@ -75,10 +75,12 @@ def _other_step(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | 
     places = _place(runs.a, here), _place(runs.b, there)
     if here is None or there is None or not runs.are_beside(here.step, there.step):
         one, other = (None if place is None else one_line(place.text) for place in places)
-        return First(a=places[0], b=places[1], differing=Differing(quantity=("step",), a=one, b=other))
+        return First(
+            a=places[0], b=places[1], differing=QuantityDifference(quantity=("step",), a=one, b=other)
+        )
     steps = runs.a.program.steps[here.step], runs.b.program.steps[there.step]
     for what, was, now in step_changes(*steps):
-        return First(a=places[0], b=places[1], differing=Differing(quantity=(what,), a=was, b=now))
+        return First(a=places[0], b=places[1], differing=QuantityDifference(quantity=(what,), a=was, b=now))
     return None
 
 

@@ -11,7 +11,7 @@ from handeye.arm.model import ArmModel
 from handeye.comparison.stretches import OF_A_PERIOD, Stretch, Told
 from handeye.program.events import AnyEvent, OperatorAnswered, StepFinished
 from handeye.trace.channels import FRAMES, JOINTS
-from handeye.trace.quantities import Differing, differing, differing_events
+from handeye.trace.quantities import QuantityDifference, differing, differing_events
 
 _CLOCKS: Final = 2000
 """ns by which times since a step began may differ by rounding."""
@@ -23,7 +23,7 @@ EVENT: Final = ("event",)
 class Otherwise:
     """What was recorded otherwise."""
 
-    differing: Differing
+    differing: QuantityDifference
     period: int | None
     """The servo period of the step, from 1; None: it is of none."""
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
@@ -48,10 +48,12 @@ def otherwise(a: Stretch, b: Stretch, arm: ArmModel | None) -> Otherwise | None:
     return None
 
 
-def _differing(one: Told | None, other: Told | None, arm: ArmModel | None) -> Differing | None:
+def _differing(one: Told | None, other: Told | None, arm: ArmModel | None) -> QuantityDifference | None:
     """What two messages tell differently."""
     if one is None or other is None or one.message.topic != other.message.topic:
-        return _moved_alone(one, other, arm) or Differing(quantity=EVENT, a=_kind(one), b=_kind(other))
+        return _moved_alone(one, other, arm) or QuantityDifference(
+            quantity=EVENT, a=_kind(one), b=_kind(other)
+        )
     if one.event is not None and other.event is not None:
         return _events_differ(one.event, other.event) or _times_differ(one, other)
     if one.message.data == other.message.data:
@@ -59,22 +61,22 @@ def _differing(one: Told | None, other: Told | None, arm: ArmModel | None) -> Di
     return _times_differ(one, other) or differing(one.message, other.message, arm)
 
 
-def _times_differ(one: Told, other: Told) -> Differing | None:
+def _times_differ(one: Told, other: Told) -> QuantityDifference | None:
     if abs(one.since - other.since) <= _CLOCKS:
         return None
-    return Differing(quantity=("time",), unit="s", a=one.since / 1e9, b=other.since / 1e9)
+    return QuantityDifference(quantity=("time",), unit="s", a=one.since / 1e9, b=other.since / 1e9)
 
 
-def _moved_alone(one: Told | None, other: Told | None, arm: ArmModel | None) -> Differing | None:
+def _moved_alone(one: Told | None, other: Told | None, arm: ArmModel | None) -> QuantityDifference | None:
     """The body that moved in one of two runs, while it kept still in the other; None: what differs is not that."""
     a, b = (None if told is None or told.message.topic != FRAMES else told.message for told in (one, other))
     return differing(a, b, arm)
 
 
-def _events_differ(one: AnyEvent, other: AnyEvent) -> Differing | None:
+def _events_differ(one: AnyEvent, other: AnyEvent) -> QuantityDifference | None:
     """What two events tell differently, but for the numbers of steps, which another program counts otherwise."""
     if type(one) is not type(other):
-        return Differing(quantity=EVENT, a=type(one).__name__, b=type(other).__name__)
+        return QuantityDifference(quantity=EVENT, a=type(one).__name__, b=type(other).__name__)
     if isinstance(one, StepFinished | OperatorAnswered) and isinstance(
         other, StepFinished | OperatorAnswered
     ):

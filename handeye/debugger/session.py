@@ -19,7 +19,7 @@ from handeye.runs.observer import Observer
 from handeye.runs.operator import beginnings
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AnyStop, ByHand, Undone
+from handeye.runs.stops import AnyStop, ByHand, ReversalEnd
 from handeye.runs.system import Listing
 
 AROUND: Final = 2
@@ -117,7 +117,7 @@ class DebugSession:
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")
         self.runner.order_reversal(left, halts=halts)
-        return self._go([Undone()], None)
+        return self._go([ReversalEnd()], None)
 
     def _go(self, stops: Sequence[AnyStop], steps: int | None) -> Pause:
         wanted = [*self.stops, *self.breaks.values(), *stops]

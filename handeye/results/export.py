@@ -11,9 +11,9 @@ from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.results.exported_scene import EXPORT, scene_files, shows
 from handeye.results.exported_solids import GLB, WHOLE, ExportedSolids, checks, exported_solids
-from handeye.runs.exhibit import Exhibit, MomentKind
+from handeye.runs.exported_state import ExportedState, MomentKind
 
-Shown = Callable[[], Exhibit]
+Shown = Callable[[], ExportedState]
 """Makes what is exported; it takes a while, so it is asked for after the place has been looked at."""
 
 

@@ -8,7 +8,7 @@ from handeye.cell.mjcf import MESHES, SCENE, TEXTURES, mjcf_files
 from handeye.core.folders import FolderKind
 from handeye.core.plain_text import counted, printable
 from handeye.core.versions import HANDEYE, versions
-from handeye.runs.exhibit import Exhibit
+from handeye.runs.exported_state import ExportedState
 from handeye.tasks import task
 
 README: Final = "README.md"
@@ -21,7 +21,7 @@ EXPORT: Final = FolderKind(
 )
 
 
-def scene_files(exhibit: Exhibit) -> dict[str, bytes]:
+def scene_files(exhibit: ExportedState) -> dict[str, bytes]:
     """The files of an exhibit by their names in its folder; equal exhibits give equal bytes.
 
     Raises:
@@ -32,7 +32,7 @@ def scene_files(exhibit: Exhibit) -> dict[str, bytes]:
     return {README: _readme(exhibit, scene.about).encode(), **files}
 
 
-def told(exhibit: Exhibit) -> dict[str, str]:
+def told(exhibit: ExportedState) -> dict[str, str]:
     """What the files of an exhibit tell programs, by name."""
     return {
         "moment": exhibit.moment,
@@ -42,7 +42,7 @@ def told(exhibit: Exhibit) -> dict[str, str]:
     }
 
 
-def shows(exhibit: Exhibit) -> str:
+def shows(exhibit: ExportedState) -> str:
     """What an exhibit shows, as a piece of a sentence."""
     world = f"the world of {exhibit.world}"
     if exhibit.moment == "drawn":
@@ -55,7 +55,7 @@ def shows(exhibit: Exhibit) -> str:
     return f"{done}{where}: unfinished"
 
 
-def _readme(exhibit: Exhibit, about: str) -> str:
+def _readme(exhibit: ExportedState, about: str) -> str:
     made = ", ".join(f"{name} {version}" for name, version in versions().items())
     return f"""# A scene of handeye
 

@@ -12,7 +12,7 @@ from handeye.core.errors import NoSuchName
 from handeye.core.files import Kind
 from handeye.core.plain_text import counted
 from handeye.results.exported_scene import told
-from handeye.runs.exhibit import Exhibit
+from handeye.runs.exported_state import ExportedState
 from handeye.tasks import task
 
 GLB: Final = Kind("GLB file", rb"glTF", ending=".glb")
@@ -35,7 +35,7 @@ class ExportedSolids:
     """Bodies of which the density is known."""
 
 
-def exported_solids(exhibit: Exhibit, part: str) -> ExportedSolids:
+def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
     """The solids of an exhibit; equal exhibits give equal bytes.
 
     Raises:

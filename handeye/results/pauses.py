@@ -35,15 +35,15 @@ def stop_name(stop: AnyStop) -> str:
             return f"stage {stop.stage + 1}, {stop.name}"
         case stops.OnError():
             return f"error {stop.number}"
-        case stops.Undone():
+        case stops.ReversalEnd():
             return "undone"
         case stops.AfterSteps():
             return counted(stop.count, "step")
-        case stops.Asked():
+        case stops.PauseRequest():
             return "when asked"
         case stops.ByHand():
             return "by hand"
-        case stops.BrokenOff():
+        case stops.DriverFailure():
             return stop.exception
 
 
@@ -57,13 +57,13 @@ def _met(stop: AnyStop) -> str:
             return f"breakpoint on {stop_name(stop)}: {ERRORS[stop.number]}"
         case stops.AfterSteps():
             return f"{stop_name(stop)} done"
-        case stops.Undone():
+        case stops.ReversalEnd():
             return "undone; the program can go on from here"
-        case stops.Asked():
+        case stops.PauseRequest():
             return "paused as asked"
         case stops.ByHand():
             return "left by the user"
-        case stops.BrokenOff():
+        case stops.DriverFailure():
             return f"broken off by {stop_name(stop)} in the program that called handeye"
         case _:
             return f"breakpoint at {stop_name(stop)}"

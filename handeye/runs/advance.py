@@ -8,7 +8,7 @@ from handeye.execution.servo import Halted
 from handeye.program.causes import Cause
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Snapshot
-from handeye.runs.stops import AfterSteps, AnyStop, Asked
+from handeye.runs.stops import AfterSteps, AnyStop, PauseRequest
 
 
 class Pause(Record, frozen=True, kw_only=True):
@@ -60,7 +60,7 @@ def advance(
             return pause
         if not runner.ended and asked():
             keep(runner, runner.history[-1])
-            return Pause(kind="break", done=done, next=runner.at, met=Asked())
+            return Pause(kind="break", done=done, next=runner.at, met=PauseRequest())
     return ended(runner, done)
 
 

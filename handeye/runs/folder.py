@@ -20,14 +20,14 @@ from handeye.ports.camera import Picture
 from handeye.program.events import AnyEvent, RunFinished
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.host_seconds import HostSeconds, Meter, read_host_seconds, write_host_seconds
-from handeye.runs.journal import Journal
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import digest_of, system_of, written
+from handeye.trace.eventlist import Journal
 from handeye.trace.frames import Frames, NoFrames
-from handeye.trace.recorder import Looks, Recorder
+from handeye.trace.recorder import PictureSource, Recorder
 from handeye.vision.marks import Mark
 
 PLAN: Final = "plan.json"
@@ -125,7 +125,7 @@ class RunFolder(Observer):
         setup, cell = self._runner.setup, self._runner.system.cell
         plan = written(setup)
         frames = NoFrames() if cell is None else Frames(cell.truth, self._runner.system.joints)
-        looks = Looks(picture=self._picture, found=self._found)
+        looks = PictureSource(picture=self._picture, found=self._found)
         return Recorder.resumed(self.path / TRACE, frames, looks, plan, len(events), events)
 
     def _picture(self, name: str) -> Picture:

@@ -86,7 +86,7 @@ class AfterStage(StopCondition, frozen=True, kw_only=True):
         return isinstance(last, StageFinished) and last.stage == self.name
 
 
-class Undone(StopCondition, frozen=True, kw_only=True):
+class ReversalEnd(StopCondition, frozen=True, kw_only=True, tag="Undone"):
     """Pause when the arm has undone what was asked for."""
 
     def met_before(self, runner: Runner) -> bool:
@@ -99,7 +99,7 @@ class AfterSteps(StopCondition, frozen=True, kw_only=True):
     count: int
 
 
-class Asked(StopCondition, frozen=True, kw_only=True):
+class PauseRequest(StopCondition, frozen=True, kw_only=True, tag="Asked"):
     """Pause because somebody asked for it while the run went on."""
 
 
@@ -107,7 +107,7 @@ class ByHand(StopCondition, frozen=True, kw_only=True):
     """Pause because somebody left the run as it was."""
 
 
-class BrokenOff(StopCondition, frozen=True, kw_only=True):
+class DriverFailure(StopCondition, frozen=True, kw_only=True, tag="BrokenOff"):
     """Pause because the program that drives the run failed."""
 
     exception: str
@@ -122,9 +122,9 @@ AnyStop = (
     | AtStage
     | OnError
     | AfterStage
-    | Undone
+    | ReversalEnd
     | AfterSteps
-    | Asked
+    | PauseRequest
     | ByHand
-    | BrokenOff
+    | DriverFailure
 )

@@ -8,8 +8,7 @@ from handeye.tasks import known
 from handeye.trace.channels import EVENTS, JOINTS, LOG, MOMENTS
 from handeye.trace.quantities import differing
 from handeye.trace.quantity_text import quantity_text, values_text
-from handeye.trace.records import RawMessage
-from handeye.trace.resuming import until
+from handeye.trace.records import RawMessage, until
 from handeye.trace.sentences import sentence
 from handeye.trace.trace import Trace
 

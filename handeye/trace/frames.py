@@ -1,13 +1,76 @@
 """Frames of everything in the simulated cell, for the trace: an observer that can change nothing."""
 
 import numpy as np
+from foxglove_schemas_protobuf.Color_pb2 import Color
+from foxglove_schemas_protobuf.Point3_pb2 import Point3
+from foxglove_schemas_protobuf.Pose_pb2 import Pose
+from foxglove_schemas_protobuf.Quaternion_pb2 import Quaternion
+from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
+from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
 from numpy.typing import NDArray
 
-from handeye.cell.looks import LATENT
+from handeye.cell.looks import BOX, CYLINDER, LATENT, MESH, SEEN
 from handeye.cell.truth import Truth
-from handeye.trace.messages import Poses
-from handeye.trace.scene import looks, scene
+from handeye.core.pose import Array
+from handeye.trace.channels import WORLD
+from handeye.trace.messages import Poses, stamp
+
+
+def looks(truth: Truth, body: int) -> list[int]:
+    """The shapes by which a body is seen, or will be."""
+    mine = np.flatnonzero(truth.model.geom_bodyid == body)
+    return [int(shape) for shape in mine if truth.drawn.groups[shape] in (SEEN, LATENT)]
+
+
+def scene(truth: Truth, time: int) -> bytes:
+    """All bodies that can be seen, each in its own frame, as they were drawn; `time` in ns."""
+    entities = []
+    for body in range(truth.model.nbody):
+        name = truth.model.body(body).name if body else WORLD
+        entity = SceneEntity(timestamp=stamp(time), frame_id=name, id=name, frame_locked=True)
+        for shape in looks(truth, body):
+            _add(entity, truth, shape)
+        entities.append(entity)
+    return SceneUpdate(entities=entities).SerializeToString()
+
+
+def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
+    """Add a shape to the entity of its body. A lamp, the only ball, is left out."""
+    model = truth.model
+    material = model.geom_matid[shape]
+    r, g, b, a = _short(truth.drawn.colours[material] if material >= 0 else model.geom_rgba[shape])
+    qw, qx, qy, qz = _short(model.geom_quat[shape])
+    pose = Pose(position=_vector(model.geom_pos[shape]), orientation=Quaternion(x=qx, y=qy, z=qz, w=qw))
+    color, size, kind = Color(r=r, g=g, b=b, a=a), model.geom_size[shape], model.geom_type[shape]
+    if kind == BOX:
+        entity.cubes.add(pose=pose, size=_vector(2 * size), color=color)
+    elif kind == CYLINDER:
+        across, along = 2 * size[0], 2 * size[1]
+        upright = _vector(np.array([across, across, along]))
+        entity.cylinders.add(pose=pose, size=upright, bottom_scale=1.0, top_scale=1.0, color=color)
+    elif kind == MESH:
+        mesh = model.geom_dataid[shape]
+        first, corner = model.mesh_vertadr[mesh], model.mesh_faceadr[mesh]
+        points = model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
+        corners = model.mesh_face[corner : corner + model.mesh_facenum[mesh]]
+        entity.triangles.add(
+            pose=pose,
+            points=[Point3(x=x, y=y, z=z) for x, y, z in points.tolist()],
+            indices=corners.ravel().tolist(),
+            color=color,
+        )
+
+
+def _short(values: Array) -> list[float]:
+    """Figures to seven places, which make short files."""
+    return [float(value) for value in values.astype(np.float32)]
+
+
+def _vector(values: Array) -> Vector3:
+    x, y, z = _short(values)
+    return Vector3(x=x, y=y, z=z)
+
 
 Mask = NDArray[np.bool_]
 
@@ -34,7 +97,7 @@ class Frames:
         return there
 
     def scene(self, time: int) -> bytes:
-        """Looks of the bodies, as a message; `time` in ns."""
+        """PictureSource of the bodies, as a message; `time` in ns."""
         return scene(self._truth, time)
 
 

@@ -24,7 +24,7 @@ Found = tuple[tuple[str, ...], Value, Value]
 """The name of a quantity, part by part, and two values of it."""
 
 
-class Differing(Record, frozen=True, kw_only=True):
+class QuantityDifference(Record, frozen=True, kw_only=True):
     """A quantity of which two runs tell different values."""
 
     quantity: tuple[str, ...]
@@ -42,7 +42,9 @@ class Differing(Record, frozen=True, kw_only=True):
         return ".".join(part.replace(" ", "_") for part in self.quantity)
 
 
-def differing(a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None = None) -> Differing | None:
+def differing(
+    a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None = None
+) -> QuantityDifference | None:
     """The first quantity of which two messages on a channel tell different values, their times left out; None: none.
 
     Args:
@@ -62,17 +64,17 @@ def differing(a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None =
     if found is None:
         return None
     quantity, one, other = found
-    return Differing(quantity=quantity, unit=_unit(message, quantity, arm), a=one, b=other)
+    return QuantityDifference(quantity=quantity, unit=_unit(message, quantity, arm), a=one, b=other)
 
 
-def differing_events(a: AnyEvent, b: AnyEvent) -> Differing | None:
+def differing_events(a: AnyEvent, b: AnyEvent) -> QuantityDifference | None:
     """The first quantity of which two events of a kind tell different values, their times left out; None: none."""
     plain = msgspec.to_builtins(a)
     found = next(_differing(_event(plain), _event(msgspec.to_builtins(b))), None)
     if found is None:
         return None
     quantity, one, other = found
-    return Differing(quantity=quantity, unit=_event_unit(plain, quantity), a=one, b=other)
+    return QuantityDifference(quantity=quantity, unit=_event_unit(plain, quantity), a=one, b=other)
 
 
 def _differing(a: Any, b: Any, name: tuple[str, ...] = ()) -> Iterator[Found]:

@@ -5,7 +5,7 @@ from typing import Final
 
 from handeye.core.plain_text import printable, told_apart
 from handeye.core.units import UNITS
-from handeye.trace.quantities import Differing, Value
+from handeye.trace.quantities import QuantityDifference, Value
 
 _SHOWN_IN: Final[Mapping[str, str]] = {
     "m": "in", "m/s": "in/s", "rad": "deg", "rad/s": "deg/s", "N": "oz", "N m": "oz in",
@@ -53,7 +53,7 @@ def quantity_text(quantity: tuple[str, ...]) -> str:
     return printable(said)
 
 
-def values_text(found: Differing) -> tuple[str, str]:
+def values_text(found: QuantityDifference) -> tuple[str, str]:
     """Both values, with as many decimals as it takes to tell them apart."""
     numbers = [value for value in (found.a, found.b) if _is_number(value)]
     told = iter(_numbers(numbers, found.unit))

@@ -14,7 +14,7 @@ from handeye.planfile.store import written_digest
 from handeye.program.event_reading import EventReader
 from handeye.program.events import RunStarted
 from handeye.trace.channels import EVENTS, FORMAT, THINNED, VERSION
-from handeye.trace.records import Unsound, check, front, is_ended, is_mcap, read_messages
+from handeye.trace.records import DamagedTrace, check, front, is_ended, is_mcap, read_messages
 from handeye.trace.trace import Trace
 
 __all__ = ["Trace", "read_trace"]
@@ -47,7 +47,7 @@ def read_trace_as(kind: type[AnyTrace], path: Path, *, lenient: bool = False) ->
         for message in messages:
             if message.topic == EVENTS:
                 events.append(reader.read(message.data))
-    except Unsound as error:
+    except DamagedTrace as error:
         raise BadFile(f"{path} {error}") from None
     except msgspec.DecodeError as error:
         raise BadFile(f"{path}: event {len(events) + 1} cannot be understood: {error}") from None
@@ -82,7 +82,7 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
 
     Raises:
         InvalidInput: it does not say so.
-        Unsound: it cannot be read so far.
+        DamagedTrace: it cannot be read so far.
     """
     if not is_mcap(data):
         raise BadFile(f"{path} is not a trace: it is not an MCAP file")
@@ -95,5 +95,5 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
     if int(version) != VERSION:
         raise BadFile(f"{path} has trace format version {version}; this handeye reads version {VERSION}")
     if start.plan is None:
-        raise Unsound("has no plan in it")
+        raise DamagedTrace("has no plan in it")
     return start.plan, int(version), THINNED in start.metadata

@@ -23,9 +23,8 @@ from handeye.program.events import (
 from handeye.trace.frames import Frames, Mask
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
-from handeye.trace.records import read_messages
-from handeye.trace.resuming import known, until
-from handeye.trace.writing import Writing
+from handeye.trace.records import known, read_messages, until
+from handeye.trace.writing import TraceWriter
 from handeye.vision.marks import Mark
 
 
@@ -35,7 +34,7 @@ def part(path: Path) -> Path:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Looks:
+class PictureSource:
     """What a program looks at, to be asked for when an event tells of it."""
 
     picture: Callable[[str], Picture]
@@ -54,7 +53,7 @@ class Recorder:
         self,
         path: Path,
         frames: Frames,
-        looks: Looks,
+        looks: PictureSource,
         plan: bytes,
         *,
         old: bytes = b"",
@@ -86,7 +85,7 @@ class Recorder:
         cls,
         path: Path,
         frames: Frames,
-        looks: Looks,
+        looks: PictureSource,
         plan: bytes,
         events: int,
         prefix: Sequence[Event],
@@ -200,14 +199,14 @@ class Recorder:
         self._writing = self._copied(read_whole(old.file.file), events, old.head)
         old.file.release()
 
-    def _copied(self, old: bytes, events: int | None, head: RunStarted | None) -> Writing:
+    def _copied(self, old: bytes, events: int | None, head: RunStarted | None) -> TraceWriter:
         """Begin a new file with what the bytes of an old one hold up to an event; it takes the old one's place.
 
         Raises:
             InvalidInput: it cannot be written; nothing has changed.
         """
         file = GrowingFile(self._path.with_name(f".{self._path.name}.new"))
-        writing = Writing(file, self._frames, self._plan)
+        writing = TraceWriter(file, self._frames, self._plan)
         try:
             if head is not None and events != 0:
                 writing.begin(head)

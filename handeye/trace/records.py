@@ -5,7 +5,7 @@ The MCAP reader checks some of a file's check sums. Here all of them are, so tha
 
 import struct
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from typing import Final, TypeVar
@@ -18,7 +18,8 @@ from mcap.stream_reader import breakup_chunk
 from mcap.writer import MCAP0_MAGIC
 from zstandard import ZstdDecompressor, ZstdError, frame_content_size
 
-from handeye.trace.channels import METADATA, PACKED_PLAN, PLAN
+from handeye.program.events import Event, to_line
+from handeye.trace.channels import EVENTS, METADATA, PACKED_PLAN, PLAN
 
 _HEAD: Final = struct.Struct("<BQ")
 """Before every record: what it is, and its length."""
@@ -33,7 +34,7 @@ LARGEST: Final = 1 << 26
 Kind = TypeVar("Kind", Attachment, Chunk, Metadata)
 
 
-class Unsound(Exception):
+class DamagedTrace(Exception):
     """A file is not as it was written; the words say what is the matter with it."""
 
 
@@ -70,26 +71,26 @@ def check(data: bytes) -> None:
     Two check sums cover everything: one the records up to that of the end of the data, one those of the summary.
 
     Raises:
-        Unsound: it is not.
+        DamagedTrace: it is not.
     """
     if not is_ended(data):
-        raise Unsound("is cut short")
+        raise DamagedTrace("is cut short")
     footer = len(data) - len(MCAP0_MAGIC) - _FOOTER
     summary, _, summary_crc = struct.unpack_from("<QQI", data, footer + _HEAD.size)
     if zlib.crc32(data[min(summary, footer) : footer + _FOOTER - 4]) != summary_crc:
-        raise Unsound("is damaged")
+        raise DamagedTrace("is damaged")
     end = summary - _DATA_END
     if not 0 <= end <= footer or _HEAD.unpack_from(data, end) != (Opcode.DATA_END, 4):
-        raise Unsound("is damaged")
+        raise DamagedTrace("is damaged")
     if struct.unpack_from("<I", data, end + _HEAD.size) != (zlib.crc32(data[:end]),):
-        raise Unsound("is damaged")
+        raise DamagedTrace("is damaged")
 
 
 def front(data: bytes) -> Front:
     """The trace's own metadata, empty if it has none, and its plan.
 
     Raises:
-        Unsound: the plan is packed, and is damaged.
+        DamagedTrace: the plan is packed, and is damaged.
     """
     metadata: dict[str, str] = {}
     plan = None
@@ -106,13 +107,13 @@ def front(data: bytes) -> Front:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """What was packed. Raises Unsound if it is damaged, or would fill the memory."""
+    """What was packed. Raises DamagedTrace if it is damaged, or would fill the memory."""
     try:
         if not 0 <= frame_content_size(data) <= LARGEST:
-            raise Unsound("is damaged")
+            raise DamagedTrace("is damaged")
         return ZstdDecompressor().decompress(data)
     except ZstdError:
-        raise Unsound("is damaged") from None
+        raise DamagedTrace("is damaged") from None
 
 
 def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]:
@@ -122,7 +123,7 @@ def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]
         lenient: end before a damaged chunk, and before whatever follows it, without complaint.
 
     Raises:
-        Unsound: a chunk is damaged.
+        DamagedTrace: a chunk is damaged.
     """
     topics: dict[int, str] = {}
     for opcode, body in _records(data):
@@ -130,10 +131,10 @@ def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]
             continue
         try:
             content = breakup_chunk(_modest(_parsed(Chunk, body)), validate_crc=True)
-        except (Unsound, *_TROUBLE):
+        except (DamagedTrace, *_TROUBLE):
             if lenient:
                 return
-            raise Unsound("is damaged") from None
+            raise DamagedTrace("is damaged") from None
         for record in content:
             if isinstance(record, Channel):
                 topics[record.id] = record.topic
@@ -142,11 +143,11 @@ def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]
 
 
 def _modest(chunk: Chunk) -> Chunk:
-    """A chunk that will not fill the memory. Raises Unsound for another."""
+    """A chunk that will not fill the memory. Raises DamagedTrace for another."""
     packed = chunk.compression == "zstd"
     size = max(chunk.uncompressed_size, frame_content_size(chunk.data) if packed else len(chunk.data))
     if size > LARGEST or not (packed or chunk.compression == ""):
-        raise Unsound("is damaged")
+        raise DamagedTrace("is damaged")
     return chunk
 
 
@@ -163,9 +164,37 @@ def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
 
 
 def _parsed(kind: type[Kind], body: bytes) -> Kind:
-    """A record of a kind. Raises Unsound if it is none."""
+    """A record of a kind. Raises DamagedTrace if it is none."""
     try:
         found: Kind = kind.read(ReadDataStream(BytesIO(body)))
     except _TROUBLE:
-        raise Unsound("is damaged") from None
+        raise DamagedTrace("is damaged") from None
     return found
+
+
+def event_data(event: Event) -> bytes:
+    """An event as it stands in a trace."""
+    return to_line(event)[:-1]
+
+
+def until(messages: Iterable[RawMessage], events: int | None) -> Iterator[RawMessage]:
+    """The messages up to event number `events`; None: all."""
+    if events == 0:
+        return
+    count = 0
+    for message in messages:
+        yield message
+        count += message.topic == EVENTS
+        if count == events:
+            return
+
+
+def known(data: bytes, events: Sequence[Event]) -> int:
+    """Count of these events, from the first on, that a trace holds as they are here."""
+    written = (message.data for message in read_messages(data, lenient=True) if message.topic == EVENTS)
+    count = 0
+    for event, there in zip(events, written, strict=False):
+        if event_data(event) != there:
+            break
+        count += 1
+    return count

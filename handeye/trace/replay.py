@@ -1,19 +1,103 @@
 """A recorded run at any time, without simulating it again."""
 
 from bisect import bisect_right
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
+from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
+from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
 
 from handeye.core.pose import Array
-from handeye.program.events import AnyEvent, StageFinished, StageStarted, StepStarted
-from handeye.trace.channels import FRAMES, JOINTS
-from handeye.trace.messages import Poses
-from handeye.trace.motion import Motion
-from handeye.trace.pictures import TakenPicture
+from handeye.ports.camera import Picture
+from handeye.program.event_reading import EventReader
+from handeye.program.events import AnyEvent, PictureTaken, StageFinished, StageStarted, StepStarted
+from handeye.trace.channels import EVENTS, FRAMES, JOINTS, PICTURE
+from handeye.trace.messages import GAP, LEVEL, Poses
 from handeye.trace.records import RawMessage
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TakenPicture:
+    """A picture that the program took."""
+
+    time: float
+    """s"""
+    name: str
+    picture: Picture
+    """Levels 0 to 15, shape (rows, columns), uint8."""
+
+
+def read_pictures(messages: Iterable[RawMessage]) -> Iterator[TakenPicture]:
+    """The pictures among messages, in order; the event that names one follows it.
+
+    Raises:
+        DecodeError, ValueError: a message is not what its channel says.
+    """
+    picture: Picture | None = None
+    reader = EventReader()
+    for message in messages:
+        if message.topic == PICTURE:
+            picture = _levels(message.data)
+        elif message.topic == EVENTS:
+            event = reader.read(message.data)
+            if isinstance(event, PictureTaken) and picture is not None:
+                yield TakenPicture(time=event.time, name=event.picture, picture=picture)
+                picture = None
+
+
+def _levels(data: bytes) -> Picture:
+    image = RawImage.FromString(data)
+    grey = np.frombuffer(image.data, np.uint8).reshape(image.height, image.width)
+    return grey // np.uint8(LEVEL)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Motion:
+    """Columns of n servo periods of an arm of m joints, by its sensors."""
+
+    names: tuple[str, ...]
+    """Of the joints, in order."""
+    times: Array
+    """Ends of the periods on the cell's clock, shape (n,), s."""
+    joints: Array
+    """Positions, shape (n, m), rad and (prismatic joints) m."""
+    rates: Array
+    """Shape (n, m), rad/s and m/s."""
+    efforts: Array
+    """Torques put out, shape (n, m), N m and (prismatic joints) N; zero under the brakes."""
+    gaps: Array
+    """Opening of the fingers, shape (n,), m."""
+
+
+def read_motion(messages: Iterable[RawMessage]) -> Motion:
+    """The columns of messages about joints.
+
+    Raises:
+        DecodeError, ValueError: one of them is not such a message, or of another arm than the first.
+    """
+    times, rows, names = [], [], None
+    for message in messages:
+        joints = JointStates.FromString(message.data).joints
+        names = names or [joint.name for joint in joints]
+        if [joint.name for joint in joints] != names:
+            raise ValueError("the joints are those of another arm")
+        times.append(message.time / 1e9)
+        rows.append([(joint.position, joint.velocity, joint.effort) for joint in joints])
+    names = names or [GAP]
+    gap = names.index(GAP)
+    columns = np.array(rows, dtype=np.float64).reshape(len(rows), len(names), 3)
+    arm = np.delete(columns, gap, axis=1)
+    return Motion(
+        names=tuple(name for name in names if name != GAP),
+        times=np.array(times),
+        joints=arm[:, :, 0],
+        rates=arm[:, :, 1],
+        efforts=arm[:, :, 2],
+        gaps=columns[:, gap, 0],
+    )
+
 
 Pose7 = tuple[float, float, float, float, float, float, float]
 """Place of a frame in W (m) and its unit quaternion w, x, y, z."""

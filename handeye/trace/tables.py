@@ -12,7 +12,7 @@ from handeye.core.units import INCHES
 from handeye.program.events import AnyEvent, StageStarted, StepStarted
 from handeye.tasks import known_any
 from handeye.tasks.interface import AnyTask
-from handeye.trace.resuming import event_data
+from handeye.trace.records import event_data
 from handeye.trace.sentences import sentence
 from handeye.trace.steps import CLOCKS
 from handeye.trace.table import Column, Table

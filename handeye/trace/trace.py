@@ -17,10 +17,8 @@ from handeye.program.events import AnyEvent, RunStarted
 from handeye.trace.channels import EVENTS, HAND, JOINTS, MOMENTS
 from handeye.trace.forces import Forces, recorded_forces
 from handeye.trace.messages import Poses
-from handeye.trace.motion import Motion, read_motion
-from handeye.trace.pictures import TakenPicture, read_pictures
 from handeye.trace.records import RawMessage
-from handeye.trace.replay import Moment, Replay
+from handeye.trace.replay import Moment, Motion, Replay, TakenPicture, read_motion, read_pictures
 from handeye.trace.stages import Stage, stages, stages_both_ways
 from handeye.trace.steps import done_steps
 

@@ -27,8 +27,7 @@ from handeye.trace.frames import Frames, Mask
 from handeye.trace.hand_message import hand_message
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
-from handeye.trace.records import RawMessage
-from handeye.trace.resuming import event_data
+from handeye.trace.records import RawMessage, event_data
 from handeye.trace.sentences import level_of, sentence
 from handeye.vision.marks import Mark
 
@@ -41,7 +40,7 @@ BOUNDARIES: Final = (RunStarted, StageFinished)
 """Events after which a run may be taken up again."""
 
 
-class Writing:
+class TraceWriter:
     """Writes messages to a file.
 
     All it remembers can be read off the file: whoever copies the messages of one file to another can go on there. What

@@ -17,7 +17,7 @@ from handeye.report.recorded import Recorded
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS
 from handeye.trace.reading import read_trace
 from handeye.trace.records import RawMessage
-from handeye.trace.thinned_file import write_thinned
+from handeye.trace.thinning import write_thinned
 
 LATE = 5_000_000_000
 """ns"""

@@ -19,11 +19,10 @@ from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import encode
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import RunFolder, open_again, open_new
-from handeye.runs.journal import Journal
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
-from handeye.trace.eventlist import effective, read_events
+from handeye.trace.eventlist import Journal, effective, read_events
 
 pytestmark = pytest.mark.slow
 

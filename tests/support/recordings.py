@@ -28,7 +28,7 @@ from handeye.program.taught import Taught
 from handeye.touch.guards import ActiveGuard
 from handeye.trace.frames import Frames
 from handeye.trace.messages import Poses
-from handeye.trace.recorder import Looks, Recorder
+from handeye.trace.recorder import PictureSource, Recorder
 from handeye.vision.marks import GREEN, RED, Disc, Line, Loop, Mark
 
 SCRIPT: Final = 'STAGE "open"\nOPEN 1\nSTAGE "close"\nCLOSE .1\nSTAGE "again"\nOPEN 2\n'
@@ -172,8 +172,8 @@ class Recording:
     recorder: Recorder = field(init=False)
 
     @property
-    def looks(self) -> Looks:
-        return Looks(picture=self.pictures.__getitem__, found=lambda: ("WIDE", MARKS))
+    def looks(self) -> PictureSource:
+        return PictureSource(picture=self.pictures.__getitem__, found=lambda: ("WIDE", MARKS))
 
     @property
     def part(self) -> Path:

@@ -12,7 +12,7 @@ from handeye.program.events import (
     PictureTaken,
 )
 from handeye.program.guards import GuardKind
-from handeye.trace.quantities import Differing, Value, differing_events
+from handeye.trace.quantities import QuantityDifference, Value, differing_events
 from handeye.trace.quantity_text import quantity_text, values_text
 
 
@@ -33,7 +33,7 @@ def test_a_quantity_is_told_in_words(quantity: tuple[str, ...], said: str) -> No
 
 
 def test_programs_are_told_its_name_as_one_word() -> None:
-    found = Differing(quantity=("joint", "wrist roll", "position"), a=1.0, b=2.0)
+    found = QuantityDifference(quantity=("joint", "wrist roll", "position"), a=1.0, b=2.0)
     assert found.name == "joint.wrist_roll.position"
 
 
@@ -54,7 +54,7 @@ def test_programs_are_told_its_name_as_one_word() -> None:
 def test_both_values_are_told_apart_to_the_last_bit(
     unit: str, a: Value, b: Value, said: tuple[str, str]
 ) -> None:
-    assert values_text(Differing(quantity=("gap",), unit=unit, a=a, b=b)) == said
+    assert values_text(QuantityDifference(quantity=("gap",), unit=unit, a=a, b=b)) == said
 
 
 def friction(boom: float, column: float) -> FrictionMeasured:

@@ -25,7 +25,7 @@ from handeye.trace.channels import (
 )
 from handeye.trace.reading import read_trace
 from handeye.trace.records import LARGEST
-from handeye.trace.thinned_file import STEP, write_thinned
+from handeye.trace.thinning import STEP, write_thinned
 from handeye.trace.trace import Trace
 
 MOTION = (JOINTS, HAND, FRAMES, SCENE)

@@ -14,7 +14,7 @@ from recordings import BOUNDARIES, EVENTS, PLAN, Recording, record
 from handeye.core.errors import InvalidInput
 from handeye.trace.channels import FORMAT, METADATA
 from handeye.trace.reading import read_trace
-from handeye.trace.records import Unsound, check
+from handeye.trace.records import DamagedTrace, check
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +50,7 @@ def test_every_flipped_bit_is_noticed(path: Path) -> None:
     check(bytes(data))
     for place in range(len(data)):
         data[place] ^= 1 << place % 8
-        with pytest.raises(Unsound, match=r"^is (cut short|damaged)$"):
+        with pytest.raises(DamagedTrace, match=r"^is (cut short|damaged)$"):
             check(bytes(data))
         data[place] ^= 1 << place % 8
 

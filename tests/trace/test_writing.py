@@ -7,7 +7,7 @@ from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
 from handeye.trace.frames import NoFrames
 from handeye.trace.mcap_writer import GrowingFile
-from handeye.trace.writing import PUT_AWAY, Writing
+from handeye.trace.writing import PUT_AWAY, TraceWriter
 
 
 class Written:
@@ -29,7 +29,7 @@ class TwoFrames(NoFrames):
 
 def test_a_screw_that_was_driven_out_is_put_away_and_comes_back_when_it_is_driven_again() -> None:
     file = Written()
-    writing = Writing(cast("GrowingFile", file), TwoFrames(), b"")
+    writing = TraceWriter(cast("GrowingFile", file), TwoFrames(), b"")
     poses = np.array([[0, 0, 0, 1, 0, 0, 0], [0, 0, 0.5, 1, 0, 0, 0]], dtype=np.float32)
     both, base = np.array([True, True]), np.array([True, False])
     writing.frames(0.0, poses, base)  # it has not been driven yet

@@ -24,7 +24,7 @@ from handeye.systems.trig.language.hearing import hear
 from handeye.systems.trig.language.no_arm import NoArm
 from handeye.systems.trig.language.partial_display import partial_display
 from handeye.systems.trig.language.position import is_named
-from handeye.systems.trig.language.running import Runner
+from handeye.systems.trig.language.running import Interpreter
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.soundness import faults
 from handeye.systems.trig.language.storage import decoded, encoded
@@ -194,7 +194,7 @@ def check_back(made: Session) -> None:
     for node in program.graph.nodes.values():
         node.count = 0
     assert encoded(read) == encoded(program)
-    runner = Runner(program=program, arm=made.arm, halted=lambda: False, refresh=lambda: None)
+    runner = Interpreter(program=program, arm=made.arm, halted=lambda: False, refresh=lambda: None)
     whole = all(done.node in program.graph for done in program.trail)
     ran = runner.back(10**9)
     assert ran.end in ("beginning" if whole else "deleted", "stopped"), ran

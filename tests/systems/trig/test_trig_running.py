@@ -6,7 +6,7 @@ from trig_sessions import BUCKET, PALLETISE, Typist, typed
 from handeye.core.errors import InvalidInput
 from handeye.systems.trig.language.hearing import hear
 from handeye.systems.trig.language.no_arm import NoArm
-from handeye.systems.trig.language.running import Ran, Runner
+from handeye.systems.trig.language.running import Interpreter, Ran
 from handeye.systems.trig.language.session import Session
 
 SEVENTH = 100
@@ -88,7 +88,7 @@ def test_every_step_back_restores_what_was_before_it() -> None:
         place = [round(value, 9) for value in typist.arm.here()]
         return f"{counts} {program.positions['PALLET'].data} {typist.arm.closed} {place}"
 
-    class Watched(Runner):
+    class Watched(Interpreter):
         """Notes the state whenever a step begins."""
 
         def _begin(self, id: int) -> bool:

@@ -13,7 +13,7 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, planar, pose, translated
 from handeye.core.units import JIFFY
 from handeye.judge.measured import Measured
-from handeye.runs.exhibit import Exhibit
+from handeye.runs.exported_state import ExportedState
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.threads import Threads
@@ -111,7 +111,7 @@ def _copied(truth: Truth) -> Truth:
     return replace(truth, model=model, data=data)
 
 
-def exhibit(truth: Truth) -> Exhibit:
+def exhibit(truth: Truth) -> ExportedState:
     """The nominal world as a truth has it."""
     world = PumpWorld.nominal().drawn.spec
-    return Exhibit(task="water_pump", world=world, moment="final", truth=truth, program="pump", steps=9)
+    return ExportedState(task="water_pump", world=world, moment="final", truth=truth, program="pump", steps=9)

@@ -17,7 +17,7 @@ from handeye.core.pose import Array, planar
 from handeye.core.variation import WorldSpec
 from handeye.results.exported_scene import scene_files
 from handeye.results.exported_solids import exported_solids
-from handeye.runs.exhibit import drawn
+from handeye.runs.exported_state import initial_state
 from handeye.tasks.water_pump.exported import RENAMED
 from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.referee.findings import judge
@@ -73,7 +73,7 @@ def pump(tmp_path_factory: pytest.TempPathFactory) -> Opened:
 
 @cache
 def _world(seed: int, folder: Path) -> Opened:
-    write_folder(folder, scene_files(drawn(WorldSpec(seed=seed))))
+    write_folder(folder, scene_files(initial_state(WorldSpec(seed=seed))))
     return opened(folder)
 
 
@@ -187,7 +187,7 @@ def test_a_world_as_drawn_has_its_screws_loose_in_the_dispenser(world: Opened) -
 
 
 def test_the_arm_of_a_world_as_drawn_stands_where_it_is_parked(world: Opened) -> None:
-    truth = drawn(WorldSpec(seed=3)).truth
+    truth = initial_state(WorldSpec(seed=3)).truth
     for joint in range(1, 7):
         name = f"stanford/j{joint}"
         assert world.data.joint(name).qpos[0] == pytest.approx(float(truth.data.joint(name).qpos[0]))

@@ -30,7 +30,7 @@ class Ran:
 
 
 @dataclass(slots=True, kw_only=True)
-class Runner:
+class Interpreter:
     """Carries out a program with an arm."""
 
     program: TrigProgram

@@ -12,7 +12,7 @@ from handeye.systems.trig.language.node import TOP, TOP_NAME, Node
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.position import Position, is_named
 from handeye.systems.trig.language.program import TrigProgram
-from handeye.systems.trig.language.running import Runner
+from handeye.systems.trig.language.running import Interpreter
 from handeye.systems.trig.language.tabletop import Tabletop
 from handeye.systems.trig.language.teachable import Teachable
 
@@ -41,9 +41,11 @@ class Session:
     """Programs can be read from files and written to them, as whoever types likes; not by a script of somebody else."""
 
     @property
-    def runner(self) -> Runner:
+    def runner(self) -> Interpreter:
         """What carries the program out."""
-        return Runner(program=self.program, arm=self.arm, halted=self.desk.halted, refresh=self.desk.refresh)
+        return Interpreter(
+            program=self.program, arm=self.arm, halted=self.desk.halted, refresh=self.desk.refresh
+        )
 
     # -- finding ---------------------------------------------------------------------------------------
 

@@ -19,7 +19,7 @@ MomentKind = Literal["drawn", "final", "unfinished"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Exhibit:
+class ExportedState:
     """A cell at a moment."""
 
     task: str
@@ -34,16 +34,16 @@ class Exhibit:
     """The stage under way, or the one to come."""
 
 
-def drawn(world: WorldSpec, name: str = DEFAULT) -> Exhibit:
+def initial_state(world: WorldSpec, name: str = DEFAULT) -> ExportedState:
     """A world of a task, by its name, before anything happened in it, its cell switched on.
 
     Raises:
         InvalidInput: it cannot be drawn here.
     """
-    return Exhibit(task=name, world=world, moment="drawn", truth=task(name).cell(world, "ray").truth)
+    return ExportedState(task=name, world=world, moment="drawn", truth=task(name).cell(world, "ray").truth)
 
 
-def kept(path: Path) -> tuple[Exhibit, list[str]]:
+def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
     """What a run has left behind, and the faults of what cannot be read of it, a sentence each.
 
     Args:
@@ -58,7 +58,7 @@ def kept(path: Path) -> tuple[Exhibit, list[str]]:
     return _exhibit(path, checkpoint), faults
 
 
-def present(runner: Runner) -> Exhibit:
+def present_state(runner: Runner) -> ExportedState:
     """A run as it now is.
 
     Raises:
@@ -69,7 +69,7 @@ def present(runner: Runner) -> Exhibit:
     return _shown(runner.checkpoint(), runner.cell.truth)
 
 
-def _exhibit(path: Path, checkpoint: Checkpoint) -> Exhibit:
+def _exhibit(path: Path, checkpoint: Checkpoint) -> ExportedState:
     setup, snapshot = checkpoint.setup, checkpoint.snapshot
     if snapshot is None:
         raise BadFile(f"the run in {path} has not begun")
@@ -80,10 +80,10 @@ def _exhibit(path: Path, checkpoint: Checkpoint) -> Exhibit:
     return _shown(checkpoint, cell.truth)
 
 
-def _shown(checkpoint: Checkpoint, truth: Truth) -> Exhibit:
+def _shown(checkpoint: Checkpoint, truth: Truth) -> ExportedState:
     """The truth of a cell in the state of a checkpoint, with what is told of it."""
     setup = checkpoint.setup
-    return Exhibit(
+    return ExportedState(
         task=setup.task,
         world=setup.world,
         moment="final" if checkpoint.ended else "unfinished",

@@ -10,7 +10,7 @@ from handeye.core.errors import InvalidInput
 from handeye.core.variation import WorldSpec
 from handeye.results.exported_scene import scene_files
 from handeye.runs.advance import advance
-from handeye.runs.exhibit import Exhibit, kept
+from handeye.runs.exported_state import ExportedState, kept_state
 from handeye.runs.folder import open_new
 from handeye.runs.runner import Runner
 
@@ -22,11 +22,11 @@ def test_a_run_of_a_system_without_a_cell_has_nothing_to_show(tmp_path: Path) ->
     advance(runner, steps=4)
     folder.close()
     with pytest.raises(InvalidInput, match=r"run is of a system that acts on no cell$"):
-        kept(tmp_path / "run")
+        kept_state(tmp_path / "run")
 
 
 def test_a_task_that_exports_no_scene_says_so() -> None:
     world = WorldSpec(seed=0)
     truth = BLOCK.cell(world, "ray").truth
     with pytest.raises(InvalidInput, match=r"^the task `block` exports no scene$"):
-        scene_files(Exhibit(task="block", world=world, moment="drawn", truth=truth))
+        scene_files(ExportedState(task="block", world=world, moment="drawn", truth=truth))
