@@ -19,9 +19,9 @@ from handeye.core.diagnostics import (
     Label,
     Meant,
     alternatives,
+    names_sentence,
     problem,
     quoted,
-    told_names,
 )
 from handeye.core.source import Source, Span
 from handeye.program.motion_operations import Move
@@ -298,7 +298,7 @@ class _Lowering:
         # Looking for what was meant takes time: only for those that will be shown.
         known = [name for scope, name in self.labels if scope in scopes] if self.unresolved <= LIMIT else []
         meant = alternatives(label.text, known)
-        self.problem("unknown-label", message, label, *uses(label), help=told_names(meant), meant=meant)
+        self.problem("unknown-label", message, label, *uses(label), help=names_sentence(meant), meant=meant)
 
     def mark_searching(self) -> None:
         """Mark every MOVE between a label and an AOJ back to it as part of a search."""

@@ -21,9 +21,9 @@ from handeye.core.diagnostics import (
     Meant,
     MissingMark,
     alternatives,
+    names_sentence,
     problem,
     quoted,
-    told_names,
 )
 from handeye.core.source import Source, Span
 
@@ -264,7 +264,7 @@ class _Parser:
         if behind not in self.known:
             names = alternatives(written, {*INSTRUCTIONS, *self.known, _DEFINE})
             if names is not None:
-                return told_names(names), names
+                return names_sentence(names), names
         if behind in INSTRUCTIONS or behind in self.known:
             return label, MissingMark(":")
         if behind.startswith("="):

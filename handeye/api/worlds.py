@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 
 from handeye import tasks
 from handeye.api.exporting import exported
-from handeye.core import fault_options
+from handeye.core import world_options
 from handeye.core.arguments import given_names
 from handeye.core.errors import BadArgument, NoSuchName
-from handeye.core.fault_options import by_number
 from handeye.core.notebook import heading, page, table
 from handeye.core.variation import SPREADS, Level, WorldSpec, checked_seed
-from handeye.core.world_options import overrides
+from handeye.core.world_options import by_number, overrides
 from handeye.results.world_page import QuantityReport, report
 from handeye.runs.exported_state import initial_state
 
@@ -73,7 +72,7 @@ class World:
             seed=number,
             level=level,
             overrides=overrides(self._table, self._without, settings),
-            faults=fault_options.faults(tasks.task(task).faults(number), self._faults, by_number),
+            faults=world_options.faults(tasks.task(task).faults(number), self._faults, by_number),
         )
 
     @property

@@ -8,9 +8,8 @@ from cyclopts import Group, Parameter
 
 from handeye.cli.common import TaskWords, whole
 from handeye.core.errors import BadArgument
-from handeye.core.fault_options import StageNumber, faults, from_start_only
 from handeye.core.variation import WorldSpec, checked_seed
-from handeye.core.world_options import overrides
+from handeye.core.world_options import StageNumber, faults, from_start_only, overrides
 from handeye.program.senses import SENSES, Sense
 from handeye.tasks import DEFAULT, any_task, named
 

@@ -60,4 +60,4 @@ def _world(begun: RunStarted) -> Iterator[tuple[str, str]]:
 def _fault(task: Task | None, seed: int, fault: Fault) -> str:
     """A fault as it would be typed, where its task is known."""
     catalogue = None if task is None else task.faults(seed)
-    return str(fault) if catalogue is None or fault.name not in catalogue.kinds else catalogue.told(fault)
+    return str(fault) if catalogue is None or fault.name not in catalogue.kinds else catalogue.written(fault)

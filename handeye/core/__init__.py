@@ -1,1 +1,1 @@
-"""What every room stands on: units, poses, records, files, errors; it imports nothing of the rest."""
+"""Foundations of every room: units, poses, records, files, errors; imports nothing else of handeye."""

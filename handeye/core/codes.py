@@ -1,4 +1,4 @@
-"""Every kind of diagnostic there is."""
+"""Every kind of diagnostic, by code."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -9,14 +9,13 @@ Severity = Literal["error", "warning"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Code:
-    """A kind of diagnostic; `example` is a text that gets it."""
+    """A kind of diagnostic, with a text that causes it and the files that text requires."""
 
     severity: Severity
     meaning: str
     example: str
     phase: Literal["language", "planning", "strict"] = "language"
     required: Mapping[str, str] = field(default_factory=dict)
-    """Files that the example requires."""
 
 
 def _error(meaning: str, example: str, required: Mapping[str, str] | None = None) -> Code:
@@ -239,4 +238,3 @@ CODES: Final[dict[str, Code]] = {
     "wrong-operand": _error("an operand has the wrong kind", "OPEN T"),
     "zero-vector": _error("a vector that gives a direction has no length", "CHANGE [0 0 0] 1"),
 }
-"""Every kind of diagnostic there is, by code."""

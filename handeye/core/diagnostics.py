@@ -1,4 +1,4 @@
-"""Diagnostics: one mistake of a user's text each, with its place, shown in a code frame.
+"""Diagnostics: each one mistake in a user's text, with its place, shown in a code frame.
 
 A wrong text is never an exception: checkers collect `Diagnostic`s, callers render or serialise them.
 """
@@ -10,13 +10,12 @@ from typing import Final, NamedTuple
 from handeye.core.codes import CODES, Severity
 from handeye.core.source import Source, Span
 
-LIMIT: Final = 20
-"""At most so many diagnostics for one text: nobody reads more."""
+LIMIT: Final = 20  # diagnostics per text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Label:
-    """A place in the text, within one line, and what there is to say about it (may be empty)."""
+    """A span within one line, with a text beside it that may be empty."""
 
     span: Span
     text: str = ""
@@ -24,32 +23,32 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class SimilarName:
-    """A known name that is like the one that is not known."""
+    """A known name similar to the unknown one."""
 
     name: str
 
 
 @dataclass(frozen=True, slots=True)
 class KnownNames:
-    """All known names, where they are few and none is like the one that is not known."""
+    """All known names, if they are few and none is similar."""
 
     names: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class MissingMark:
-    """A mark that is missing behind a word."""
+    """A missing mark after a word."""
 
     mark: str
 
 
 Meant = SimilarName | KnownNames | MissingMark
-"""The meaning that a mistake may have had, for a program that mends it; the help tells people."""
+"""What was probably meant, for a program that mends it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Diagnostic:
-    """One mistake. `message`: one lower-case sentence, true without the frame."""
+    """One mistake. `message` is one lower-case sentence, true without the frame; `meant` replaces the primary span."""
 
     code: str
     message: str
@@ -58,7 +57,6 @@ class Diagnostic:
     notes: tuple[str, ...] = ()
     help: str | None = None
     meant: Meant | None = None
-    """In the place of what the primary label marks, or behind it."""
     own: Severity | None = None
     """Severity of a code that a system has for its own language; None: the code is one of `CODES`."""
 
@@ -91,12 +89,12 @@ def problem(
 
 
 def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
-    """True if any of them is an error."""
+    """True if any is an error."""
     return any(d.severity == "error" for d in diagnostics)
 
 
 def arranged(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Each mistake once, by position, at most `LIMIT`; errors are kept before warnings."""
+    """Distinct mistakes by position, at most `LIMIT`; errors are kept before warnings."""
     once = {(d.code, d.primary.span): d for d in diagnostics}
     kept = sorted(once.values(), key=lambda d: (d.severity != "error", d.primary.span))[:LIMIT]
     return sorted(kept, key=lambda d: (d.primary.span, d.code))
@@ -126,37 +124,35 @@ def as_json(diagnostic: Diagnostic, source: Source) -> dict[str, object]:
 # --- names ---------------------------------------------------------------------------------------
 
 
-LOOKALIKES: Final = str.maketrans("OoIl", "0011")
-"""Letters, to the digits they look like."""
-FEW: Final = 8
-"""Names of which all are told."""
+LOOKALIKES: Final = str.maketrans("OoIl", "0011")  # letters to digits
+MAX_LISTED: Final = 8  # known names
 MOST_COMPARED: Final = 500
 LONGEST_COMPARED: Final = 40
-"""Characters. Finding the nearest name takes as many steps as there are names, times the square of their length."""
+"""Characters. The search takes time in proportion to the number of names and the square of their length."""
 
 
 def quoted(name: str) -> str:
-    """A word of the user's text inside a sentence: in backquotes, shortened, made visible."""
+    """A word of the user's text for a sentence: in backquotes, shortened, printable."""
     short = name if len(name) <= 40 else name[:39] + "…"
     return f"`{_visible(short)[0]}`"
 
 
 def alternatives(name: str, known: Iterable[str]) -> SimilarName | KnownNames | None:
-    """The nearest known name, at most a third of the length of `name` away; else all, if they are few."""
+    """The nearest known name, at most a third of the length of `name` away; else all if they are few."""
     choices = sorted(set(known))
     if _too_many(name, choices):
         return None
     if near := nearest(name, choices, len(name) // 3):
         return SimilarName(near)
-    return KnownNames(tuple(choices)) if 0 < len(choices) <= FEW else None
+    return KnownNames(tuple(choices)) if 0 < len(choices) <= MAX_LISTED else None
 
 
 def suggestion(name: str, known: Iterable[str]) -> str | None:
-    """`did you mean ...`, or `known: ...`, for a name that is not known; None if nothing helps."""
-    return told_names(alternatives(name, known))
+    """`did you mean ...?`, or `known: ...`, for an unknown name; None if nothing helps."""
+    return names_sentence(alternatives(name, known))
 
 
-def told_names(names: SimilarName | KnownNames | None) -> str | None:
+def names_sentence(names: SimilarName | KnownNames | None) -> str | None:
     """The sentence of `suggestion`."""
     match names:
         case SimilarName(name):
@@ -167,7 +163,7 @@ def told_names(names: SimilarName | KnownNames | None) -> str | None:
 
 
 def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:
-    """The known name that looks the same, or the one that the fewest changes make of `name`, `farthest` at most."""
+    """The known name that looks the same, else the one at the least edit distance, at most `farthest`."""
     choices = sorted(set(known))
     if _too_many(name, choices):
         return None
@@ -184,8 +180,7 @@ def _too_many(name: str, choices: Sequence[str]) -> bool:
 
 
 def _distance(a: str, b: str, farthest: int) -> int:
-    """Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`, or some number beyond
-    `farthest`."""
+    """Edit distance with swaps of neighbours (Damerau-Levenshtein), or a number beyond `farthest`."""
     if abs(len(a) - len(b)) > farthest:
         return farthest + 1
     before: list[int] = []
@@ -202,12 +197,11 @@ def _distance(a: str, b: str, farthest: int) -> int:
 
 # --- code frames ---------------------------------------------------------------------------------
 
-WIDTH: Final = 110
-"""Longest piece of a source line a frame shows."""
+WIDTH: Final = 110  # characters of a source line in a frame
 
 
 def render(diagnostic: Diagnostic, source: Source) -> str:
-    """The diagnostic with its code frame, for people; no final newline. Other files come below the primary's."""
+    """The diagnostic with its code frame; no final newline. Other files come after the primary's."""
     texts: dict[str, tuple[Source, list[_Mark]]] = {}
     for label, mark in ((diagnostic.primary, "^"), *((s, "-") for s in diagnostic.secondary)):
         text, start = source.find(label.span.start)
@@ -227,7 +221,7 @@ def render(diagnostic: Diagnostic, source: Source) -> str:
 
 
 class _Mark(NamedTuple):
-    """Characters of a line to be marked, the first of them counted from 0, and what is said of them."""
+    """Characters of a line to mark, from 0, with the text beside them."""
 
     line: int
     column: int
@@ -249,12 +243,12 @@ def _lines(source: Source, marks: Sequence[_Mark], pad: str) -> Iterator[str]:
 
 
 def visible(text: str) -> str:
-    """Lines of text as a terminal may show them: what would steer it is shown as symbols."""
+    """Lines of text as a terminal may show them, control characters as symbols."""
     return "\n".join(_visible(line)[0] for line in text.split("\n"))
 
 
 def _visible(text: str) -> tuple[str, list[int]]:
-    """`text` as a terminal may show it (tabs expanded, control characters as symbols); column by offset."""
+    """`text` as a terminal may show it (tabs expanded, control characters as symbols), and columns by offset."""
     shown, columns = "", []
     for character in text:
         columns.append(len(shown))
@@ -269,7 +263,7 @@ def _visible(text: str) -> tuple[str, list[int]]:
 
 
 def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:
-    """A source line, cut to a width, and the rows of marks and words under it."""
+    """A source line cut to width, and the rows of marks and texts under it."""
     shown, columns = _visible(line)
     marks = []
     for label in labels:
@@ -286,7 +280,7 @@ def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:
 
 
 def _rows(marks: list[tuple[int, int, str, str]]) -> list[str]:
-    """Marks under a line; the words of the last stand beside it, those of the others below, on stems."""
+    """Rows under a line: marks, with the last text beside them and the others below, on stems."""
     under = [" "] * max(end for _, end, _, _ in marks)
     for start, end, mark, _ in sorted(marks, key=lambda m: m[2] == "^"):
         under[start:end] = mark * (end - start)

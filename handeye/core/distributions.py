@@ -1,4 +1,4 @@
-"""Distributions of quantities in which worlds differ. Figures are in the quantity's own unit."""
+"""Distributions of the quantities that vary between worlds, in the quantity's own unit."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -6,21 +6,19 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-TURN: Final = 360.0
-"""Degrees."""
+FULL_TURN_DEG: Final = 360.0
 
 
 class Distribution(ABC):
-    """Distribution of the values of a quantity."""
+    """The distribution of a quantity."""
 
     __slots__ = ()
     name: ClassVar[str]
-    is_error: ClassVar[bool] = True
-    """It grows and shrinks with the level of errors; else it is what the job is for, or has no size."""
+    is_error: ClassVar[bool] = True  # scaled by the level of errors; False for the task's own range
 
     @abstractmethod
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
-        """A value."""
+        """Draw a value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +34,7 @@ class Normal(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Uniform(Distribution):
-    """Even about the nominal value; `spread` is half the range."""
+    """Uniform about the nominal value; `spread` is half the range."""
 
     name = "uniform"
     spread: float
@@ -46,42 +44,40 @@ class Uniform(Distribution):
 
 
 @dataclass(frozen=True, slots=True)
-class Noise(Distribution):
-    """Noise of a sensor, of the same sigma in every world of a level; the sigma is the value."""
+class _Constant(Distribution):
+    """The same value in every world of a level."""
+
+    spread: float
+
+    def draw(self, rng: np.random.Generator, nominal: float) -> float:
+        return self.spread
+
+
+@dataclass(frozen=True, slots=True)
+class Noise(_Constant):
+    """Sensor noise of the same sigma in every world of a level; the sigma is the value."""
 
     name = "noise"
-    spread: float
-
-    def draw(self, rng: np.random.Generator, nominal: float) -> float:
-        return self.spread
 
 
 @dataclass(frozen=True, slots=True)
-class Fixed(Distribution):
-    """An error that has the same size in every world of a level."""
+class Fixed(_Constant):
+    """An error of the same size in every world of a level."""
 
     name = "fixed"
-    spread: float
-
-    def draw(self, rng: np.random.Generator, nominal: float) -> float:
-        return self.spread
 
 
 @dataclass(frozen=True, slots=True)
-class Step(Distribution):
-    """A step of a converter: the same in every world of every level, for the controller knows its bits."""
+class Step(_Constant):
+    """The step of a converter: the same in every world, whatever the level."""
 
     name = "step"
     is_error = False
-    spread: float
-
-    def draw(self, rng: np.random.Generator, nominal: float) -> float:
-        return self.spread
 
 
 @dataclass(frozen=True, slots=True)
 class Range(Distribution):
-    """Even from `low` to `high`: what the job is for, and no error."""
+    """Uniform from `low` to `high`: part of the task, not an error."""
 
     name = "range"
     is_error = False
@@ -94,10 +90,10 @@ class Range(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Phase(Distribution):
-    """Even over a whole turn."""
+    """Uniform over a full turn."""
 
     name = "phase"
     is_error = False
 
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
-        return float(rng.uniform(0.0, TURN))
+        return float(rng.uniform(0.0, FULL_TURN_DEG))

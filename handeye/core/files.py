@@ -1,4 +1,4 @@
-"""Files are read if they are files of a sensible size, and written whole or not at all."""
+"""Reads files of sensible size, and writes files whole or not at all."""
 
 import os
 import re
@@ -10,26 +10,22 @@ from typing import Final
 
 from handeye.core.errors import BadFile, CannotWrite
 
-LARGEST: Final = 1 << 30
-"""Bytes: a hundred times what the trace of a whole run takes."""
+LARGEST: Final = 1 << 30  # bytes: a hundred traces of a whole run
 
-_FRONT: Final = 1024
-"""Bytes of a file by which it is known."""
+_FRONT: Final = 1024  # bytes that identify a file
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A kind of file that this program writes where somebody says."""
+    """A kind of file that this program writes."""
 
     name: str
-    begins: bytes
-    """How each of them begins: a regular expression."""
-    ending: str = ""
-    """Ending that its name must have, if other programs go by that."""
+    begins: bytes  # a regular expression
+    ending: str = ""  # required ending of the name, if any
 
 
 def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
-    """Content of a file."""
+    """Content of a file; raises BadFile if it is missing, no file, larger than `largest` or unreadable."""
     file = Path(path)
     try:
         if not file.exists():
@@ -48,14 +44,14 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
 
 
 def beside(path: Path, ending: str) -> Path:
-    """The file of the same name with another ending."""
+    """The file of the same name with another ending; raises CannotWrite for a directory."""
     if not path.name:
         raise CannotWrite(f"{path} is a directory, not a file")
     return path.with_suffix(ending)
 
 
 def check_place(path: Path, kind: Kind) -> None:
-    """Look whether a file of a kind may be written, and can be: it replaces none of another kind."""
+    """Raise CannotWrite unless a file of this kind can be written here, replacing none of another kind."""
     if not path.name.lower().endswith(kind.ending):
         raise CannotWrite(f"{path}: the name of the {kind.name} must end in {kind.ending}")
     try:
@@ -72,21 +68,19 @@ def check_place(path: Path, kind: Kind) -> None:
 
 
 def check_free(path: Path, what: str, *, overwrite: bool) -> None:
-    """Look whether there is nothing at a place yet, or what it holds may be replaced."""
+    """Raise CannotWrite if the path exists and may not be replaced; `what` names its content."""
     if path.exists() and not overwrite:
         raise CannotWrite(f"{path} holds a {what} already; --overwrite replaces it")
 
 
 def write_over(path: Path, data: bytes, kind: Kind) -> None:
-    """Write a file of a kind, as `write_whole`, where `check_place` has nothing against it."""
+    """Write a file with `write_whole` after `check_place`."""
     check_place(path, kind)
     write_whole(path, data)
 
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Write `data` beside `path`, then put it in its place in one act. What a link leads to is written, and who may
-    read a file that was there may still.
-    """
+    """Write atomically: follow symlinks, keep the mode of an existing file, leave nothing behind on failure."""
     temporary = None
     place = Path(os.path.realpath(path))
     try:

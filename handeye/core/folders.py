@@ -1,4 +1,4 @@
-"""Folders of files that are written whole or not at all, and take the place of nobody else's."""
+"""Writes folders whole or not at all, without replacing any of another kind."""
 
 import os
 import shutil
@@ -13,20 +13,16 @@ from handeye.core.errors import CannotWrite, Taken
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FolderKind:
-    """A kind of folder that this program writes where somebody says."""
+    """A kind of folder that this program writes."""
 
-    name: str
-    """With its article."""
-    known_by: str
-    """The file by which it is known."""
-    begins: bytes
-    """How that file begins."""
-    holds: tuple[str, ...]
-    """Patterns of the names of all its files."""
+    name: str  # with its article
+    known_by: str  # the file that identifies it
+    begins: bytes  # start of that file
+    holds: tuple[str, ...]  # patterns of all its file names
 
 
 def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
-    """Look whether a folder of a kind may be written, and can be: it takes the place of one of its kind at most."""
+    """Raise CannotWrite unless a folder of this kind can be written here; Taken if one is there and must stay."""
     try:
         _refuse_others(path, kind, overwrite=overwrite)
         with tempfile.TemporaryFile(dir=Path(os.path.realpath(path)).parent):
@@ -58,7 +54,7 @@ def _fits(name: Path, pattern: str) -> bool:
 
 
 def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
-    """Write a folder of files beside `path`, then put it in its place; what was there is gone then."""
+    """Write a folder atomically in the place of an earlier one, which stays if writing fails."""
     place = Path(os.path.realpath(path))
     temporary = None
     try:
@@ -76,7 +72,7 @@ def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
 
 
 def _put(temporary: Path, place: Path) -> None:
-    """Put the new folder into its place, or the old one back."""
+    """Rename the new folder into place, or the old one back."""
     try:
         (temporary / "new").rename(place)
     except BaseException:

@@ -1,4 +1,4 @@
-"""Seconds of this computer: by its clock, and of its processor. No part of what happens in a run depends on them."""
+"""Wall-clock and processor time of this computer; no result of a run depends on it."""
 
 import os
 import time
@@ -12,29 +12,29 @@ _IMPORTED = time.monotonic()
 
 @dataclass(frozen=True, slots=True)
 class HostTimer:
-    """Measures what has been spent since a moment; by itself, since it was made."""
+    """Measures time since its creation."""
 
     _wall: float = field(default_factory=time.monotonic)
     _cpu: float = field(default_factory=time.process_time)
 
     @classmethod
     def of_process(cls) -> Self:
-        """Measures from the start of this process, its interpreter and imports included."""
+        """A timer from the start of this process, interpreter and imports included."""
         return cls(_wall=time.monotonic() - process_age(), _cpu=0.0)
 
     @property
     def wall_s(self) -> float:
-        """Seconds by the clock, waiting included."""
+        """Wall-clock seconds."""
         return time.monotonic() - self._wall
 
     @property
     def cpu_s(self) -> float:
-        """Seconds of the processor that this process took."""
+        """Processor seconds of this process."""
         return time.process_time() - self._cpu
 
 
 def process_age() -> float:
-    """Seconds since this process was started; where the system does not tell, since this module was imported."""
+    """Seconds since this process started; since this module's import where the platform does not say."""
     imported = time.monotonic() - _IMPORTED
     with suppress(OSError, ValueError, IndexError, AttributeError):
         after_name = Path("/proc/self/stat").read_text(encoding="ascii", errors="replace").rpartition(")")[2]

@@ -1,4 +1,4 @@
-"""Files of lines that are appended as things happen, and never rewritten."""
+"""Append-only files of lines."""
 
 import errno
 import os
@@ -12,7 +12,7 @@ class LineFile:
     """Appends whole lines to a file; one writer at a time."""
 
     def __init__(self, path: Path, writer: str, *, again: bool = True) -> None:
-        """Go on with a file, or begin it anew unless `again`. A last line that was cut short is dropped.
+        """Continue a file, without a last line cut short, or begin anew unless `again`; raises CannotWrite.
 
         Args:
             writer: who else may be writing to it, with its article.
@@ -29,7 +29,7 @@ class LineFile:
             raise self._unwritable(error) from None
 
     def append(self, line: bytes) -> None:
-        """Write a line, its end included, whole or not at all."""
+        """Write a line, its end included, whole or not at all; raises CannotWrite."""
         try:
             whole = self._file.seek(0, os.SEEK_END)
             if self._file.write(line) < len(line):
@@ -47,7 +47,7 @@ class LineFile:
         self._file.close()
 
     def _lock(self, writer: str) -> None:
-        """Keep others from writing here, where the platform can. Raises InvalidInput if one does already."""
+        """Lock the file where the platform can; raises CannotWrite if it is locked."""
         with suppress(ImportError):
             import fcntl
 

@@ -1,18 +1,17 @@
-"""Markup for pages. A plain text is data: the one function here that makes markup of it escapes it."""
+"""Markup for pages; plain text is escaped."""
 
 from html import escape
 
 
 class Markup(str):
-    """Markup that is ready for a page; a plain `str` is text, and is escaped."""
+    """Escaped markup; a plain `str` is text."""
 
     __slots__ = ()
 
 
 Content = str | float | None
-"""Text, a number, or nothing."""
 
 
 def markup(content: Content) -> Markup:
-    """Content as markup."""
+    """Content as markup, escaped if it is text."""
     return content if isinstance(content, Markup) else Markup(escape("" if content is None else str(content)))

@@ -1,10 +1,8 @@
-"""Mutable records: the state of a system that runs, the copy of it that is a snapshot, and putting a snapshot back.
+"""Mutable records: the state of a running system, its snapshots, and restoring them.
 
-A system keeps everything it remembers in one such record, and nowhere else. Values that never change are a `Record`
-(`handeye/core/record.py`).
-
-Structures, dictionaries and lists are copied; numbers, texts, tuples, frozen records and arrays are shared. Therefore
-an array that stands in a record is replaced and never changed in place: a copy makes it read-only.
+A system keeps all it remembers in one such record. Values that never change are a `Record` (`handeye/core/record.py`).
+Structures, dictionaries and lists are copied; numbers, texts, tuples, frozen records and arrays are shared. So an array
+in a record is replaced and never changed in place: a copy makes it read-only.
 """
 
 from dataclasses import is_dataclass
@@ -18,16 +16,16 @@ Kept = TypeVar("Kept", bound="MutableRecord")
 
 
 class MutableRecord(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Base of the states of systems, and of the parts of these; a checkpoint holds a copy."""
+    """Base of the states of systems and their parts; a checkpoint holds a copy."""
 
 
 def copied(record: Kept) -> Kept:
-    """A snapshot of a record: nothing that happens to the record afterwards changes it."""
+    """A snapshot of a record, independent of later changes; raises TypeError for mutable values of other types."""
     return type(record)(**{name: _copied(getattr(record, name)) for name in record.__struct_fields__})
 
 
 def put_back(record: Kept, snapshot: Kept) -> None:
-    """Give a record, and the records in it, the values of a snapshot: whoever holds one of them sees these values."""
+    """Restore a record and its parts in place from a snapshot."""
     for name in record.__struct_fields__:
         here, kept = getattr(record, name), getattr(snapshot, name)
         if isinstance(here, MutableRecord) and type(here) is type(kept):
@@ -51,7 +49,7 @@ def _copied(value: Any) -> Any:
 
 
 def _frozen(value: object) -> bool:
-    """A record or dataclass whose fields cannot be given other values."""
+    """True for a frozen structure or dataclass."""
     if isinstance(value, msgspec.Struct):
         return bool(value.__struct_config__.frozen)
     return is_dataclass(value) and bool(getattr(type(value), "__dataclass_params__").frozen)  # noqa: B009 - untyped

@@ -1,4 +1,4 @@
-"""Boxes: the coarse shapes of what the checker of a plan knows, and how deep they reach into each other."""
+"""Oriented bounding boxes, and how deep they penetrate each other."""
 
 from collections.abc import Sequence
 
@@ -7,10 +7,10 @@ import numpy as np
 from handeye.core.pose import Array, Pose
 
 Box = tuple[float, float, float, float, float, float]
-"""Two opposite corners in the frame of what it belongs to, m: x, y, z from, then x, y, z to."""
+"""Opposite corners in its own frame, m: x, y, z from, then x, y, z to."""
 
 _PARALLEL = 1e-6
-"""Sine below which two edges count as parallel, so that their cross product tells no direction."""
+"""Sine below which two edges count as parallel and their cross product gives no axis."""
 
 
 def middles(boxes: Sequence[Box]) -> Array:
@@ -26,38 +26,37 @@ def halves(boxes: Sequence[Box]) -> Array:
 
 
 def lowest(X_WA: Pose, boxes: Sequence[Box]) -> Array:
-    """Height (m) of the lowest corner of boxes in frame A, at poses of shape (N, 4, 4): shape (N, n)."""
+    """Height (m) of the lowest corner of boxes in frame A, at poses (N, 4, 4); shape (N, n)."""
     up = X_WA[:, 2:3, :3]
     centre = X_WA[:, 2, 3, None] + (up @ middles(boxes).T)[:, 0]
     return np.asarray(centre - (np.abs(up) @ halves(boxes).T)[:, 0])
 
 
 def depths(X_BA: Pose, boxes: Sequence[Box], others: Sequence[Box]) -> Array:
-    """Penetration depths of the boxes of frame A in others, each in a frame B of its own.
+    """Penetration depths of boxes of frame A in others, each with its own frame B.
 
     Args:
-        X_BA: shape (N, m, 4, 4), for the m frames of the others.
-
+        X_BA: shape (N, m, 4, 4), for the m others.
     Returns:
         shape (N, n, m), m; 0 where they are apart.
     """
     a, b = halves(boxes), halves(others)
     R = X_BA[..., :3, :3]
     gap = np.moveaxis(R @ middles(boxes).T, -1, 1) + X_BA[:, None, :, :3, 3] - middles(others)
-    room = np.moveaxis(np.abs(R) @ a.T, -1, 1) + b - np.abs(gap)
-    found = np.maximum(room.min(axis=-1), 0.0)
-    near = np.nonzero(found)
+    margin = np.moveaxis(np.abs(R) @ a.T, -1, 1) + b - np.abs(gap)
+    depth = np.maximum(margin.min(axis=-1), 0.0)
+    near = np.nonzero(depth)
     sample, i, j = near
-    found[near] = np.minimum(found[near], _oblique(R[sample, j], gap[near], a[i], b[j]))
-    return np.asarray(found)
+    depth[near] = np.minimum(depth[near], _oblique(R[sample, j], gap[near], a[i], b[j]))
+    return np.asarray(depth)
 
 
 def _oblique(R: Array, gap: Array, a: Array, b: Array) -> Array:
-    """Overlap of K pairs of boxes along the axes of the first and along the cross products of their edges, m.
+    """Overlap (m) of K pairs of boxes along the axes of the first and the cross products of their edges.
 
     Args:
-        R: orientation of the first in the frame of the second, shape (K, 3, 3).
-        gap: from the centre of the second to that of the first, shape (K, 3).
+        R: orientation of the first in the second's frame, shape (K, 3, 3).
+        gap: from the second's centre to the first's, shape (K, 3).
         a, b: half lengths, shape (K, 3).
     """
     own = np.swapaxes(R, -1, -2)

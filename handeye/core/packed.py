@@ -1,7 +1,6 @@
-"""States on disk: MessagePack with arrays, compressed, behind a line that says what it is and what its digest is.
+"""States on disk: MessagePack with arrays, compressed, after a line with their kind and digest.
 
-A file that is cut short, or in which any bit is wrong, is refused before anything in it is used; so is one that would
-fill the memory.
+A file that is truncated, has any wrong bit, or would fill the memory is refused before any of it is used.
 """
 
 import hashlib
@@ -12,12 +11,11 @@ import msgspec
 import numpy as np
 
 T = TypeVar("T")
-_KINDS: Final = ("<f8", "|u1")
-"""Arrays of a state: figures and pictures."""
+_DTYPES: Final = ("<f8", "|u1")
 
 
 def sealed(magic: str, version: int, rest: bytes) -> bytes:
-    """Bytes behind a line with their kind, its version, and their digest."""
+    """Bytes after a line with kind, version and digest."""
     return f"{magic} {version} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
 
 
@@ -27,7 +25,7 @@ def packed(record: object) -> bytes:
 
 
 def unpacked(data: bytes, kind: type[T], largest: int) -> T:
-    """The record that `packed` made bytes of; `largest` is the most bytes that it may have."""
+    """The record from `packed` bytes, at most `largest` when inflated; raises ValueError."""
     try:
         return decoded(_inflated(data, largest), kind)
     except zlib.error as error:
@@ -40,7 +38,7 @@ def encoded(record: object) -> bytes:
 
 
 def decoded(data: bytes | msgspec.Raw, kind: type[T]) -> T:
-    """The record that `encoded` made bytes of."""
+    """The record from `encoded` bytes; raises ValueError."""
     try:
         return msgspec.msgpack.decode(data, type=kind, dec_hook=_array)
     except (msgspec.DecodeError, TypeError, RecursionError) as error:
@@ -56,7 +54,7 @@ def _inflated(data: bytes, largest: int) -> bytes:
 
 
 def _plain(value: Any) -> Any:
-    """An array, or a number of one, as something MessagePack knows."""
+    """An array or numpy number as MessagePack types."""
     if isinstance(value, np.ndarray):
         return value.dtype.str, value.shape, value.tobytes()
     if isinstance(value, np.floating):
@@ -65,8 +63,8 @@ def _plain(value: Any) -> Any:
 
 
 def _array(kind: type, value: Any) -> Any:
-    """The array that `_plain` made plain."""
+    """The array from `_plain`."""
     dtype, shape, data = value
-    if dtype not in _KINDS:
+    if dtype not in _DTYPES:
         raise ValueError(f"no array of {dtype!r} belongs in a checkpoint")
     return np.frombuffer(data, dtype).reshape(shape)

@@ -1,20 +1,19 @@
-"""Small pieces of text for people: what may be shown on a terminal, counts with their nouns, and numbers."""
+"""Text for people: printable characters, counted nouns, numbers."""
 
 import textwrap
 from collections.abc import Sequence
 from typing import Final
 
-_MORE: Final = 6
-"""Decimals that are spent on telling numbers apart."""
+_EXTRA_DECIMALS: Final = 6
 
 
 def printable(text: str) -> str:
-    """A text with a sign in the place of each character that would steer a terminal, and not be shown."""
+    """A text with replacement characters for what would control a terminal."""
     return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
 def one_line(text: str) -> str:
-    """A statement without the blanks that put it in columns, printable throughout."""
+    """A statement without column blanks, printable."""
     return printable(" ".join(text.split()))
 
 
@@ -23,17 +22,17 @@ def counted(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
-def told_apart(numbers: Sequence[float], decimals: int) -> list[str]:
-    """Numbers that are compared, with some decimals, or as many more as it takes to tell different ones apart."""
-    for places in range(decimals, decimals + _MORE):
-        told = [f"{number:z.{places}f}" for number in numbers]
-        if len({*told}) == len({*numbers}):
+def distinct_digits(numbers: Sequence[float], decimals: int) -> list[str]:
+    """Numbers with at least `decimals` digits, as many more as show that different ones differ."""
+    for places in range(decimals, decimals + _EXTRA_DECIMALS):
+        texts = [f"{number:z.{places}f}" for number in numbers]
+        if len({*texts}) == len({*numbers}):
             break
-    return told
+    return texts
 
 
 def folded(text: str, width: int) -> str:
-    """Lines of text, those beyond a width broken between words, with what comes later set in beneath."""
+    """Text wrapped to a width between words, continuation lines indented."""
     return "\n".join(_folded(line, width) for line in text.split("\n"))
 
 

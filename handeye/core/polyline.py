@@ -1,4 +1,4 @@
-"""Rows of a recording that are enough: all others lie nearly on the straight ways between them."""
+"""Simplifies recordings: keeps the rows between which all others lie nearly on straight lines."""
 
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -9,22 +9,17 @@ from numpy.typing import NDArray
 from handeye.core.pose import Array
 
 _LEAST: Final = 1e-9
-"""Halfway between a quaternion and its opposite, after a whole turn, is none: far off, and no division by zero."""
+"""Least norm of an interpolated quaternion: halfway to its opposite it would be zero."""
 
 Rows = NDArray[np.int64]
 Off = Callable[[Rows, Rows, Rows], Array]
-"""Given ways by their first rows, a row on each, and their last rows: how far those rows are off, shape (n,), where 1
-is what is allowed."""
+"""For segments given by first rows, a row on each, and last rows: deviations, shape (n,), over what is allowed."""
 
 
 def needed_rows(off: Off, always: Sequence[int] | Rows) -> Rows:
-    """The rows between which all others lie near enough.
+    """Rows between which all others lie within tolerance, `always` (sorted, ends included) among them.
 
-    A way that leaves a row too far off is cut where one is farthest off, from the ways between those that are kept
-    always on; all ways at once.
-
-    Args:
-        always: rows that are kept, in order: the first and the last of all, and others.
+    Segments with a row too far off are split at the farthest one, starting from `always`; all segments at once.
     """
     kept = [np.asarray(always, dtype=np.int64)]
     first, last = kept[0][:-1], kept[0][1:]
@@ -38,18 +33,18 @@ def needed_rows(off: Off, always: Sequence[int] | Rows) -> Rows:
 
 
 def _worst(off: Off, first: Rows, last: Rows) -> tuple[Rows, Array]:
-    """For each way from a first to a last row the row between that is farthest off, and how far."""
+    """For each segment, the farthest row between its ends, and its deviation."""
     inside = last - first - 1
     begin = np.cumsum(inside) - inside
-    way = np.repeat(np.arange(len(first)), inside)
-    row = np.arange(len(way)) - begin[way] + first[way] + 1
-    found = off(first[way], row, last[way])
+    segment = np.repeat(np.arange(len(first)), inside)
+    row = np.arange(len(segment)) - begin[segment] + first[segment] + 1
+    found = off(first[segment], row, last[segment])
     most = np.maximum.reduceat(found, begin)
-    return np.minimum.reduceat(np.where(found == most[way], row, last[way]), begin), most
+    return np.minimum.reduceat(np.where(found == most[segment], row, last[segment]), begin), most
 
 
 def off_values(values: Array, at: Array, allowed: Array) -> Off:
-    """How far values are off, each over what is allowed of it; values, `at` and `allowed` have shape (n,)."""
+    """Deviation of values over what is allowed; values, `at` and `allowed` have shape (n,)."""
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:
         share = (at[row] - at[first]) / (at[last] - at[first])
@@ -60,13 +55,13 @@ def off_values(values: Array, at: Array, allowed: Array) -> Off:
 
 
 def off_poses(poses: Array, at: Array, *, place: float, turn: float) -> Off:
-    """How far poses are off.
+    """Deviation of poses.
 
     Args:
-        poses: place (m), then a unit quaternion w, x, y, z, as near to the one before as it can be, shape (n, 7).
-        at: where the rows are on a way, shape (n,): their times, or numbers.
-        place: what is allowed, m.
-        turn: what is allowed, rad.
+        poses: position (m), then unit quaternion w, x, y, z, continuous in sign, shape (n, 7).
+        at: parameter of each row, shape (n,), as its time.
+        place: allowed, m.
+        turn: allowed, rad.
     """
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:
@@ -84,7 +79,7 @@ def off_poses(poses: Array, at: Array, *, place: float, turn: float) -> Off:
 
 
 def smooth(poses: NDArray[np.floating]) -> Array:
-    """The same poses, shape (n, 7), the quaternion of each the nearer of its two to the one before."""
+    """The poses, shape (n, 7), with quaternion signs continuous from row to row."""
     turned = np.einsum("ij,ij->i", poses[1:, 3:], poses[:-1, 3:]) < 0
     alike = np.array(poses, dtype=np.float64)
     alike[1:, 3:] *= np.cumprod(np.where(turned, -1.0, 1.0))[:, None]

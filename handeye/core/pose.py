@@ -21,7 +21,7 @@ Pose = NDArray[np.float64]
 """A homogeneous matrix, shape (4, 4), lengths in metres."""
 
 UPRIGHT = math.radians(2)
-"""Within this of straight down, all of the hand's turn about the vertical is called O, and T is zero."""
+"""Within this (rad) of straight down, all turn about the vertical is O, and T is zero."""
 
 _R_ZERO = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]])
 
@@ -63,12 +63,12 @@ def inverse(X_AB: Pose) -> Pose:
 
 
 def planar(x: float, y: float, z: float, yaw: float) -> Pose:
-    """A part that stands upright: position in metres, `yaw` about the vertical in radians."""
+    """The pose of an upright part: position in metres, `yaw` about the vertical in radians."""
     return pose(rotation_z(yaw), (x, y, z))
 
 
 def yaw(X: Pose) -> float:
-    """The turn about the vertical of an upright part, in radians, in (-pi, pi]."""
+    """Yaw of an upright part, in radians, in (-pi, pi]."""
     return math.atan2(X[1, 0], X[0, 0])
 
 
@@ -78,7 +78,7 @@ def hand(x: float, y: float, z: float, o: float, a: float, t: float) -> Pose:
 
 
 def hand_angles(X_WT: Pose) -> tuple[float, float, float]:
-    """The angles O, A, T (rad) of a hand pose; the inverse of `hand`."""
+    """Angles O, A, T (rad) of a hand pose; inverse of `hand`."""
     finger, approach = X_WT[:3, 1], X_WT[:3, 2]
     a = math.asin(min(1.0, max(-1.0, -float(approach[2]))))
     if abs(abs(a) - math.pi / 2) < UPRIGHT:
@@ -89,14 +89,14 @@ def hand_angles(X_WT: Pose) -> tuple[float, float, float]:
 
 
 def translated(X: Pose, p: Array | Sequence[float]) -> Pose:
-    """`X` moved by `p` (metres), given in the outer frame."""
+    """`X` moved by `p` (metres), in the outer frame."""
     Y = X.copy()
     Y[:3, 3] += p
     return Y
 
 
 def displaced(X: Pose, p: Array, turn: Array) -> Pose:
-    """`X` moved by `p` (metres), and turned on the spot by the rotation vector `turn` (radians), in the outer frame."""
+    """`X` moved by `p` (metres) and turned on the spot by the rotation vector `turn` (rad), in the outer frame."""
     Y = translated(X, p)
     Y[:3, :3] = rotation(turn) @ X[:3, :3]
     return Y

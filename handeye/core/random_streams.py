@@ -1,4 +1,4 @@
-"""Streams of random numbers by seed and name."""
+"""Random number streams by seed and name."""
 
 from zlib import crc32
 
@@ -6,5 +6,5 @@ import numpy as np
 
 
 def random_numbers(seed: int, name: str) -> np.random.Generator:
-    """The stream of random numbers of a name in the world of a seed."""
+    """The stream of a name in the world of a seed."""
     return np.random.default_rng(np.random.SeedSequence([seed, crc32(name.encode())]))

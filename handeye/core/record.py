@@ -1,13 +1,12 @@
-"""Records: values that go to disk, and never change. Every field has a type that is checked when it is read.
+"""Immutable records, whose fields have types that are checked on reading.
 
-State that changes while something runs is a `MutableRecord` (`handeye/core/mutable_records.py`).
+State that changes is a `MutableRecord` (`handeye/core/mutable_records.py`).
 """
 
 import msgspec
 
-Vector3 = tuple[float, float, float]
-"""Components along x, y and z."""
+Vector3 = tuple[float, float, float]  # along x, y and z
 
 
 class Record(msgspec.Struct, frozen=True, gc=False, kw_only=True, forbid_unknown_fields=True):
-    """Base of the values that go to disk: programs, plans, events, settings."""
+    """Base of the values stored on disk: programs, plans, events, settings."""

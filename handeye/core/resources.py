@@ -1,4 +1,4 @@
-"""Finds the folders that travel with the package: `scenes`, `plans` and `demo`."""
+"""Finds the folders shipped with the package: `scenes`, `plans` and `demo`."""
 
 from pathlib import Path
 
@@ -6,11 +6,11 @@ from handeye.core.errors import BadFile
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 _ROOTS = (_PACKAGE / "_data", _PACKAGE.parent)
-"""Where an installed wheel keeps them, and where a checkout of the repository does."""
+"""In an installed wheel, and in a checkout of the repository."""
 
 
 def folder(name: str) -> Path:
-    """The folder `scenes`, `plans` or `demo`."""
+    """The folder `scenes`, `plans` or `demo`; raises BadFile in an incomplete installation."""
     for root in _ROOTS:
         if (root / name).is_dir():
             return root / name
@@ -28,5 +28,5 @@ def plans() -> Path:
 
 
 def demo() -> Path:
-    """A run of the water pump to be looked at: a thinned trace, its result, and a picture of its end."""
+    """A recorded run of the water pump: a thinned trace, its result, and a picture of its end."""
     return folder("demo")

@@ -1,4 +1,4 @@
-"""Source text and spans of it, for diagnostics and for showing the line that is being executed."""
+"""Source texts and spans in them."""
 
 import re
 from bisect import bisect_right
@@ -15,7 +15,7 @@ from handeye.core.files import read_whole
 from handeye.core.plain_text import printable
 
 LARGEST: Final = 1_000_000
-"""Bytes of the largest file taken for a text: the longest program there can be, with a hundred for each statement."""
+"""Bytes of the largest text file: the longest possible program at a hundred a statement."""
 
 
 class Span(msgspec.Struct, frozen=True, gc=False, kw_only=True, order=True):
@@ -26,37 +26,34 @@ class Span(msgspec.Struct, frozen=True, gc=False, kw_only=True, order=True):
 
 
 class Located(msgspec.Struct, frozen=True, gc=False):
-    """Something that stands in a source text, from offset `start` to `end`."""
+    """A piece of a source text, from offset `start` to `end`."""
 
     start: int
     end: int
 
     @property
     def span(self) -> Span:
-        """Where it stands."""
         return Span(start=self.start, end=self.end)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """A named text, with the texts it requires. Lines and columns count from 1, in its own text."""
+    """A named text with the texts it requires. Lines and columns count from 1, in its own text."""
 
     name: str
     text: str
-    key: str = ""
-    """Path of a required text from the folder of the main text; empty: the main text."""
-    problem: str = ""
-    """Why a required text could not be read."""
+    key: str = ""  # path of a required text from the main text's folder; empty: the main text
+    problem: str = ""  # why a required text could not be read
     required: "tuple[Source, ...]" = ()
-    """Offsets of the whole go on through them, in this order, each text one character behind the one before."""
+    """Offsets of the whole continue through these in order, one character after each text."""
 
     @property
     def texts(self) -> "tuple[Source, ...]":
-        """Its own text, and those required."""
+        """The text itself and those it requires."""
         return self, *self.required
 
     def find(self, offset: int) -> "tuple[Source, int]":
-        """The text that an offset of the whole lies in, and the offset in that text alone."""
+        """The text that an offset of the whole lies in, and the offset in that text."""
         if not self.required:
             return self, offset
         number = bisect_right(self._begins, offset) - 1
@@ -64,7 +61,7 @@ class Source:
 
     @cached_property
     def begins(self) -> dict[str, int]:
-        """The offset of the whole at which each text begins, by its key."""
+        """Offset of the whole at which each text begins, by key."""
         return {text.key: begin for text, begin in zip(self.texts, self._begins, strict=True)}
 
     @cached_property
@@ -81,17 +78,17 @@ class Source:
         return line, offset - self._starts[line - 1] + 1
 
     def line(self, number: int) -> str:
-        """The text of a line, without its end."""
+        """A line without its end."""
         start = self._starts[number - 1]
         end = self._starts[number] - 1 if number < len(self._starts) else len(self.text)
         return self.text[start:end].rstrip("\r")
 
     def column(self, offset: int) -> int:
-        """How many characters of its line stand before a character offset."""
+        """Column of an offset, from 0."""
         return offset - self.text.rfind("\n", 0, offset) - 1
 
     def span(self, key: str, line: int, columns: tuple[int, int]) -> Span:
-        """Characters of a line of one of the texts, as a span of the whole."""
+        """Span of the whole for columns of a line of one of the texts."""
         text = next(text for text in self.texts if text.key == key)
         start = self.begins[key] + text._starts[line - 1]
         return Span(start=start + columns[0], end=start + columns[1])
@@ -103,7 +100,7 @@ def line_name(line: int, file: str = "") -> str:
 
 
 def read_source(path: str | Path) -> Source:
-    """The text in a file, named as the path was given."""
+    """Read a text named by its path; raises BadFile if unreadable, too large, or not UTF-8."""
     data = read_whole(path, LARGEST)
     try:
         return Source(name=str(path), text=data.decode("utf-8-sig"))

@@ -1,6 +1,4 @@
-"""Period units and their SI values: the only file that knows how long an inch is.
-
-Besides, the two figures of the machine of 1973 that its language and its arm share.
+"""Units of the period and their SI values, and two figures that the language and the arm of 1973 share.
 
 Inside the program every quantity is SI: metres, radians, newtons, newton metres, seconds.
 """
@@ -24,12 +22,11 @@ PERCENT: Final = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A unit as people write it behind a number."""
+    """A unit as written after a number, and its SI value."""
 
     name: str
     dimension: str
     size: float
-    """Of one of it, SI."""
 
 
 UNITS: Final = {
@@ -57,19 +54,18 @@ UNITS: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Measures:
-    """The units in which people are told lengths and forces of a run."""
+    """The units in which a run's lengths and forces are shown."""
 
     length: Unit
-    places: int
-    """Of a length behind its point."""
+    places: int  # decimals of a length
     force: Unit
 
     def place(self, p: Sequence[float]) -> str:
-        """A place (m) as they read it: `(1.00, -2.50, 0.00) in`."""
+        """A position (m) as text: `(1.00, -2.50, 0.00) in`."""
         return f"({', '.join(map(self._number, p))}) {self.length.name}"
 
     def distance(self, metres: float) -> str:
-        """A length as they read it."""
+        """A length (m) as text."""
         return f"{self._number(metres)} {self.length.name}"
 
     def _number(self, metres: float) -> str:
@@ -77,20 +73,18 @@ class Measures:
 
 
 INCHES: Final = Measures(length=UNITS["in"], places=2, force=UNITS["oz"])
-"""Inches and ounces, those of the arm language."""
 MILLIMETRES: Final = Measures(length=UNITS["mm"], places=1, force=UNITS["N"])
-"""Millimetres and newtons."""
 
 _WRITTEN: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", re.IGNORECASE | re.ASCII)
 
 
 def split_value(text: str) -> tuple[float, str] | None:
-    """The number and the unit's word, as written, of a text such as `.3 in`; None: it does not begin with a number."""
+    """Number and unit word of a text as `.3 in`; None if it does not begin with a number."""
     found = _WRITTEN.fullmatch(text.strip())
     return None if found is None else (float(found[1]), found[2])
 
 
 def unit_named(word: str) -> Unit | None:
-    """The unit of a name; spaces and capitals do not matter."""
+    """The unit of a name, ignoring spaces and case."""
     spelt = {name.replace(" ", "").casefold(): unit for name, unit in UNITS.items()}
     return spelt.get(word.replace(" ", "").casefold())

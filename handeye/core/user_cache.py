@@ -1,4 +1,4 @@
-"""The folder in which this user's programs keep what can be made again, by the convention of the platform."""
+"""The user's cache folder, by the convention of the platform."""
 
 import os
 import sys
@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Final
 
 VARIABLE: Final = "HANDEYE_CACHE"
-"""Environment variable that names another folder; empty: nothing is kept."""
+"""Environment variable for another cache folder; empty disables caching."""
 
 
 def cache_folder() -> Path | None:
-    """Our folder, which need not exist; None if nothing is to be kept, or the user has no home."""
+    """The cache folder, which need not exist; None if caching is off or the user has no home."""
     named = os.environ.get(VARIABLE)
     if named is not None:
         return Path(named).absolute() if named else None

@@ -1,8 +1,8 @@
-"""Variation of the world: a task's table of quantities, and the worlds that are drawn from it.
+"""Variation of the world: a task's table of quantities, and the worlds drawn from it.
 
-A quantity is one number with a dotted name, such as `camera.place.x`; what stands before a dot names a group of them
-(`camera.place`, `camera`). Each is drawn from a stream of its own, made from the seed and its name, so that a new
-quantity moves no other, and one can be switched off or set while all others stay as they are.
+A quantity is one number with a dotted name, as `camera.place.x`; prefixes up to a dot name groups (`camera.place`,
+`camera`). Each has a random stream of its own, made from the seed and its name, so that a new quantity changes no
+other, and one can be switched off or set while the others stay as they are.
 """
 
 from collections.abc import Mapping
@@ -23,39 +23,33 @@ from handeye.core.record import Record
 from handeye.core.units import UNITS, Unit
 from handeye.core.whole_numbers import whole
 
-DRAWING: Final = 4
-"""How a world comes from its seed: raised when equal seeds give other worlds than before."""
+DRAWING: Final = 4  # version of the drawing: raised when equal seeds give other worlds
 
-LARGEST_SEED: Final = (1 << 63) - 1
-"""What is written to disk has 64 bits and a sign."""
+LARGEST_SEED: Final = (1 << 63) - 1  # 64 bits with sign, as on disk
 
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}
-"""Factors of the spread of every error."""
+"""Factors on the spread of every error."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Quantity:
-    """One number in which worlds differ."""
+    """One number that varies between worlds."""
 
     name: str
-    unit: str
-    """One of UNITS; that of all figures here."""
+    unit: str  # one of UNITS, of all figures here
     distribution: Distribution
-    nominal: float = 0.0
-    """Its value where it is switched off."""
-    limits: tuple[float, float] = (-np.inf, np.inf)
-    """Range it can be set to."""
-    source: str
-    """Meaning, and source of its figures."""
+    nominal: float = 0.0  # its value when switched off
+    limits: tuple[float, float] = (-np.inf, np.inf)  # range it can be set to
+    source: str  # meaning, and source of its figures
 
     @property
     def measure(self) -> Unit:
-        """Its unit, with its size."""
+        """Its unit."""
         return UNITS[self.unit]
 
     def check(self, value: float) -> None:
-        """Make sure that it can be set to a value, SI."""
+        """Raise BadArgument unless it can be set to a value, SI."""
         low, high = (limit * self.measure.size for limit in self.limits)
         if type(value) not in (int, float) or not low <= value <= high:  # not a number is not between two
             raise BadArgument(
@@ -66,22 +60,18 @@ class Quantity:
 class Overrides(Record, frozen=True, kw_only=True):
     """Overrides of a drawn world."""
 
-    without: tuple[str, ...] = ()
-    """Quantities and groups at their nominal values, in the order of their names."""
-    set: dict[str, float] = msgspec.field(default_factory=dict)
-    """Values of quantities, SI; where both speak of one, this counts."""
+    without: tuple[str, ...] = ()  # quantities and groups at nominal values, sorted
+    set: dict[str, float] = msgspec.field(default_factory=dict)  # values, SI; take precedence over `without`
 
 
 class WorldSpec(Record, frozen=True, kw_only=True):
-    """All that a world is drawn from, as a run records it. Equal specifications give equal worlds."""
+    """The complete specification of a world, as a run records it: equal specifications give equal worlds."""
 
     seed: Annotated[int, msgspec.Meta(ge=0)]
     level: Level = "nominal"
     overrides: Overrides = Overrides()
-    faults: tuple[Fault, ...] = ()
-    """What is broken in it, in the order of their names."""
-    drawing: int = DRAWING
-    """How it is drawn: that of the handeye that drew it first."""
+    faults: tuple[Fault, ...] = ()  # sorted by name
+    drawing: int = DRAWING  # version of the drawing
 
     def __str__(self) -> str:
         level = "" if self.level == "nominal" else f"level {self.level}"
@@ -93,17 +83,16 @@ class WorldSpec(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class World:
-    """Values of the quantities of a task."""
+    """Values of a task's quantities, by name, SI."""
 
     spec: WorldSpec
     values: Mapping[str, float]
-    """By name, SI."""
 
     def __getitem__(self, name: str) -> float:
         return self.values[name]
 
     def numbered(self, group: str) -> tuple[float, ...]:
-        """The values of `group.1`, `group.2` and so on, SI."""
+        """Values of `group.1`, `group.2` and so on, SI."""
         found: list[float] = []
         while (name := f"{group}.{len(found) + 1}") in self.values:
             found.append(self.values[name])
@@ -115,11 +104,10 @@ class World:
 
 
 class Variation:
-    """The quantities in which the worlds of a task differ, in the order they are listed."""
+    """The quantities that vary between a task's worlds, in listing order."""
 
     def __init__(self, *quantities: Quantity) -> None:
         self.quantities = {quantity.name: quantity for quantity in quantities}
-        """By name."""
         assert len({crc32(name.encode()) for name in self.quantities}) == len(quantities), (
             "two share a stream"
         )
@@ -127,12 +115,12 @@ class Variation:
 
     @cached_property
     def groups(self) -> frozenset[str]:
-        """Names of groups of quantities."""
+        """Names of groups."""
         parts = [name.split(".") for name in self.quantities]
         return frozenset(".".join(part[:n]) for part in parts for n in range(1, len(part)))
 
     def select(self, name: str) -> tuple[Quantity, ...]:
-        """The quantity of a name, or those of a group."""
+        """The quantity of a name, or those of a group; raises NoSuchName."""
         found = tuple(q for q in self.quantities.values() if within(q.name, name))
         if not found:
             first = dict.fromkeys(known.split(".")[0] for known in self.quantities)
@@ -142,12 +130,12 @@ class Variation:
         return found
 
     def draw(self, spec: WorldSpec) -> World:
-        """The world of a specification."""
+        """The world of a specification; raises BadArgument if it cannot be drawn here."""
         self.check(spec)
         return World(spec=spec, values={name: self.value(name, spec) for name in self.quantities})
 
     def value(self, name: str, spec: WorldSpec) -> float:
-        """A single quantity of a world that can be drawn here, SI."""
+        """One quantity of a world, SI."""
         quantity = self.quantities[name]
         if name in spec.overrides.set:
             return spec.overrides.set[name]
@@ -156,7 +144,7 @@ class Variation:
         return drawn(quantity, spec.level, random_numbers(spec.seed, name))
 
     def check(self, spec: WorldSpec) -> None:
-        """Make sure that a world is one that can be drawn here."""
+        """Raise BadArgument unless a world can be drawn here."""
         if spec.level not in SPREADS:
             raise NoSuchName(f"there is no level {spec.level!r}; there are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:
@@ -174,12 +162,12 @@ class Variation:
 
 
 def within(name: str, group: str) -> bool:
-    """A name is that of a group, or of what is in it."""
+    """True if a name is the group's, or in it."""
     return f"{name}.".startswith(f"{group}.")
 
 
 def drawn(quantity: Quantity, level: Level, stream: np.random.Generator) -> float:
-    """What a quantity is at a level of errors by its stream of a world, SI."""
+    """A quantity's value at a level of errors, drawn from its stream, SI."""
     distribution, nominal = quantity.distribution, quantity.nominal
     value = distribution.draw(stream, nominal)
     if level != "nominal" and distribution.is_error:
@@ -188,7 +176,7 @@ def drawn(quantity: Quantity, level: Level, stream: np.random.Generator) -> floa
 
 
 def checked_seed(seed: object) -> int:
-    """A seed, as a plain number."""
+    """A seed as a plain number; raises BadArgument."""
     number = whole(seed)
     if number is None or number < 0:
         raise BadArgument(f"a seed is a whole number from 0 up; {seed!r} is not")

@@ -1,4 +1,4 @@
-"""Versions that a result depends on besides its plan and its seed."""
+"""Versions that a result depends on besides plan and seed."""
 
 import hashlib
 import platform
@@ -13,7 +13,7 @@ PACKAGES: Final = ("mujoco", "numpy", "scipy", "opencv-python-headless")
 
 
 def versions() -> dict[str, str]:
-    """Versions of handeye, Python and the packages that figures pass through."""
+    """Versions of handeye, Python and the packages that results depend on."""
     found = {name: _installed(name) for name in PACKAGES}
     return {"handeye": HANDEYE, "python": platform.python_version(), **found}
 
@@ -28,7 +28,7 @@ def installed(package: str) -> str | None:
 
 @cache
 def _installed(package: str) -> str:
-    """Version of a package. Read from its files once: every checkpoint says it again."""
+    """Version of a package, cached for checkpoints."""
     from importlib.metadata import version  # slow to import, and only a run needs it
 
     return version(package)
@@ -36,7 +36,7 @@ def _installed(package: str) -> str:
 
 @cache
 def code_digest() -> str:
-    """Sixteen hexadecimal digits that stand for this program and its scenes, as they are on disk."""
+    """A digest (16 hexadecimal digits) of this program and its scenes, as on disk; raises BadFile."""
     package = Path(__file__).resolve().parents[1]
     files = [(package, path) for path in package.rglob("*.py")]
     files += [(scenes(), path) for path in scenes().rglob("*") if path.is_file()]

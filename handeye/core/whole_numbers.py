@@ -1,11 +1,11 @@
-"""Whole numbers, of whatever type they are given as."""
+"""Whole numbers of any type."""
 
 from operator import index
 from typing import SupportsIndex
 
 
 def whole(given: object) -> int | None:
-    """A plain whole number that equals the given one; None if that is none, as are True and False."""
+    """The argument as a plain whole number; None if it is none, as for True and False."""
     if isinstance(given, bool) or not isinstance(given, SupportsIndex):
         return None
     try:

@@ -1,42 +1,43 @@
-"""Parsing of world options from the words typed."""
+"""Parses world options."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Protocol
 
 import numpy as np
 
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import BadArgument
+from handeye.core.faults import Catalogue, Fault, FaultKind
 from handeye.core.units import UNITS, Unit, split_value, unit_named
 from handeye.core.variation import Overrides, Variation, within
 
 
 class Measured(Protocol):
-    """Something with a name whose value can be written with a unit."""
+    """A named quantity whose value can be written with a unit."""
 
     @property
     def name(self) -> str:
-        """Its name."""
+        pass
 
     @property
     def unit(self) -> str:
-        """The name of its own unit."""
+        """Name of its own unit."""
 
     @property
     def measure(self) -> Unit:
-        """That unit, with its size."""
+        """Its own unit."""
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Its least and its greatest value, in its own unit."""
+        """Least and greatest value, in its own unit."""
 
 
 def overrides(variation: Variation, without: Iterable[str], settings: Iterable[str]) -> Overrides:
-    """Overrides of a world from its options.
+    """Overrides from options; raises BadArgument.
 
     Args:
-        without: names of quantities and groups that are to have their nominal values.
-        settings: `NAME=VALUE` each, for a quantity or for each of a group; of two for one quantity, the later.
+        without: quantities and groups to put at their nominal values.
+        settings: `NAME=VALUE` for a quantity or all of a group; the later of two for one quantity counts.
     """
     off = sorted(set(without))
     for name in off:
@@ -49,7 +50,7 @@ def overrides(variation: Variation, without: Iterable[str], settings: Iterable[s
 
 
 def _setting(variation: Variation, text: str) -> dict[str, float]:
-    """The values (SI) that `NAME=VALUE` gives to quantities."""
+    """Values (SI) that `NAME=VALUE` gives to quantities."""
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:
         raise BadArgument(f"{quoted(text)} sets nothing; write NAME=VALUE")
@@ -57,7 +58,7 @@ def _setting(variation: Variation, text: str) -> dict[str, float]:
 
 
 def value_of(quantity: Measured, text: str) -> float:
-    """A value of a quantity as written, SI; without a unit it is in the quantity's own."""
+    """A value of a quantity as written, SI, in its own unit by default; raises BadArgument."""
     written = split_value(text)
     if written is None:
         raise BadArgument(f"{quantity.name} cannot be {quoted(text)}, which is not a number")
@@ -70,7 +71,7 @@ def value_of(quantity: Measured, text: str) -> float:
 
 
 def _unit(quantity: Measured, word: str) -> Unit:
-    """The unit of a word behind a number. Raises InvalidInput if the quantity is not measured in it."""
+    """The unit of a word after a number; raises BadArgument if it does not fit the quantity."""
     unit, wanted = unit_named(word), quantity.measure.dimension
     if unit is None or unit.dimension != wanted:
         known = [name for name, other in UNITS.items() if name and other.dimension == wanted]
@@ -80,8 +81,50 @@ def _unit(quantity: Measured, word: str) -> Unit:
 
 
 def _limits(quantity: Measured) -> str:
-    """The least and the greatest value of a quantity, as the end of a sentence."""
+    """The limits of a quantity as the end of a sentence."""
     (low, high), unit = quantity.limits, quantity.unit and f" {quantity.unit}"
     if np.isinf(high):
         return "" if np.isinf(low) else f"; {low:g}{unit} is the least"
     return f"; it can be {low:g} to {high:g}{unit}"
+
+
+StageNumber = Callable[[str], int]
+"""Returns the number, from 1, of a stage as written; raises NoSuchName."""
+
+
+def faults(catalogue: Catalogue, texts: Iterable[str], stage: StageNumber) -> tuple[Fault, ...]:
+    """Faults from options, sorted by name; raises BadArgument for an unknown name, value or stage, or a duplicate."""
+    found = tuple(sorted((_fault(catalogue, text, stage) for text in texts), key=lambda fault: fault.name))
+    catalogue.check(found)
+    return found
+
+
+def _fault(catalogue: Catalogue, text: str, stage: StageNumber) -> Fault:
+    what, at, where = text.partition("@")
+    name, equals, value = (part.strip() for part in what.partition("="))
+    where = where.strip().strip('"').strip()
+    if not name or (at and not where) or (equals and not value):
+        raise BadArgument(f"{quoted(text)} names no fault; write NAME, NAME=VALUE or NAME@STAGE")
+    kind = catalogue.kind(name)
+    return Fault(name=name, value=_value(kind, value), stage=stage(where) if at else kind.usual_stage)
+
+
+def _value(kind: FaultKind, text: str) -> float | None:
+    """The value of a fault as written, SI, or its usual one."""
+    if not text:
+        return kind.usual().value
+    if kind.size is None:
+        raise BadArgument(f"the fault {quoted(kind.name)} has no value; leave out {quoted(f'={text}')}")
+    return value_of(kind, text)
+
+
+def by_number(text: str) -> int:
+    """The number of a stage, from 1, where stage names are not known."""
+    if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
+        raise BadArgument(f"{quoted(text)} is no number of a stage, from 1 up")
+    return int(text)
+
+
+def from_start_only(text: str) -> int:
+    """Refuse a stage, for a task without stages."""
+    raise BadArgument(f"a fault is there from the beginning here; leave out {quoted(f'@{text}')}")

@@ -3,7 +3,7 @@
 from typing import assert_never
 
 from handeye.core.errors import ERRORS
-from handeye.core.plain_text import told_apart
+from handeye.core.plain_text import distinct_digits
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program import causes as c
 from handeye.program.causes import Cause
@@ -110,7 +110,7 @@ def match_sentence(off: float, unlike: float) -> str:
 def _undo_stopped(cause: c.UndoCause) -> str:
     match cause:
         case c.UndoResisted():
-            felt, limit = told_apart([cause.force / OUNCE_FORCE, cause.limit / OUNCE_FORCE], 1)
+            felt, limit = distinct_digits([cause.force / OUNCE_FORCE, cause.limit / OUNCE_FORCE], 1)
             return (
                 f"something resists while the step is undone: the hand feels {felt} oz; allowed: {limit} oz"
             )
@@ -174,7 +174,7 @@ def _hole(fault: c.BaseHoleUnseen | c.GasketHoleUnseen | c.GasketHoleOff) -> str
 
 def _apart(*lengths: float, decimals: int = 2) -> list[str]:
     """Lengths to be compared, in inches."""
-    return told_apart([length / INCH for length in lengths], decimals)
+    return distinct_digits([length / INCH for length in lengths], decimals)
 
 
 def _inches(length: float) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Final
 
-from handeye.core.plain_text import printable, told_apart
+from handeye.core.plain_text import distinct_digits, printable
 from handeye.core.units import UNITS
 from handeye.trace.quantities import QuantityDifference, Value
 
@@ -72,7 +72,7 @@ def _numbers(values: list[Value], unit: str) -> list[str]:
         return [f"{value}" for value in values]
     shown = UNITS.get(_SHOWN_IN.get(unit, unit))
     size, name = (1.0, unit) if shown is None else (shown.size, shown.name)
-    told = told_apart([number / size for number in numbers], _DECIMALS)
+    told = distinct_digits([number / size for number in numbers], _DECIMALS)
     if len({*told}) == len({*numbers}):
         return [_with_unit(each, name) for each in told]
     return [_with_unit(repr(number), unit) for number in numbers]

@@ -6,7 +6,7 @@ from typing import Final
 
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
-from handeye.core.plain_text import counted, printable, told_apart
+from handeye.core.plain_text import counted, distinct_digits, printable
 from handeye.core.units import DEGREE, INCH, INCHES, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH, Measures
 from handeye.ports.camera import Renderer
 from handeye.program import events as happened
@@ -211,7 +211,7 @@ def _beyond(said: str, si: float, unit: str) -> Callable[[happened.GuardTripped]
     """A sentence with what was felt, and what it is over."""
 
     def sentence(event: happened.GuardTripped) -> str:
-        felt, limit = told_apart([event.value / si, event.limit / si], 1)
+        felt, limit = distinct_digits([event.value / si, event.limit / si], 1)
         return f"{said} {felt} {unit}, over {limit}"
 
     return sentence

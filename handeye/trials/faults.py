@@ -118,7 +118,7 @@ def trial_of(
     begun = [event for event in events if isinstance(event, StepStarted)]
     stopped = not result.completed and begun
     return FaultTrial(
-        name=catalogue.told(fault),
+        name=catalogue.written(fault),
         outcome=outcome(catalogue.kind(fault.name).expected, result, braked=braked),
         stage=result.stopped_at,
         message=_message(result),

@@ -3,9 +3,9 @@
 import pytest
 
 from handeye.core.errors import InvalidInput
-from handeye.core.fault_options import by_number, faults, from_start_only
 from handeye.core.faults import Catalogue, Fault, FaultKind, Size
 from handeye.core.units import INCH
+from handeye.core.world_options import by_number, faults, from_start_only
 
 CATALOGUE = Catalogue(
     FaultKind(name="lamp.dead", meaning="The lamp stays dark."),
@@ -73,7 +73,7 @@ def test_where_nothing_has_stages_a_fault_is_there_from_the_beginning() -> None:
 
 def test_a_fault_is_told_as_it_would_be_typed() -> None:
     typed = ["gap.off=-0.25in@2", "lamp.dead"]
-    assert [CATALOGUE.told(fault) for fault in faults(CATALOGUE, typed, by_number)] == typed
+    assert [CATALOGUE.written(fault) for fault in faults(CATALOGUE, typed, by_number)] == typed
 
 
 def test_a_recorded_fault_of_another_size_than_it_can_have_is_refused() -> None:

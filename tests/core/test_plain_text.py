@@ -1,6 +1,6 @@
 """Text for people: nothing in it steers a terminal, and nouns agree with their counts."""
 
-from handeye.core.plain_text import counted, one_line, printable, told_apart
+from handeye.core.plain_text import counted, distinct_digits, one_line, printable
 
 
 def test_a_character_that_would_steer_a_terminal_is_shown_as_a_sign() -> None:
@@ -16,6 +16,6 @@ def test_a_noun_agrees_with_its_count() -> None:
 
 
 def test_numbers_that_differ_are_told_apart() -> None:
-    assert told_apart([0.1, 0.2, 0.2], 2) == ["0.10", "0.20", "0.20"]
-    assert told_apart([-0.002, 0.0], 2) == ["-0.002", "0.000"]
-    assert told_apart([1.0, 1.0 + 1e-15], 1) == ["1.000000", "1.000000"]
+    assert distinct_digits([0.1, 0.2, 0.2], 2) == ["0.10", "0.20", "0.20"]
+    assert distinct_digits([-0.002, 0.0], 2) == ["-0.002", "0.000"]
+    assert distinct_digits([1.0, 1.0 + 1e-15], 1) == ["1.000000", "1.000000"]

@@ -16,7 +16,7 @@ from stepping_walk import SAID, commands, of_command, pieces, stands
 from whole_runs import STAGES, Whole, whole_in
 
 from handeye.core.errors import NO_FORCE
-from handeye.core.fault_options import by_number, faults
+from handeye.core.world_options import by_number, faults
 from handeye.debugger.breakpoints import stage_number
 from handeye.debugger.formatting import MOST, as_text
 from handeye.debugger.stepper import Stepper

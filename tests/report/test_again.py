@@ -7,9 +7,8 @@ import msgspec
 import pytest
 from report_pages import recorded
 
-from handeye.core.fault_options import faults, from_start_only
 from handeye.core.variation import Overrides, WorldSpec
-from handeye.core.world_options import overrides
+from handeye.core.world_options import faults, from_start_only, overrides
 from handeye.report.facts.again import command
 from handeye.report.recorded import Recorded
 from handeye.tasks import task

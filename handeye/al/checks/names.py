@@ -9,7 +9,7 @@ from handeye.al.instructions import INSTRUCTIONS, SKIPS
 from handeye.al.parameters import across, uses
 from handeye.al.statements import ByWord, Used, pairs
 from handeye.al.syntax import Name, Number, Statement
-from handeye.core.diagnostics import LIMIT, Diagnostic, Label, alternatives, problem, quoted, told_names
+from handeye.core.diagnostics import LIMIT, Diagnostic, Label, alternatives, names_sentence, problem, quoted
 from handeye.core.errors import ERRORS
 from handeye.program.taught import Taught
 
@@ -159,7 +159,7 @@ def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagn
         return problem("unit-written", message, name.span, *uses(name), help=unit_help)
     message = _MESSAGES[refers].format(quoted(name.text))
     meant = alternatives(name.text, known[refers])
-    help = told_names(meant)
+    help = names_sentence(meant)
     other = next((kind for kind, names in known.items() if name.text in names), None)
     if other is not None and refers is Refers.SAVED:
         help, meant = f"{quoted(name.text)} is a {other.value}; `SAVE` saves a difference", None

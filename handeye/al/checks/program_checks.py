@@ -16,7 +16,7 @@ from handeye.al.macros import Placed
 from handeye.al.parameters import across, braced_in, parameters_in, uses
 from handeye.al.statements import ByWord, Used, Vectors, all_statements, pairs
 from handeye.al.syntax import Name, Script, Statement
-from handeye.core.diagnostics import Diagnostic, Label, alternatives, problem, quoted, told_names
+from handeye.core.diagnostics import Diagnostic, Label, alternatives, names_sentence, problem, quoted
 from handeye.core.source import Source
 from handeye.program.graph import Graph
 from handeye.program.program import Part
@@ -241,7 +241,7 @@ def check_parameters(script: Script) -> Iterator[Diagnostic]:
                 message = (
                     f"{quoted(macro.name.text)} has no parameter {quoted(name)}: the text keeps its braces"
                 )
-                yield problem("unknown-parameter", message, span, help=told_names(meant))
+                yield problem("unknown-parameter", message, span, help=names_sentence(meant))
 
 
 def unused_parameters(script: Script) -> Iterator[Diagnostic]:

@@ -59,7 +59,7 @@ def world_words(world: WorldSpec, of: str = DEFAULT) -> list[str]:
     words += [word for name in world.overrides.without for word in ("--without", name)]
     for name, value in world.overrides.set.items():
         words += ["--set", f"{name}={written(quantities.get(name), value)}"]
-    return [*words, *(word for fault in world.faults for word in ("--fault", faults.told(fault)))]
+    return [*words, *(word for fault in world.faults for word in ("--fault", faults.written(fault)))]
 
 
 def written(quantity: Quantity | None, value: float) -> str:

@@ -15,4 +15,4 @@ def told_faults(run: Recorded) -> Iterator[tuple[str, str]]:
             yield str(fault), ""
         else:
             catalogue = task.faults(world.seed)
-            yield catalogue.told(fault), catalogue.kind(fault.name).meaning
+            yield catalogue.written(fault), catalogue.kind(fault.name).meaning

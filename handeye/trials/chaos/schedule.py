@@ -12,10 +12,10 @@ import msgspec
 
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument
-from handeye.core.fault_options import by_number, faults
 from handeye.core.faults import Catalogue, Fault, FaultKind
 from handeye.core.record import Record
 from handeye.core.variation import Level, checked_seed
+from handeye.core.world_options import by_number, faults
 
 BreakKind = Literal["panic", "pause", "back", "kill"]
 """Panic button, behind so many servo periods; a pause behind so many steps, from which the run is taken up again from
@@ -146,7 +146,7 @@ def draw(
         level=worlds[which][1],
         start=starts[which][place],
         steps=None if chance.random() < 0.4 else chance.randint(1, _MOST),
-        faults=tuple(sorted(catalogue.told(_fault(chance, kind, stage)) for kind in broken)),
+        faults=tuple(sorted(catalogue.written(_fault(chance, kind, stage)) for kind in broken)),
         breaks=tuple(_breaks(chance)),
         answers=tuple(
             chance.choices(get_args(Answer), (6, 2, 2, 1), k=chance.choices((0, 1, 2, 3), (3, 3, 2, 1))[0])

@@ -4,7 +4,7 @@ Going back, an arm takes the world for what it was. It may be another one by now
 taken it away. So every step is undone under guards, and the first that trips ends it.
 """
 
-from handeye.core.plain_text import told_apart
+from handeye.core.plain_text import distinct_digits
 from handeye.core.record import Record
 from handeye.core.units import MILLIMETRE
 from handeye.systems.trig.language.place import AXES, SIZES, UNITS
@@ -51,13 +51,13 @@ def told_obstacle(obstacle: Obstacle) -> str:
     """What has stopped an arm, in words."""
     match obstacle:
         case Resisted(force=force, limit=limit):
-            felt, allowed = told_apart((force, limit), 1)
+            felt, allowed = distinct_digits((force, limit), 1)
             return f"the finger met {felt} N, and going back may meet {allowed} N"
         case HoldOff(gap=gap, kept=kept):
-            now, then = told_apart((gap / MILLIMETRE, kept / MILLIMETRE), 1)
+            now, then = distinct_digits((gap / MILLIMETRE, kept / MILLIMETRE), 1)
             return f"the fingers are {now} mm apart, and were {then} mm apart then"
         case LeftBehind(axis=axis, off=off, limit=limit):
-            far, allowed = told_apart((off / SIZES[axis], limit / SIZES[axis]), 1)
+            far, allowed = distinct_digits((off / SIZES[axis], limit / SIZES[axis]), 1)
             return f"{AXES[axis]} is {far} {UNITS[axis]} from where it was told to be, and may be {allowed}"
         case Missed():
             return "the finger met something here then, and meets nothing now"
