@@ -1,7 +1,7 @@
-"""The chain of frames, and what joint rates do to points on it.
+"""The chain of frames, and point velocities and accelerations along it.
 
-Serves any arm without common-normal offsets (a = 0 in every row), of revolute and prismatic joints.
-Everything is vectorised over leading dimensions, so that a whole motion costs little more than one set-point.
+For any arm without common-normal offsets (a = 0 in every row), of revolute and prismatic joints. Vectorised over
+leading dimensions, so that a whole motion costs little more than one set-point.
 """
 
 import numpy as np
@@ -12,9 +12,9 @@ from handeye.core.pose import Array
 
 
 def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """DH frames 0 (base) to n (tool) in the world: rotations (..., n + 1, 3, 3) and origins (..., n + 1, 3).
+    """DH frames 0 (base) to n (tool) in the world at `q`, shape (..., n), rad and m.
 
-    `q` has shape (..., n), in rad and m.
+    Returns rotations (..., n + 1, 3, 3) and origins (..., n + 1, 3).
     """
     k = constants(arm)
     q = np.asarray(q, dtype=np.float64)
@@ -29,7 +29,7 @@ def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
 
 
 def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
-    """Turns by joint angles about z, then by alpha about x; shape (...) to (..., 3, 3)."""
+    """Rotations by joint angles about z, then by alpha about x; shape (...) to (..., 3, 3)."""
     c, s = np.cos(angle), np.sin(angle)
     step = np.zeros((*angle.shape, 3, 3))
     step[..., 0, 0], step[..., 0, 1], step[..., 0, 2] = c, -s * cos_alpha, s * sin_alpha
@@ -65,12 +65,12 @@ def tool_jacobian(arm: ArmModel, R: Array, p: Array) -> Array:
 def centripetal(
     arm: ArmModel, R: Array, p: Array, points: Array, links: NDArray[np.int_], qd: Array
 ) -> tuple[Array, Array]:
-    """Accelerations at joint rates `qd` without joint accelerations.
+    """Accelerations of points and of their links at joint rates `qd`, without joint accelerations.
 
     Args:
-        points: (..., m, 3), the k-th fixed in link `links[k]` (from 0).
+        points: (..., m, 3), point k fixed in link `links[k]` (from 0).
     Returns:
-        of the points, (..., m, 3), and angular of their links, (..., m, 3).
+        linear, (..., m, 3), and angular, (..., m, 3).
     """
     k = constants(arm)
     prismatic = k.prismatic[:, None]

@@ -1,4 +1,4 @@
-"""The servo law, what it needs of a motion ahead of time, and the force it leaves unexplained.
+"""The servo law, its precomputation for a motion, and the external force it leaves unexplained.
 
 Torque = planned inertia x (planned acceleration - velocity error - position error) + planned gravity,
 Coriolis and friction torques (Paul 1972). It is computed once a servo period and held for it.
@@ -18,12 +18,12 @@ def torque(
     arm: ArmModel, M: Array, bias: Array, q_des: Array, qd_des: Array, qdd_des: Array, q: Array, qd: Array,
     exerted: Array | float = 0.0,
 ) -> Array:  # fmt: skip
-    """Drive torques for one period, shape (n,), N m and (prismatic joints) N.
+    """Drive torques for one period, shape (n,), N m, and N for prismatic joints.
 
     Args:
         M, bias: mass matrix (n, n) and bias torques (n,) of the planned state.
-        q_des, qd_des, qdd_des: planned state at the moment q and qd are read.
-        exerted: torques of a force or load, J^T F with F what the hand is to exert.
+        q_des, qd_des, qdd_des: planned state when q and qd are read.
+        exerted: torques of a force or load to exert, J^T F.
     """
     omega = constants(arm).frequency
     acceleration = qdd_des + 2 * omega * (qd_des - qd) + omega * omega * (q_des - q)
@@ -37,23 +37,23 @@ def felt_wrench(
 
     Args:
         M, bias: mass matrix (n, n) and bias torques (n,) in the period.
-        J: Jacobian at T in it, (6, n).
-        tau: torques put out in it, shape (n,), N m and (prismatic joints) N.
-        qd_before, qd_after: rates at its beginning and its end, shape (n,).
+        J: Jacobian at T, (6, n).
+        tau: torques in the period, shape (n,), N m, and N for prismatic joints.
+        qd_before, qd_after: rates at its beginning and end, shape (n,).
     """
     acceleration = (qd_after - qd_before) / period
     return external_wrench(J, M @ acceleration + bias - tau)
 
 
 def external_wrench(J: Array, unexplained: Array) -> Array:
-    """Force and moment on the hand at T in world axes, shape (6,), N and N m, that explain torques best.
+    """The wrench on the hand at T, world axes, shape (6,), N and N m, that best explains torques.
 
-    No wrist sensor is needed, but joint friction that the model does not know is felt as force. An arm of fewer
-    than six joints feels what its joints carry, and no more.
+    It needs no wrist sensor, but joint friction missing in the model appears as force. An arm of fewer than six joints
+    feels only what its joints carry.
 
     Args:
         J: Jacobian at T, (6, n).
-        unexplained: M qdd + bias - torque, what the drives did not do, shape (n,).
+        unexplained: M qdd + bias - torque, shape (n,).
     """
     if J.shape[0] == J.shape[1]:
         return np.asarray(np.linalg.solve(J.T, unexplained), dtype=np.float64)
@@ -62,17 +62,17 @@ def external_wrench(J: Array, unexplained: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Motion:
-    """A motion as the servo runs it: where the joints should be as each period begins, and what they need."""
+    """A precomputed motion: state and torques at the start of each period.
+
+    `q`, `qd`, `qdd` and `bias` have shape (N, n), `M` (N, n, n); `qdd` is the mean over the period, and `bias` includes
+    friction.
+    """
 
     q: Array
-    """Shape (N, n), as qd, qdd and bias."""
     qd: Array
     qdd: Array
-    """Mean acceleration over the period, as the torque is held over it."""
     M: Array
-    """Shape (N, n, n)."""
     bias: Array
-    """Friction included."""
 
     def __len__(self) -> int:
         return len(self.q)
@@ -82,7 +82,7 @@ def prepare(arm: ArmModel, q_start: Array, samples: Samples) -> Motion:
     """Precompute a motion, so that the working phase needs no trigonometry.
 
     Args:
-        q_start: where the motion begins at rest, shape (n,).
+        q_start: initial configuration at rest, shape (n,).
         samples: set-points at the *ends* of periods 1 to N.
     """
     q = np.vstack([q_start, samples.q])[:-1]

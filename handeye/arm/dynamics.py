@@ -12,24 +12,19 @@ from handeye.arm.chain import centripetal, chain, cross, point_jacobian, tool_ja
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
 
-GRAVITY = 9.81
-"""m/s2, downwards along world z."""
+GRAVITY = 9.81  # m/s2, along -z of the world
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Links:
-    """The links in the world, as functions of the joint positions."""
+    """The links in the world at joint positions."""
 
     R: Array
     p: Array
-    centre: Array
-    """Mass centres, (..., n, 3)."""
-    linear: Array
-    """Velocity of each mass centre per joint rate, (..., n, n, 3)."""
-    angular: Array
-    """Angular velocity of each link per joint rate, (..., n, n, 3)."""
-    inertia: Array
-    """Inertia tensors about the mass centres in world axes, (..., n, 3, 3)."""
+    centre: Array  # mass centres, (..., n, 3)
+    linear: Array  # mass centre velocities per joint rate, (..., n, n, 3)
+    angular: Array  # link angular velocities per joint rate, (..., n, n, 3)
+    inertia: Array  # about mass centres in world axes, (..., n, 3, 3)
 
 
 def mass_matrix(arm: ArmModel, q: Array) -> Array:
@@ -38,37 +33,34 @@ def mass_matrix(arm: ArmModel, q: Array) -> Array:
 
 
 def gravity(arm: ArmModel, q: Array) -> Array:
-    """Torques that hold the arm up at rest, shape (..., n); gravity itself pulls with the opposite ones."""
+    """Torques that hold the arm up at rest, shape (..., n)."""
     return _bias(arm, _links(arm, q), None)
 
 
 def bias(arm: ArmModel, q: Array, qd: Array) -> Array:
-    """Torques h(q, qd) + damping qd that keep the joints at these rates: gravity, Coriolis, friction."""
+    """Torques h(q, qd) + damping qd at these rates: gravity, Coriolis, friction."""
     qd = np.asarray(qd, dtype=np.float64)
     return np.asarray(_bias(arm, _links(arm, q), qd) + constants(arm).damping * qd)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Dynamics:
-    """Inertia, bias torques and Jacobian of an arm at some joint positions."""
+    """Dynamics of an arm at joint positions."""
 
-    M: Array
-    """Mass matrix, shape (..., n, n)."""
-    bias: Array
-    """Torques that hold the arm up at rest, shape (..., n), or keep it moving."""
-    J: Array
-    """Jacobian at T in world axes, shape (..., 6, n)."""
+    M: Array  # mass matrix, (..., n, n)
+    bias: Array  # torques that hold or keep moving, (..., n)
+    J: Array  # Jacobian at T in world axes, (..., 6, n)
 
 
 def at_rest(arm: ArmModel, q: Array) -> Dynamics:
-    """Mass matrix, gravity and Jacobian together, from one chain of frames; `q` has shape (..., n)."""
+    """Mass matrix, gravity and Jacobian from one chain of frames; `q` has shape (..., n)."""
     links = _links(arm, q)
     J = tool_jacobian(arm, links.R, links.p)
     return Dynamics(M=_mass_matrix(arm, links), bias=_bias(arm, links, None), J=J)
 
 
 def gravity_and_jacobian(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """The same without the mass matrix: shapes (..., n) and (..., 6, n)."""
+    """Gravity torques (..., n) and Jacobian (..., 6, n)."""
     links = _links(arm, q)
     return _bias(arm, links, None), tool_jacobian(arm, links.R, links.p)
 

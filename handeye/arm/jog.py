@@ -1,4 +1,4 @@
-"""One joint at a time, the others held: how an arm is moved by its joints."""
+"""Motion of a single joint, the others held."""
 
 from typing import Final
 
@@ -10,26 +10,25 @@ from handeye.arm.samples import Samples, check_samples
 from handeye.core.pose import Array
 from handeye.program.reasons import HeldJoint
 
-_FASTEST: Final = 1.875
-"""Greatest rate of the motion 10 s3 - 15 s4 + 6 s5, as a multiple of its mean."""
-_HARDEST: Final = 5.774
-"""Its greatest acceleration, as a multiple of distance over duration squared."""
+_PEAK_SPEED: Final = 1.875
+"""Peak rate of the quintic 10 s3 - 15 s4 + 6 s5, over its mean."""
+_PEAK_ACCELERATION: Final = 5.774  # over distance / duration2
 
 
 def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Samples | IKResult:
-    """Set-points of a smooth motion of one joint to `goal` (rad, or m), or why there are none.
+    """Set-points of a smooth motion of one joint to `goal` (rad or m), or why there are none.
 
     Args:
-        q: where the arm stands, shape (n,).
-        joint: its index from 0.
-        speed: share of the joint's greatest rate; its square of the acceleration.
+        q: initial configuration, shape (n,).
+        joint: index from 0.
+        speed: fraction of the joint's rate limit; its square applies to the acceleration.
     """
     if arm.joints[joint].name in arm.held:
         return IKResult(reason=HeldJoint(joint, arm.held[arm.joints[joint].name]))
     distance, limits, period = goal - q[joint], arm.joints[joint], arm.servo.period
     least = max(
-        _FASTEST * abs(distance) / (speed * limits.speed),
-        float(np.sqrt(_HARDEST * abs(distance) / (speed**2 * limits.acceleration))),
+        _PEAK_SPEED * abs(distance) / (speed * limits.speed),
+        float(np.sqrt(_PEAK_ACCELERATION * abs(distance) / (speed**2 * limits.acceleration))),
     )
     count = max(1, int(np.ceil(least / period)))
     duration, s = count * period, np.arange(1, count + 1) / count

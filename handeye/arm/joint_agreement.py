@@ -1,4 +1,4 @@
-"""Do the two sensors of a joint agree? What a tachometer has told of a motion against what its potentiometer tells."""
+"""Agreement of the two sensors of a joint: tachometer against potentiometer over a motion."""
 
 from dataclasses import dataclass, field
 from typing import Final
@@ -9,24 +9,30 @@ from handeye.arm.converters import position_step
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
 
-TURNED: Final = 0.03
-SLID: Final = 0.01
-"""Way, rad and m, by which they may differ. Far over what both are stated to be off by: a step of a 12-bit converter
-(.0015 rad, .24 mm), the waviness of a potentiometer (.003 rad), half a step of the tachometer's converter for five
-seconds (.007 rad, 1.3 mm)."""
-SHARE: Final = 0.05
-"""Share of the way by which they may differ besides: scales off by .2 % (potentiometers), and what a converter loses.
-Placeholder."""
+MAX_TURN_GAP: Final = 0.03
+MAX_SLIDE_GAP: Final = 0.01
+"""Allowed difference, rad and m, far over the stated errors of both.
+
+Those are a step of a 12-bit converter (.0015 rad, .24 mm), the waviness of a potentiometer (.003 rad), half a step of
+the tachometer's converter for five seconds (.007 rad, 1.3 mm).
+"""
+PATH_SHARE: Final = 0.05
+"""Allowed difference as a fraction of the path: scales are off by .2 % (potentiometers), and converters lose some.
+
+Placeholder.
+"""
 
 
-RESTED: Final = 4
-"""Steps of its converter by which a potentiometer may change under set brakes while its tachometer reads nothing: two
-for its noise, as at the high level, and one for an arm that creeps."""
+REST_STEPS: Final = 4
+"""Converter steps that a potentiometer may change under set brakes while its tachometer reads zero.
+
+Two for its noise, as at the high level, and more for an arm that creeps.
+"""
 
 
 def crept(arm: ArmModel, change: Array) -> "Disagreement | None":
-    """The joint that is farthest from rest, if any is, by the change of potentiometers under set brakes, shape (n,)."""
-    excess = np.abs(change) / (RESTED * position_step(arm))
+    """The joint farthest from rest, if any, by the change of potentiometers under set brakes, shape (n,)."""
+    excess = np.abs(change) / (REST_STEPS * position_step(arm))
     if (excess <= 1).all():
         return None
     joint = int(np.argmax(excess))
@@ -35,24 +41,21 @@ def crept(arm: ArmModel, change: Array) -> "Disagreement | None":
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Disagreement:
-    """Ways of a joint (rad or m) since a motion began, by its two sensors."""
+    """Displacements of a joint (rad or m) since a motion began, or since the brakes were set, by its two sensors."""
 
     joint: int
     potentiometer: float
     tachometer: float
     braked: bool = False
-    """Since the brakes were set, that is."""
 
 
 @dataclass(slots=True, kw_only=True)
 class JointAgreement:
-    """The sensors of all joints from the beginning of a motion on; arrays have shape (n,), rad and m."""
+    """The sensors of all joints from the start of a motion; arrays have shape (n,), rad and m."""
 
     arm: ArmModel
-    start: Array
-    """Potentiometers when the motion began."""
-    rate: Array
-    """Tachometers a servo period ago."""
+    start: Array  # potentiometers at the start
+    rate: Array  # tachometers one period ago
     _way: Array = field(init=False)
     _path: Array = field(init=False)
     _between: Array = field(init=False)
@@ -61,19 +64,19 @@ class JointAgreement:
         self._way, self._path, self._between = (np.zeros(len(self.start)) for _ in range(3))
 
     def step(self, q: Array, qd: Array) -> Disagreement | None:
-        """Look at the readings of the next servo period; the joint whose sensors disagree most, if any do.
+        """Compare the readings of the next servo period: the joint that disagrees most, if any.
 
-        Nobody knows how the rate went from one reading to the next: between them the joint went as far as with either
-        of them, or between that, and half their difference is what their mean may be wrong by. Where a joint is struck,
-        as by a casting that comes off what it stuck to, that is several degrees.
+        How the rate went between two readings is unknown: the joint went as far as with either of them, or in between,
+        so half their difference is the error of their mean. Where a joint is struck, as by a casting that breaks loose,
+        that is several degrees.
         """
         period = self.arm.servo.period
         gone, unknown = (self.rate + qd) / 2 * period, np.abs(qd - self.rate) / 2 * period
         self._way, self._path, self.rate = self._way + gone, self._path + np.abs(gone), qd
         self._between = self._between + unknown
         by_pot = q - self.start
-        slack = np.where(constants(self.arm).prismatic, SLID, TURNED)
-        allowed = slack + SHARE * self._path + self._between
+        slack = np.where(constants(self.arm).prismatic, MAX_SLIDE_GAP, MAX_TURN_GAP)
+        allowed = slack + PATH_SHARE * self._path + self._between
         excess = np.abs(by_pot - self._way) / allowed
         joint = int(np.argmax(excess))
         if excess[joint] <= 1:

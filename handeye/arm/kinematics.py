@@ -21,7 +21,7 @@ def jacobian(arm: ArmModel, q: Array) -> Array:
 
 
 def drift(arm: ArmModel, q: Array, qd: Array) -> Array:
-    """Acceleration of T at joint rates `qd` and no joint accelerations (dJ/dt qd), shape (..., 6)."""
+    """Acceleration of T at joint rates `qd` without joint accelerations (dJ/dt qd), shape (..., 6)."""
     R, p = chain(arm, q)
     linear, angular = centripetal(arm, R, p, p[..., -1:, :], np.full(1, len(arm.joints) - 1), qd)
     return np.concatenate([linear[..., 0, :], angular[..., 0, :]], axis=-1)

@@ -1,4 +1,4 @@
-"""Motions of the hand on a straight line or an arc: every set-point is solved for, with exact joint rates."""
+"""Straight, circular and turning motions of the hand: every set-point is solved for, with exact joint rates."""
 
 import math
 from dataclasses import replace
@@ -13,19 +13,18 @@ from handeye.arm.samples import Samples, check_samples, length
 from handeye.core.pose import Array, Pose, displaced, rotation_z, translated
 from handeye.program.reasons import TooFast
 
-RAMP = 0.1
-"""Time to reach and to leave the cruising speed, s. Chosen: six periods of the servo of 1973."""
+RAMP = 0.1  # s to reach and to leave cruising speed; chosen: six servo periods of 1973
 
 
 def straight(
     arm: ArmModel, q_start: Array, displacement: Array, speed: float, ramp: float = RAMP
 ) -> Samples | IKResult:
-    """Set-points of a straight motion of the tool point with the orientation kept, or why there are none.
+    """Set-points of a straight motion of the tool point with constant orientation, or why there are none.
 
     Args:
         q_start: shape (n,).
         displacement: shape (3,), m, world.
-        speed: m/s while cruising, at most; a short motion is slower.
+        speed: m/s, cruising at most; a short motion is slower.
     """
     displacement = np.asarray(displacement, dtype=np.float64)
     distance = float(np.linalg.norm(displacement))
@@ -43,9 +42,9 @@ def arc(
     """Set-points of a turn of the hand about a vertical axis, or why there are none.
 
     Args:
-        centre_xy: where the axis stands, shape (2,), m.
-        angle: rad, counter-clockwise seen from above.
-        speed: rad/s while cruising, at most.
+        centre_xy: position of the axis, shape (2,), m.
+        angle: rad, counter-clockwise from above.
+        speed: rad/s, cruising at most.
     """
     s, sd, sdd = _profile(abs(angle), speed, ramp, arm.servo.period)
     s, sd, sdd = (math.copysign(1.0, angle) * x for x in (s, sd, sdd))
@@ -61,11 +60,11 @@ def arc(
 
 
 def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float = RAMP) -> Samples | IKResult:
-    """Set-points of a turn of the hand on the spot, its tool point held, or why there are none.
+    """Set-points of a turn of the hand about its tool point, or why there are none.
 
     Args:
         turn: rotation vector, shape (3,), rad, world.
-        speed: rad/s while cruising, at most.
+        speed: rad/s, cruising at most.
     """
     angle = float(np.linalg.norm(turn))
     s, sd, sdd = _profile(angle, speed, ramp, arm.servo.period)
@@ -83,9 +82,9 @@ def _turned(X: Pose, centre: Array, angle: float) -> Pose:
 
 
 def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple[Array, Array, Array]:
-    """Way, speed and acceleration at ticks 1 to N: a cruise between two ramps without jolt at their ends.
+    """Distance, speed and acceleration at ticks 1 to N: a cruise between two ramps with smooth ends.
 
-    The speed on a ramp is v (3 r2 - 2 r3) of its share r, so that a ramp covers half of what cruising would.
+    The speed on a ramp is v (3 r2 - 2 r3) of its fraction r, so that a ramp covers half of what cruising would.
     """
     if distance == 0.0:
         return np.zeros(0), np.zeros(0), np.zeros(0)
@@ -97,8 +96,8 @@ def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple
     r = np.clip(np.minimum(t, duration - t) / ramp, 0.0, 1.0)
     rising = t < duration / 2
     ramped = v * ramp * (r**3 - r**4 / 2)
-    way = np.where(t <= ramp, ramped, np.where(duration - t <= ramp, distance - ramped, v * (t - ramp / 2)))
-    return way, v * (3 * r**2 - 2 * r**3), np.where(rising, 1.0, -1.0) * v / ramp * 6 * (r - r**2)
+    s = np.where(t <= ramp, ramped, np.where(duration - t <= ramp, distance - ramped, v * (t - ramp / 2)))
+    return s, v * (3 * r**2 - 2 * r**3), np.where(rising, 1.0, -1.0) * v / ramp * 6 * (r - r**2)
 
 
 def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Samples | IKResult:
@@ -106,13 +105,13 @@ def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Sampl
     if len(X) == 0:
         none = np.zeros((0, len(q_start)))
         return Samples(q=none, qd=none, qdd=none)
-    found, exists = branches(arm, X, q_start)
+    candidates, exists = branches(arm, X, q_start)
     if not exists.all():
         tick = int(np.argmin(exists.all(axis=1)))
         return replace(solve(arm, X[tick], q_start), along=length(X[: tick + 1]))
     turn = np.where(constants(arm).prismatic, np.inf, 2 * np.pi)
-    branch = int(np.argmin(_distance(found[0] - q_start, turn)))
-    q = found[:, branch]
+    branch = int(np.argmin(_distance(candidates[0] - q_start, turn)))
+    q = candidates[:, branch]
     stuck = singular(arm, q_start, q, V)
     if stuck is not None:
         return IKResult(reason=stuck[1], along=length(X[: stuck[0] + 1]))
@@ -131,7 +130,7 @@ def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Sampl
 
 
 def _shortest(step: Array, turn: Array) -> Array:
-    """`step` less whole turns, so that it is the shortest way."""
+    """`step` less whole turns, in the shorter direction."""
     whole = np.round(step / turn)
     return np.asarray(step - np.where(whole == 0, 0.0, whole * np.where(np.isinf(turn), 0.0, turn)))
 

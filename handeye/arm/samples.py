@@ -1,4 +1,4 @@
-"""Set-points of a motion, one per servo period, and whether the arm can be there."""
+"""Set-points of a motion, one per servo period, and their check against the arm's limits."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ from handeye.program.reasons import BelowTable
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Samples:
-    """Set-points at the end of servo periods 1 to N; each shape (N, n), rad and m, per s."""
+    """Set-points at the ends of servo periods 1 to N; each shape (N, n), rad and m, per s."""
 
     q: Array
     qd: Array
@@ -25,15 +25,14 @@ class Samples:
 
 
 def length(X_WT: Pose) -> float:
-    """Length of the hand's path over poses of shape (N, 4, 4), m."""
+    """Length of the hand's path over poses (N, 4, 4), m."""
     return float(np.linalg.norm(np.diff(X_WT[:, :3, 3], axis=0), axis=1).sum())
 
 
 def check_samples(arm: ArmModel, samples: Samples, *, floor: float | None = None) -> IKResult | None:
-    """Check of samples against the joint limits, and of the hand against `floor` (m); None if all is well.
+    """Check samples against the joint limits, and the hand against `floor` (m).
 
-    Returns:
-        None if all can be taken; else how far the joint that is first beyond its limit goes, and where it passes it.
+    Returns None if all are within, else the first joint beyond its limit, its extreme, and where along the path.
     """
     excess = np.maximum(samples.q - arm.upper, arm.lower - samples.q)
     bad = excess > SLACK

@@ -1,8 +1,8 @@
 """Planned free motions: one polynomial of degree 4-3-4 per joint (Paul 1972).
 
-The hand lifts off upwards, goes over to a set-down point above the goal, and comes down. What it is to pass on the way
-over are knots of a cubic spline between the two. All joints share the segment times, so what is linear in the joints
-at all those positions stays so on the way: a hand that points straight down at them never tilts.
+The hand lifts off upwards, moves to a set-down point above the goal, and descends. Via points between are knots of a
+cubic spline. All joints share the segment times, so a linear relation of joints that holds at all knots holds on the
+way: a hand that points straight down at them never tilts.
 """
 
 import math
@@ -21,30 +21,28 @@ from handeye.core.units import INCH
 from handeye.program.reasons import BelowTable
 
 DIRECT_KNOT: Final = 1 / 9
-"""Share of the way at which a motion without departure or approach has its knots: 5 degrees of 45, as in the
-worked example of the reference."""
-_LOWERINGS: Final = (1.0, 0.75, 0.5, 0.25)
-"""Shares of the departure and approach heights that are tried in turn."""
-_SHARES: Final = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4)
-"""Times of the end segments, as shares of the middle one's, among which the quickest pair is chosen."""
-_LOOK: Final = np.linspace(0.0, 1.0, 33)
-"""Places of a segment at which limits are looked at; a peak in between is at most .1 % higher."""
+"""Fraction of the path at which a motion without departure or approach has its knots.
+
+5 degrees of 45, as in the worked example of the reference.
+"""
+_HEIGHT_SHARES: Final = (1.0, 0.75, 0.5, 0.25)  # of departure and approach, tried in turn
+_END_SHARES: Final = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4)  # durations of the end segments over the middle one's
+_PLACES: Final = np.linspace(
+    0.0, 1.0, 33
+)  # of a segment, checked for limits; peaks between are at most .1 % higher
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Trajectory:
     """Joint positions as functions of time: a polynomial per joint and segment."""
 
-    knots: Array
-    """Positions at the start, between the segments and at the end, shape (N + 1, n), N at least 3."""
-    times: Array
-    """Duration of each segment, shape (N,), s."""
-    coefficients: Array
-    """Shape (N, 5, n): segment, ascending power of the time since its beginning, joint."""
+    knots: Array  # start, between segments, end: (N + 1, n), N at least 3
+    times: Array  # of each segment, (N,), s
+    coefficients: Array  # (N, 5, n): segment, ascending power of time since its start, joint
 
     @property
     def duration(self) -> float:
-        """s"""
+        """Total duration, s."""
         return float(self.times.sum())
 
     def at(self, time: Array) -> Samples:
@@ -58,17 +56,17 @@ class Trajectory:
     def sample(self, period: float) -> Samples:
         """Set-points at ticks 1 to N; the last is exactly the goal, at rest."""
         count = max(1, math.ceil(self.duration / period - 1e-6))
-        found = self.at(np.arange(1.0, count + 1.0) * period)
-        found.q[-1], found.qd[-1], found.qdd[-1] = self.knots[-1], 0.0, 0.0
-        return found
+        samples = self.at(np.arange(1.0, count + 1.0) * period)
+        samples.q[-1], samples.qd[-1], samples.qdd[-1] = self.knots[-1], 0.0, 0.0
+        return samples
 
 
 def four_three_four(knots: Array, times: Array) -> Trajectory:
-    """The trajectory at rest at the first and last knot that passes those between, smooth to the second derivative.
+    """The trajectory from rest to rest through all knots, smooth to the second derivative.
 
     Args:
         knots: shape (N + 1, n), rad and m, N at least 3.
-        times: duration of each segment between them, shape (N,), s.
+        times: duration of each segment, shape (N,), s.
     """
     knots = np.array(knots, dtype=np.float64)
     times = np.array(times, dtype=np.float64)
@@ -79,17 +77,14 @@ def move(
     arm: ArmModel, q_start: Array, X_WT_goal: Pose, *,
     via: Sequence[Array] = (), departure: float = 3 * INCH, approach: float = 3 * INCH, speed: float = 1.0,
 ) -> Trajectory | IKResult:  # fmt: skip
-    """The free motion to a hand pose, or why there is none.
+    """The free motion to a hand pose on the nearest branch, in whole servo periods, or why there is none.
 
     Args:
-        q_start: where the arm is, shape (n,).
-        via: what it passes on the way without stopping, in this order, each of shape (n,).
-        departure, approach: heights of the lift-off and set-down points over the ends, m; 0 for none. What is
-            out of reach is lowered by quarters.
-        speed: share of the joints' greatest speeds, with its square of their accelerations.
-
-    Returns:
-        a trajectory of a whole number of servo periods, on the branch nearest to where it comes from.
+        q_start: initial configuration, shape (n,).
+        via: configurations passed without stopping, each shape (n,).
+        departure, approach: heights of lift-off and set-down points over the ends, m; 0 for none; lowered by quarters
+            where out of reach.
+        speed: fraction of the joints' rates; its square applies to accelerations.
     """
     height = float(X_WT_goal[2, 3])
     if height < -1e-9:
@@ -98,7 +93,7 @@ def move(
     if goal.q is None:
         return goal
     fault = goal
-    for share in _LOWERINGS:
+    for share in _HEIGHT_SHARES:
         q1 = _raised(arm, forward(arm, q_start), q_start, share * departure)
         q2 = _raised(arm, X_WT_goal, goal.q, share * approach)
         trajectory = _quickest(arm, _knots(q_start, q1, via, q2, goal.q), speed)
@@ -110,15 +105,15 @@ def move(
 
 
 def _raised(arm: ArmModel, X_WT: Pose, q: Array, height: float) -> Array | None:
-    """Joint positions with the hand so much higher, or as much as the arm reaches; None for no height."""
+    """Joint positions with the hand raised by `height`, or as far as the arm reaches; None for no height."""
     if height == 0.0:
         return None
-    tried = (solve(arm, translated(X_WT, [0.0, 0.0, share * height]), q).q for share in _LOWERINGS)
+    tried = (solve(arm, translated(X_WT, [0.0, 0.0, share * height]), q).q for share in _HEIGHT_SHARES)
     return next((q for q in tried if q is not None), None)
 
 
 def _knots(q0: Array, q1: Array | None, via: Sequence[Array], q2: Array | None, q3: Array) -> Array:
-    """All positions; instead of a missing lift-off or set-down point, one on the way in joint space."""
+    """All knots, with points in joint space in the place of missing lift-off and set-down points."""
     ahead = via[0] if via else q3 if q2 is None else q2
     behind = via[-1] if via else q0 if q1 is None else q1
     leave, reach = q0 + DIRECT_KNOT * (ahead - q0), q3 + DIRECT_KNOT * (behind - q3)
@@ -126,13 +121,13 @@ def _knots(q0: Array, q1: Array | None, via: Sequence[Array], q2: Array | None, 
 
 
 def _quickest(arm: ArmModel, knots: Array, speed: float) -> Trajectory:
-    """The quickest division of time among the tried ones that keeps the limits, in whole servo periods."""
+    """The quickest of the tried segment times within limits, in whole servo periods."""
     k, period = constants(arm), arm.servo.period
-    ways = np.abs(np.diff(knots, axis=0))
-    least = np.max(np.maximum(ways / k.speed, np.sqrt(ways / k.acceleration)), axis=1)
+    distances = np.abs(np.diff(knots, axis=0))
+    least = np.max(np.maximum(distances / k.speed, np.sqrt(distances / k.acceleration)), axis=1)
     between = np.maximum(least[1:-1], period)
     between = between / between.max()
-    shares = np.array([(a, *between, b) for a in _SHARES for b in _SHARES])
+    shares = np.array([(a, *between, b) for a in _END_SHARES for b in _END_SHARES])
     times = shares * max(float(least.max()), period)
     times *= _stretch(arm, knots, times)[:, None]
     best = times[np.argmin(times.sum(axis=1))] / speed
@@ -145,7 +140,7 @@ def _stretch(arm: ArmModel, knots: Array, times: Array) -> Array:
     """Factors on segment times (..., 3) that bring speeds and accelerations just within the limits, (...)."""
     k = constants(arm)
     coefficients = _coefficients(knots, times)
-    at = times[..., None] * _LOOK
+    at = times[..., None] * _PLACES
     rate = np.abs(_powers(at, 1) @ coefficients) / k.speed
     acceleration = np.abs(_powers(at, 2) @ coefficients) / k.acceleration
     peak = np.maximum(rate.max(axis=(-3, -2, -1)), np.sqrt(acceleration.max(axis=(-3, -2, -1))))
@@ -163,7 +158,7 @@ def _powers(t: Array, order: int) -> Array:
 
 
 def _coefficients(knots: Array, times: Array) -> Array:
-    """The coefficients of each joint, as (..., N, 5, n), for segment times of shape (..., N)."""
+    """Coefficients (..., N, 5, n) for segment times (..., N)."""
     count = times.shape[-1]
     A = np.zeros((*times.shape[:-1], 5 * count, 5 * count))
     b = np.zeros((5 * count, knots.shape[-1]))

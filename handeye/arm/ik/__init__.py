@@ -1,6 +1,6 @@
-"""Inverse kinematics: how the joints must stand for the hand to be somewhere, or why they cannot.
+"""Inverse kinematics: joint positions for a hand pose, or why there are none.
 
-One solver a structure; `solve` and `branches` find the one that an arm names.
+One solver for each structure; `solve` and `branches` choose the arm's.
 """
 
 from handeye.arm.ik.result import IKResult

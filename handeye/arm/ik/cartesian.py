@@ -1,4 +1,4 @@
-"""Sliding axes alone, one to three of them: the hand goes along a line, in a plane or anywhere, and is never turned."""
+"""One to three sliding axes: the hand moves on a line, in a plane or in space, and never turns."""
 
 import math
 from dataclasses import dataclass
@@ -16,23 +16,19 @@ from handeye.arm.model import ArmModel
 from handeye.core.pose import Array, Pose
 from handeye.program.reasons import FixedDirection, FixedOrientation, InLine
 
-_WRITTEN: Final = 1e-5
-"""m, and rad: what the rounding of a written position may leave."""
+_ROUNDING: Final = 1e-5  # m or rad, left by rounding of written positions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Build:
-    """Dimensions of an arm that the solution needs."""
+    """Dimensions of an arm for the solution."""
 
     slides: list[int]
     held: list[int]
     held_at: Array
-    axes: Array
-    """Displacement of the hand per joint position, shape (3, n)."""
-    inverse: Array
-    """Joint positions per displacement, shape (n, 3)."""
-    R_WT: Array
-    """The orientation of the hand, shape (3, 3)."""
+    axes: Array  # hand displacement per joint position, (3, n)
+    inverse: Array  # joint positions per displacement, (n, 3)
+    R_WT: Array  # orientation of the hand, (3, 3)
 
 
 @lru_cache(maxsize=16)
@@ -53,48 +49,48 @@ def _build(arm: ArmModel) -> _Build:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """One. It does not exist where the hand would have to be turned, or to leave the way of the slides."""
+    """One branch, which exists unless the hand would have to turn or leave the slides' span."""
     b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
-    q, off = _slid(arm, b, X, b.held_at if start is None else start[b.held])
-    exists = (np.linalg.norm(off, axis=-1) <= _WRITTEN) & (_turned(b, X) <= _WRITTEN)
+    q, off = _nearest_position(arm, b, X, b.held_at if start is None else start[b.held])
+    exists = (np.linalg.norm(off, axis=-1) <= _ROUNDING) & (_turn_angle(b, X) <= _ROUNDING)
     return q[..., None, :], exists[..., None]
 
 
-def _slid(arm: ArmModel, b: _Build, X_WT: Pose, held_at: Array) -> tuple[Array, Array]:
-    """Joint positions that bring the hand nearest to poses, (..., n), and what is left to them, (..., 3), m."""
+def _nearest_position(arm: ArmModel, b: _Build, X_WT: Pose, held_at: Array) -> tuple[Array, Array]:
+    """Joint positions of the hand nearest to poses, (..., n), and the remainder, (..., 3), m."""
     q = np.zeros((*X_WT.shape[:-2], len(arm.joints)))
     q[..., b.held] = held_at
-    way = X_WT[..., :3, 3] - forward(arm, q)[..., :3, 3]
-    q[..., b.slides] = way @ b.inverse.T
-    return q, way - q[..., b.slides] @ b.axes.T
+    displacement = X_WT[..., :3, 3] - forward(arm, q)[..., :3, 3]
+    q[..., b.slides] = displacement @ b.inverse.T
+    return q, displacement - q[..., b.slides] @ b.axes.T
 
 
-def _turned(b: _Build, X_WT: Pose) -> Array:
-    """The angle between the orientation of the hand and that of poses, rad."""
+def _turn_angle(b: _Build, X_WT: Pose) -> Array:
+    """Angle between the hand's orientation and that of poses, rad."""
     chord = np.linalg.norm(X_WT[..., :3, :3] - b.R_WT, axis=(-2, -1)) / (2 * math.sqrt(2))
     return np.asarray(2 * np.arcsin(np.minimum(chord, 1.0)))
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """The one solution, or what the hand cannot do, or the joint that is worst beyond its limits."""
+    """The solution, or the turn, direction or joint limit that prevents it."""
     b = _build(arm)
-    angle = float(_turned(b, X_WT))
-    if angle > _WRITTEN:
+    angle = float(_turn_angle(b, X_WT))
+    if angle > _ROUNDING:
         return IKResult(reason=FixedOrientation(angle))
-    q, off = _slid(arm, b, X_WT, b.held_at)
+    q, off = _nearest_position(arm, b, X_WT, b.held_at)
     distance = float(np.linalg.norm(off))
-    if distance > _WRITTEN:
+    if distance > _ROUNDING:
         return IKResult(reason=FixedDirection(tuple(b.slides), distance))
     return choose(arm, [q.tolist()], near.tolist())
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """Nowhere."""
+    """Never singular."""
     return None
 
 
 def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
-    """The slides carry the hand; held joints stand still."""
+    """Rates of the slides; held joints stand still."""
     b, qd = _build(arm), np.zeros(q.shape)
     qd[:, b.slides] = V[:, :3] @ b.inverse.T
     return qd

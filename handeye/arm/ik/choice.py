@@ -1,4 +1,4 @@
-"""Of several solutions the one to take: inside the limits, and soonest reached."""
+"""Chooses among solutions: within limits, and reached soonest."""
 
 import math
 from typing import Final
@@ -9,14 +9,13 @@ from handeye.arm.ik.result import IKResult
 from handeye.arm.model import ArmModel, Joint
 from handeye.program.reasons import JointLimit, OutOfReach
 
-SLACK: Final = 1e-9
-"""Round-off allowed beyond a joint limit, rad or m."""
+SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, rad or m
 
 
 def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResult:
-    """The solution inside the limits that is nearest to `near` in the sum of travel times of the joints.
+    """The solution within limits with the least sum of joint travel times from `near`.
 
-    Without one: what is wrong with the solution that is least beyond them.
+    Without one, the failure of the solution least beyond them.
     """
     good = [q for q in found if all(map(_inside, arm.joints, q))]
     if good:
@@ -33,8 +32,9 @@ def _travel_time(arm: ArmModel, a: list[float], b: list[float]) -> float:
 
 
 def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
-    """The joint farthest beyond its limits, and how far in travel time. A sliding joint comes first: no
-    branch can mend it."""
+    """Travel time of the joint farthest beyond its limits, and the failure; sliding joints first, as no branch mends
+    them.
+    """
     outside = [(i, j, x) for i, (j, x) in enumerate(zip(arm.joints, q, strict=True)) if not _inside(j, x)]
     excess = [(j.kind == "prismatic", max(x - j.upper, j.lower - x) / j.speed) for _, j, x in outside]
     worst = max(range(len(outside)), key=excess.__getitem__)
@@ -43,13 +43,13 @@ def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
 
 
 def beyond(joint: Joint, index: int, x: float) -> OutOfReach | JointLimit:
-    """Reason for a joint that would have to be at `x`, beyond its limits."""
+    """Failure of a joint at `x`, beyond its limits."""
     limit = joint.upper if x > joint.upper else joint.lower
     return OutOfReach(index, x, limit) if joint.kind == "prismatic" else JointLimit(index, x, limit)
 
 
 def nearest_turn(joint: Joint, x: float, near: float) -> float:
-    """`x` plus whole turns: nearest to `near` among those inside the limits, else nearest to the limits."""
+    """`x` plus whole turns: nearest to `near` within limits, else nearest to the limits."""
     if joint.kind == "prismatic":
         return x
     turn = 2 * math.pi

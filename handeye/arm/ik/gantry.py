@@ -1,11 +1,10 @@
-"""A gantry with a wrist: three sliding axes carry three turning ones, each square to the next.
+"""A gantry: three sliding axes carry a wrist of three turning ones, each square to the next.
 
-The slides do not turn the hand, so the wrist follows from its orientation alone, and the slides from what is left of
-the position: the wrist's axes need not meet in a point. More slides than three are rails, held at a place.
+The slides do not turn the hand, so the wrist follows from its orientation alone, and the slides from the remaining
+position: the wrist's axes need not meet in a point. Further slides are rails, held at a place.
 
-Two branches: the wrist flipped or not. Where the axes of its first and last joint come into line only the sum of the
-two matters, and the first stays where it was if the last can do the rest; the hand can still go anywhere, and turn
-about that line.
+Two branches: the wrist flipped or not. Where its first and last axes come into line only the sum of the two matters,
+and the first stays where it was if the last can do the rest; the hand can still go anywhere, and turn about that line.
 """
 
 import math
@@ -24,25 +23,20 @@ from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array, Pose, rotation_x
 from handeye.program.reasons import InLine
 
-_COLLINEAR: Final = 1e-9
-"""Sine of the middle wrist joint below which the other two count as one axis."""
-_EXACT: Final = 1e-6
-"""Part of a twist (m/s, rad/s) that joint rates may miss by round-off."""
+_COLLINEAR: Final = 1e-9  # sine of the middle wrist joint below which the others are one axis
+_EXACT: Final = 1e-6  # round-off of a twist, m/s or rad/s
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Build:
-    """Dimensions of an arm that the solution needs."""
+    """Dimensions of an arm for the solution."""
 
     slides: list[int]
     held: list[int]
     held_at: Array
-    wrist: int
-    """The first joint of the wrist."""
-    X_slides: Array
-    """Joint positions of the slides per displacement of the hand, shape (3, 3)."""
-    R_WS: Array
-    """Orientation of what carries the wrist, shape (3, 3)."""
+    wrist: int  # first joint of the wrist
+    X_slides: Array  # slide positions per hand displacement, (3, 3)
+    R_WS: Array  # orientation of the wrist's base, (3, 3)
 
 
 @lru_cache(maxsize=16)
@@ -63,7 +57,7 @@ def _build(arm: ArmModel) -> _Build:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Two: the wrist, and flipped. They always exist."""
+    """Two branches, wrist and flipped wrist, which always exist."""
     b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
     q = np.zeros((*X.shape[:-2], 2, len(arm.joints)))
     q[..., b.held] = b.held_at if start is None else start[b.held]
@@ -78,7 +72,7 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 
 def _wrist(arm: ArmModel, b: _Build, M: Array, flip: float, left: float) -> Array:
-    """The wrist's joints, shape (..., 3), for orientations M seen from what carries it, shape (..., 3, 3)."""
+    """Wrist joints, shape (..., 3), for orientations M in the wrist's base, shape (..., 3, 3)."""
     k, i = constants(arm), b.wrist
     x, y, z = M[..., 0, 2], M[..., 1, 2], M[..., 2, 2]
     roll = np.where(np.hypot(x, y) < _COLLINEAR, left, np.atan2(flip * y, flip * x))
@@ -90,7 +84,7 @@ def _wrist(arm: ArmModel, b: _Build, M: Array, flip: float, left: float) -> Arra
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """The best branch, or the joint that is worst beyond its limits."""
+    """The best branch, or the joint farthest beyond its limits."""
     b, start = _build(arm), near.copy()
     start[b.held] = b.held_at
     here = near.tolist()
@@ -102,7 +96,7 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def _shared(arm: ArmModel, q: list[float]) -> list[float]:
-    """With both rolls in line, the first takes over what is beyond the range of the last."""
+    """With both rolls in line, shift what is beyond the last joint's range to the first."""
     last = arm.joints[-1]
     beyond = q[-1] - min(max(q[-1], last.lower), last.upper)
     if beyond == 0.0 or abs(math.sin(q[-2])) >= _COLLINEAR:
@@ -112,7 +106,7 @@ def _shared(arm: ArmModel, q: list[float]) -> list[float]:
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """Where the wrist would have to swing round, or cannot turn the hand as wanted."""
+    """The first configuration where the wrist would swing round, or cannot turn the hand as wanted."""
     i = _build(arm).wrist
     J = jacobian(arm, q)
     missed = np.abs((J @ rates(arm, q, J, V)[..., None])[..., 0] - V).max(axis=-1) > _EXACT
@@ -123,7 +117,7 @@ def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, In
 
 
 def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
-    """The wrist turns the hand, the slides carry it; held joints stand still."""
+    """Rates of wrist and slides; held joints stand still."""
     b = _build(arm)
     in_line = np.abs(np.sin(q[:, b.wrist + 1])) < _COLLINEAR
     turning = J[:, 3:, b.wrist :].copy()

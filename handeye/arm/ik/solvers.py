@@ -1,4 +1,4 @@
-"""The one entrance to the inverse kinematics of any arm, and what a solver of a structure has to give."""
+"""Inverse kinematics of any arm, and the interface of a structure's solver."""
 
 from collections.abc import Mapping
 from typing import Final, Protocol
@@ -14,23 +14,17 @@ from handeye.program.reasons import InLine
 
 
 class Solver(Protocol):
-    """The inverse kinematics of a structure. Raises ValueError for an arm that is built otherwise."""
+    """Inverse kinematics of a structure; each function raises ValueError for an arm of another."""
 
-    def solve(self, arm: ArmModel, X_WT: Pose, near: Array, /) -> IKResult:
-        """As `solve` of this module."""
-        ...
+    def solve(self, arm: ArmModel, X_WT: Pose, near: Array, /) -> IKResult: ...
 
-    def branches(self, arm: ArmModel, X_WT: Pose, start: Array | None, /) -> tuple[Array, NDArray[np.bool_]]:
-        """As `branches` of this module."""
-        ...
+    def branches(
+        self, arm: ArmModel, X_WT: Pose, start: Array | None, /
+    ) -> tuple[Array, NDArray[np.bool_]]: ...
 
-    def singular(self, arm: ArmModel, q_start: Array, q: Array, V: Array, /) -> tuple[int, InLine] | None:
-        """As `singular` of this module."""
-        ...
+    def singular(self, arm: ArmModel, q_start: Array, q: Array, V: Array, /) -> tuple[int, InLine] | None: ...
 
-    def rates(self, arm: ArmModel, q: Array, J: Array, V: Array, /) -> Array:
-        """As `rates` of this module."""
-        ...
+    def rates(self, arm: ArmModel, q: Array, J: Array, V: Array, /) -> Array: ...
 
 
 _SOLVERS: Final[Mapping[Structure, Solver]] = {
@@ -41,10 +35,10 @@ _SOLVERS: Final[Mapping[Structure, Solver]] = {
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Joint positions that put the hand at `X_WT`: the branch inside the limits that is nearest to `near`.
+    """Joint positions for the hand at `X_WT`: the branch within limits nearest to `near`.
 
-    Nearest in the sum of travel times of the joints. What the pose leaves open stays as in `near`, except joints that
-    are held: they go to where they are held.
+    Nearest in the sum of joint travel times. Joints that the pose leaves free stay as in `near`; held joints go to
+    where they are held.
 
     Args:
         X_WT: shape (4, 4).
@@ -54,12 +48,12 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None = None) -> tuple[Array, NDArray[np.bool_]]:
-    """All closed-form solutions for poses of shape (..., 4, 4), limits not considered.
+    """All closed-form solutions for poses of shape (..., 4, 4), ignoring limits.
 
     Args:
-        start: where a motion along the poses begins, shape (n,): what they leave open, and joints that are held, stay
-            as there. None: the former are 0, the latter where they are held.
-
+        start: initial configuration of a motion along the poses, shape (n,): free and held joints stay as there. None:
+            free
+            joints are 0, held ones where they are held.
     Returns:
         joint positions (..., k, n), revolute ones in (-pi, pi], and which exist, (..., k).
     """
@@ -67,18 +61,18 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None = None) -> tuple[Arr
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """The first of N configurations in which the joints cannot give the hand its twist, and why; None: none.
+    """The first of N configurations in which the joints cannot give the hand its twist, and why, or None.
 
     Args:
-        q_start: where the motion begins, shape (n,).
-        q: the configurations of one branch, shape (N, n).
+        q_start: initial configuration, shape (n,).
+        q: configurations of one branch, shape (N, n).
         V: twists at T in world axes, shape (N, 6).
     """
     return _SOLVERS[arm.structure].singular(arm, q_start, q, V)
 
 
 def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
-    """Joint rates that give the hand its twist, where that is not singular; shape (N, n).
+    """Joint rates for twists of the hand, where not singular; shape (N, n).
 
     Args:
         q: shape (N, n).

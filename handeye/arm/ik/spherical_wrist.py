@@ -1,5 +1,4 @@
-"""The closed form of the Stanford arm (Paul 1981): a shoulder with offset d2, a sliding boom, and three wrist axes that
-meet in a point.
+"""The closed form of the Stanford arm (Paul 1981): a shoulder with offset d2, a sliding boom, a spherical wrist.
 
 Four branches: the boom on either side of the column, the wrist flipped or not. Where the axes of joints 4 and 6 come
 into line only the sum of the two matters, and joint 4 stays where it was.
@@ -21,15 +20,13 @@ from handeye.program.reasons import InLine, InnerCylinder, OutOfReach, TooNear
 
 _KINDS: Final = ("revolute", "revolute", "prismatic", "revolute", "revolute", "revolute")
 _TWISTS: Final = (-math.pi / 2, math.pi / 2, 0.0, -math.pi / 2, math.pi / 2, 0.0)
-_COLLINEAR: Final = 1e-9
-"""Sine of joint 5 below which joints 4 and 6 count as one axis."""
-_SINGULAR: Final = 0.02
-"""Sine of joint 5 below which a hand that must keep its orientation would need absurd speeds of joint 4."""
+_COLLINEAR: Final = 1e-9  # sine of joint 5 below which joints 4 and 6 are one axis
+_SINGULAR: Final = 0.02  # sine of joint 5 below which joint 4 would have to be absurdly fast
 
 
 @lru_cache(maxsize=16)
 def _check(arm: ArmModel) -> None:
-    """Raises ValueError for an arm that the closed form is not of."""
+    """Raise ValueError unless the closed form fits the arm."""
     kinds, twists = tuple(j.kind for j in arm.joints), tuple(j.alpha for j in arm.joints)
     offsets = [j.d for j in arm.joints[2:]] + [j.theta for j in arm.joints]
     if (
@@ -65,7 +62,7 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """The best branch, or the inner cylinder, or the joint that is worst beyond its limits."""
+    """The best branch, or the inner cylinder, or the joint farthest beyond its limits."""
     _check(arm)
     rows = (constants(arm).X_BW @ X_WT)[:3].tolist()
     here = near.tolist()
@@ -81,7 +78,7 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """Where joints 4 and 6 come into line."""
+    """The first configuration where joints 4 and 6 come into line."""
     in_line = np.abs(np.sin(q[:, 4])) < _SINGULAR
     return (int(np.argmax(in_line)), InLine((3, 5))) if in_line.any() else None
 
@@ -92,7 +89,7 @@ def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
 
 
 def _scalar_branches(arm: ArmModel, rows: Any, w: Any, near: list[float]) -> list[list[float]]:
-    """As `branches`, for one pose in floats; each joint in the turn nearest to `near` inside its limits."""
+    """`branches` for one pose in floats; each joint in the turn nearest to `near` within limits."""
     found = []
     for side in (1.0, -1.0):
         q123 = _shoulder(math, arm, w, side)
@@ -110,14 +107,14 @@ def _scalar_branches(arm: ArmModel, rows: Any, w: Any, near: list[float]) -> lis
 
 
 def _wrist_centre(arm: ArmModel, rows: Any) -> Any:
-    """Wrist centre seen from the shoulder, in the base frame."""
+    """Wrist centre relative to the shoulder, in the base frame."""
     (_, _, ax, px), (_, _, ay, py), (_, _, az, pz) = rows
     d = arm.hand.length
     return px - d * ax, py - d * ay, pz - d * az - arm.joints[0].d
 
 
 def _shoulder(m: ModuleType, arm: ArmModel, w: Any, side: float) -> Any:
-    """q1, q2, q3 with the boom on one side of the column or the other."""
+    """q1, q2, q3 with the boom on one side of the column."""
     x, y, z = w
     d2 = arm.joints[1].d
     u = side * m.sqrt(m.fabs(x * x + y * y - d2 * d2))  # horizontal reach of the boom
@@ -125,14 +122,14 @@ def _shoulder(m: ModuleType, arm: ArmModel, w: Any, side: float) -> Any:
 
 
 def _roll_direction(m: ModuleType, q123: Any, rows: Any) -> Any:
-    """Components of the approach direction square to the boom: joint 4 turns the wrist towards it."""
+    """Components of the approach direction square to the boom, which joint 4 turns the wrist to."""
     (_, _, ax, _), (_, _, ay, _), (_, _, az, _) = rows
     c1, s1, c2, s2 = m.cos(q123[0]), m.sin(q123[0]), m.cos(q123[1]), m.sin(q123[1])
     return c2 * (c1 * ax + s1 * ay) - s2 * az, -s1 * ax + c1 * ay
 
 
 def _bend_and_roll(m: ModuleType, q123: Any, q4: Any, rows: Any) -> Any:
-    """q5 and q6, once q4 is chosen."""
+    """q5 and q6 for a given q4."""
     (_, ox, ax, _), (_, oy, ay, _), (_, oz, az, _) = rows
     c1, s1, c2, s2 = m.cos(q123[0]), m.sin(q123[0]), m.cos(q123[1]), m.sin(q123[1])
     c4, s4 = m.cos(q4), m.sin(q4)

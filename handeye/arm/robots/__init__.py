@@ -1,4 +1,4 @@
-"""The arms there are, each a value in a file of its own, by name."""
+"""All arms by name, each a value in a file of its own."""
 
 from typing import Final
 
@@ -11,12 +11,12 @@ _ROBOTS: Final = {STANFORD.name: STANFORD}
 
 
 def robot(name: str) -> ArmModel | None:
-    """The arm of a name, if there is one."""
+    """The arm of a name, or None."""
     return _ROBOTS.get(name)
 
 
 def register(arm: ArmModel) -> None:
-    """Make an arm known by its name; one with the same figures may be known already."""
+    """Register an arm under its name, or again with the same figures; raises BadArgument."""
     if not isinstance(arm, ArmModel):
         raise BadArgument(f"an arm is an ArmModel, not {arm!r}")
     if not arm.name:

@@ -13,17 +13,18 @@ from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel
 from handeye.core.pose import pose, rotation_z
 from handeye.core.units import DEGREE, GAP, INCH, JIFFY
 
-HAND_LENGTH: Final = 10 * INCH
-"""Wrist centre to finger tips. Chosen: the published model ends at the wrist centre."""
+HAND_LENGTH: Final = (
+    10 * INCH
+)  # wrist centre to finger tips; chosen, as the published model ends at the wrist centre
 
 Triple = tuple[float, float, float]
 
 
 def _moments_about_centre(about_origin: Triple, mass: float, centre: Triple) -> Triple:
-    """The published tensors are about the link *origins*: Steiner's theorem takes them to the mass centre.
+    """Moments at the mass centre from the published tensors, which are about the link *origins* (Steiner).
 
-    They come without products of inertia, so only the three moments are known and the products at the centre
-    are left zero as well (the largest neglected one, of link 1, would be .018 kg m2).
+    They come without products of inertia, so the products at the centre are left zero as well (the largest neglected
+    one, of link 1, would be .018 kg m2).
     """
     x, y, z = centre
     a, b, c = about_origin
@@ -46,7 +47,7 @@ def _joint(
     brake: float,
     wrist: float = 0.0,
 ) -> Joint:
-    """A joint from published figures; `wrist` is where their frame's origin lies in ours along z."""
+    """A joint from published figures; `wrist` is their frame's origin in ours along z."""
     speed, acceleration, effort = drive
     x, y, z = centre
     return Joint(
