@@ -1,4 +1,4 @@
-"""Answers to an editor's requests, by the functions on a document."""
+"""Handlers of an editor's requests."""
 
 import asyncio
 from collections.abc import Callable
@@ -15,8 +15,7 @@ from handeye.editor import wire
 from handeye.editor.completion import completions
 from handeye.editor.fixes import fixes
 from handeye.editor.hover import hover
-from handeye.editor.navigation import definition, references, renamable, rename
-from handeye.editor.outline import STAGE, Symbol, outline
+from handeye.editor.navigation import STAGE, Symbol, definition, outline, references, renamable, rename
 from handeye.editor.server import ArmServer
 from handeye.program.language import OwnLanguage, own_language
 
@@ -36,12 +35,12 @@ _SYMBOLS: Final = {
 
 
 def serve() -> None:
-    """Answer on standard output what is asked on standard input, until the client says goodbye."""
+    """Serve requests from standard input on standard output until the client ends."""
     make_server().start_io()
 
 
 def make_server() -> ArmServer:
-    """A server that answers everything it can."""
+    """A server with all handlers."""
     server = ArmServer()
     for name, answer in _ANSWERS.items():
         server.feature(name, _OPTIONS.get(name))(answer if name in _OF_ALL else _of_scripts(answer))
@@ -73,7 +72,7 @@ async def _files_changed(server: ArmServer, _: lsp.DidChangeWatchedFilesParams) 
 
 
 def _scripts(server: ArmServer) -> list[str]:
-    """The scripts that are open."""
+    """The open scripts."""
     return [uri for uri in server.workspace.text_documents if uri.endswith(".al")]
 
 
@@ -182,7 +181,7 @@ def _code_actions(server: ArmServer, params: lsp.CodeActionParams) -> list[lsp.C
         span = found.primary.span
         if span.end < first or span.start > last:
             continue
-        cured = script.told(found)
+        cured = script.published(found)
         for number, fix in enumerate(fixes(script.document, found)):
             actions.append(
                 lsp.CodeAction(

@@ -1,4 +1,4 @@
-"""Checks of a script by the planner. An editor's scripts are for the task that is meant where none is named."""
+"""Checks of a script by the planner, for the default task."""
 
 from handeye.al import AL
 from handeye.arm.model import ArmModel
@@ -14,5 +14,5 @@ def arm() -> ArmModel:
 
 
 def planning(program: Program) -> list[Diagnostic]:
-    """Diagnostics of the planner for a program."""
+    """The planner's diagnostics for a program."""
     return plan_program(program, arm(), AL)[1]

@@ -1,4 +1,4 @@
-"""Completion: proposals for the next word, by what the place takes."""
+"""Completion: proposals for the next word."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -17,17 +17,16 @@ from handeye.editor.places import expected, instruction
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Proposal:
-    """A word that may stand here."""
+    """A proposed word; `kind` is `instruction`, `word`, `number`, or that of a name."""
 
     text: str
     kind: str
-    """`instruction`, `word`, `number`, or that of a name."""
     detail: str
     help: str = ""
 
 
 def completions(document: Document, offset: int) -> tuple[Span, list[Proposal]]:
-    """Proposals at an offset, and the characters they would replace."""
+    """Proposals at an offset, and the span they would replace."""
     number, column = document.source.position(offset)
     start = offset - column + 1
     before = document.source.line(number)[: column - 1]
@@ -52,7 +51,7 @@ def completions(document: Document, offset: int) -> tuple[Span, list[Proposal]]:
 
 
 def names(document: Document, kind: str) -> dict[str, str]:
-    """Everything of a kind that there is, and where it comes from."""
+    """Names of a kind, with their origin."""
     found = dict.fromkeys(document.taught_of(kind), f"taught {kind}")
     for name in document.names:
         if name.kind == kind and name.makes:
@@ -65,7 +64,7 @@ def names(document: Document, kind: str) -> dict[str, str]:
 
 
 def _parameters(document: Document, offset: int) -> Iterator[Proposal]:
-    """Those of the macro that an offset is in."""
+    """Parameters of the macro around an offset."""
     macro = document.macro_at(offset)
     if macro is not None:
         for token in macro.head.parameters:

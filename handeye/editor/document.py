@@ -1,4 +1,4 @@
-"""A script as an editor has it: its text, what is taught beside it, and what follows from the two."""
+"""A script in an editor: its text, taught file, and what follows from them."""
 
 from collections.abc import Collection
 from dataclasses import dataclass, field
@@ -13,26 +13,22 @@ from handeye.al.scanner import Line, scan
 from handeye.core.diagnostics import Diagnostic
 from handeye.core.source import Source, Span
 from handeye.editor.macro_bodies import MacroBody, macros_of
-from handeye.editor.occurrences import PART, POSITION, Occurrence, occurrences
-from handeye.editor.taughtfile import taught_occurrences
+from handeye.editor.occurrences import PART, POSITION, Occurrence, occurrences, taught_occurrences
 from handeye.program.program import Position, Program
 from handeye.program.taught import Taught
 
 
 @dataclass(frozen=True, kw_only=True)
 class Document:
-    """A script. Offsets count characters of its text; nothing is worked out before it is asked for."""
+    """A script. Offsets count characters of its text; everything is computed on demand."""
 
     source: Source
     taught: Taught = field(default_factory=Taught)
-    taught_text: str = ""
-    """The text of the file beside the script; empty if there is none."""
-    read: Read | None = None
-    """Reads what the script requires; None: there is nothing to read from."""
+    taught_text: str = ""  # of the taught file; empty: none
+    read: Read | None = None  # reads required texts; None: they are not read
 
     @property
     def text(self) -> str:
-        """The text of the script."""
         return self.source.text
 
     @cached_property
@@ -42,12 +38,12 @@ class Document:
 
     @cached_property
     def lines(self) -> list[Line]:
-        """The lines of the script as tokens."""
+        """Lines as tokens."""
         return scan(self.text)
 
     @cached_property
     def macros(self) -> dict[str, MacroBody]:
-        """The macros of the script and of what it requires, by name."""
+        """Macros of the script and its required texts, by name."""
         required = [macros_of(text.text) for text in self.whole.required]
         return {word: macro for each in (*required, self._own_macros) for word, macro in each.items()}
 
@@ -57,55 +53,55 @@ class Document:
 
     @cached_property
     def names(self) -> list[Occurrence]:
-        """Every name in the script."""
+        """Names in the script."""
         return occurrences(self.text, self.taught.parts, self.macros)
 
     @cached_property
     def required_names(self) -> list[tuple[Source, Occurrence]]:
-        """Every name in what it requires, with the text; spans are of that text."""
+        """Names in required texts, with the text; spans are of that text."""
         parts = self.taught.parts
         return [(text, o) for text in self.whole.required for o in occurrences(text.text, parts, self.macros)]
 
     @cached_property
     def taught_names(self) -> list[Occurrence]:
-        """Every name in the file beside it; spans are of that file."""
+        """Names in the taught file; spans are of that file."""
         return taught_occurrences(self.taught_text)
 
     @cached_property
     def compiled(self) -> tuple[Program | None, list[Diagnostic]]:
-        """The program, if there is no error, and what there is to say about the text."""
+        """The program, None if there are errors, and diagnostics."""
         return compile_text(self.whole, self.taught)
 
     @cached_property
     def positions(self) -> dict[str, Position]:
-        """Hand positions by name: taught, and written in whatever lines of the text are right."""
+        """Hand positions by name, taught or written on correct lines."""
         script = parse_whole(self.whole)[0]
         statements = as_called(script, expand(script, lambda _: None))
         written = [s for s in statements if s.word is not None and s.word.text == "TRANS"]
         return {**self.taught.positions, **dict(position(s) for s in written if not s.broken)}
 
     def taught_of(self, kind: str) -> Collection[str]:
-        """Names of what is taught of a kind."""
+        """Taught names of a kind."""
         if kind == POSITION:
             return self.taught.positions.keys()
         return self.taught.parts.keys() if kind == PART else ()
 
     def macro_at(self, offset: int) -> MacroBody | None:
-        """The macro of the script that an offset is in; None outside of them."""
+        """The script's macro around an offset."""
         line = self.line_at(offset)
         return next((macro for macro in self._own_macros.values() if line in macro.lines), None)
 
     def line_at(self, offset: int) -> Line | None:
-        """The line an offset is on; None behind the last."""
+        """The line of an offset; None past the last."""
         number = self.source.position(offset)[0]
         return self.lines[number - 1] if number <= len(self.lines) else None
 
     def name_at(self, offset: int) -> Occurrence | None:
-        """The name an offset is in, or at the end of."""
+        """The name at an offset, its end included."""
         return next((name for name in self.names if name.span.start <= offset <= name.span.end), None)
 
     def whole_line(self, number: int) -> Span:
-        """A line with its end."""
+        """Span of a line with its end."""
         return Span(start=self._start(number), end=self._start(number + 1))
 
     def _start(self, number: int) -> int:

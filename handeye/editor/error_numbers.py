@@ -1,4 +1,4 @@
-"""The numbers of errors: what raises each, what a script can do about it, and an example."""
+"""Error numbers: what raises each, what a script can do about it, and an example."""
 
 from dataclasses import dataclass
 from functools import cache
@@ -12,17 +12,15 @@ from handeye.core.errors import ERRORS
 from handeye.core.source import Source
 from handeye.editor.samples import SAMPLE
 
-WIDTH: Final = 100
-"""Columns of a sentence."""
+WIDTH: Final = 100  # columns of a sentence
 
 
 @dataclass(frozen=True, slots=True)
 class Remedy:
-    """What a script can do about an error."""
+    """What a script can do about an error, and a text that does it."""
 
     advice: str
     example: str
-    """A text that does it."""
 
 
 REMEDIES: Final[dict[int, Remedy]] = {
@@ -135,7 +133,6 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'LOOK V\nSKIPN 55 ;it is a live picture\nWAIT "SEE TO THE CAMERA"\nGENERAL BASE V',
     ),
 }
-"""Every error number, with what can be done."""
 
 _MOTIONS: Final = ("MOVE P", "CHANGE Z 1", "TURN T 10", "PARK", "PLACE")
 ACTIONS: Final = "\n".join(
@@ -146,12 +143,12 @@ ACTIONS: Final = "\n".join(
         "LENS 25", "AIM BASE", "LOOK V HOLD", "GENERAL BASE V", "SPECIFIC BASE V", "INSPECT BASE V V", "MATCH BASE V V",
     )
 )  # fmt: skip
-"""Every instruction that can raise an error, with whatever lets it raise more."""
+"""Every instruction that can raise an error, with everything that lets it raise more."""
 
 
 @cache
 def raised_by() -> dict[int, tuple[str, ...]]:
-    """The instructions that raise each error, by what their operations declare."""
+    """Instructions by the error numbers they raise."""
     program, _ = compile_text(Source(name="actions.al", text=ACTIONS), SAMPLE)
     assert program is not None
     raising = {(number, step.word) for step in program.steps for number in step.operation.raises}
@@ -159,7 +156,7 @@ def raised_by() -> dict[int, tuple[str, ...]]:
 
 
 def error_text(number: int) -> str:
-    """The explanation of an error number, for people; no final newline."""
+    """The explanation of an error number; no final newline."""
     tested = (
         f"SKIPE {number} skips the next instruction if the error was raised, SKIPN {number} if it was not. Untested, "
         "it sets the brakes and calls the operator."

@@ -1,4 +1,4 @@
-"""Explanations of codes, error numbers and instructions, for people."""
+"""Explanations of codes, error numbers and instructions."""
 
 from functools import cache
 from typing import Final
@@ -27,12 +27,11 @@ _FOUND: Final = {
     "strict": "by `handeye check --strict-1973` only",
 }
 _NUMBERS: Final = {str(number): number for number in ERRORS}
-_FILES = 2
-"""Required files of an example that are shown."""
+_MAX_FILES = 2  # required files of an example that are shown
 
 
 def explanation(word: str) -> str:
-    """Explanation of a diagnostic's code, an error number or an instruction."""
+    """Explanation of a code, error number or instruction; raises NoSuchName with the nearest."""
     if word in CODES:
         return _code(word)
     if word.upper() in EXPLAINED:
@@ -52,7 +51,7 @@ def explanation(word: str) -> str:
 
 
 def listing() -> str:
-    """Every code with its meaning, errors and warnings apart, and the numbers of errors."""
+    """All codes with their meaning, errors and warnings apart, and all error numbers."""
     width = max(map(len, CODES))
     out = []
     for severity in ("error", "warning"):
@@ -79,9 +78,9 @@ def _code(code: str) -> str:
     entry = CODES[code]
     out = [f"{entry.severity}[{code}]: {entry.meaning}", f"found {_FOUND[entry.phase]}", "", "for example"]
     out += ["", *(f"    {line}".rstrip() for line in _shortened(entry.example.split("\n"))), ""]
-    for file, text in [*entry.required.items()][:_FILES]:
+    for file, text in [*entry.required.items()][:_MAX_FILES]:
         out += [f"where {file} says", "", *(f"    {line}".rstrip() for line in text.split("\n")), ""]
-    if len(entry.required) > _FILES:
+    if len(entry.required) > _MAX_FILES:
         out += ["and so on", ""]
     source, diagnostic = example(code)
     if diagnostic is not None:
@@ -100,7 +99,7 @@ def _shortened(lines: list[str], most: int = 16) -> list[str]:
 
 @cache
 def example(code: str) -> tuple[Source, Diagnostic | None]:
-    """The example of a code, and the diagnostic it gets; None if it takes more than the example to get it."""
+    """The example of a code, and its diagnostic; None if the example alone does not cause it."""
     source = sewn_of(Source(name="example.al", text=CODES[code].example), CODES[code].required)
     program, found = compile_text(source, SAMPLE)
     if program is not None:

@@ -1,4 +1,4 @@
-"""A cure, and what the makers of cures share."""
+"""Fixes of diagnostics, and helpers for making them."""
 
 from dataclasses import dataclass
 
@@ -14,50 +14,49 @@ from handeye.editor.places import instruction, places
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fix:
-    """A cure; the first of several is the likeliest."""
+    """A fix; `choice` marks one of several equally likely ones."""
 
     title: str
     edits: tuple[Edit, ...]
     choice: bool = False
-    """One of several as likely, which nobody but the writer can choose."""
 
 
 def cured(text: str, fix: Fix) -> str:
-    """The text of a script after a cure."""
+    """The text of a script after a fix."""
     for edit in sorted(fix.edits, key=lambda edit: edit.span, reverse=True):
         text = text[: edit.span.start] + edit.text + text[edit.span.end :]
     return text
 
 
 def replace(span: Span, text: str, title: str, *, choice: bool = False) -> Fix:
-    """The cure that puts another text in one place."""
+    """A fix that replaces one span."""
     return Fix(title=title, edits=(Edit(span=span, text=text),), choice=choice)
 
 
 def insert(at: int, text: str, title: str) -> Fix:
-    """The cure that puts a text in at an offset."""
+    """A fix that inserts a text."""
     return replace(Span(start=at, end=at), text, title)
 
 
 def at(offset: int) -> Span:
-    """The empty place at an offset."""
+    """The empty span at an offset."""
     return Span(start=offset, end=offset)
 
 
 def line_of(document: Document, diagnostic: Diagnostic) -> Line:
-    """The line a diagnostic is about."""
+    """The line of a diagnostic."""
     line = document.line_at(diagnostic.primary.span.start)
     assert line is not None
     return line
 
 
 def word_of(line: Line) -> str:
-    """The word in the instruction column of a line."""
+    """The instruction word of a line."""
     return line.split()[1][0].text.upper()
 
 
 def operand_of(line: Line, diagnostic: Diagnostic) -> tuple[Operand | None, Token | None]:
-    """The operand a diagnostic is about, and its token, unless that is a vector."""
+    """The operand of a diagnostic, and its token unless that is a vector."""
     definition, tokens = instruction(line)
     if definition is not None:
         for place in places(definition, tokens[1:]):
@@ -68,7 +67,7 @@ def operand_of(line: Line, diagnostic: Diagnostic) -> tuple[Operand | None, Toke
 
 
 def with_blanks_before(document: Document, span: Span) -> Span:
-    """A place and the blanks in front of it."""
+    """A span with the blanks before it."""
     start = span.start
     while start and document.text[start - 1] in " \t":
         start -= 1

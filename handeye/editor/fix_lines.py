@@ -1,4 +1,4 @@
-"""Cures that take lines away, move them or put them in."""
+"""Fixes that remove, move or insert lines."""
 
 from collections.abc import Iterator
 from itertools import count, takewhile
@@ -68,7 +68,7 @@ def label_first(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def jump_over(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """SKIPE n, modifier, motion: SKIPN n, JUMP behind, modifier, motion, and the label behind."""
+    """SKIPE n, modifier, motion: SKIPN n, JUMP label, modifier, motion, label."""
     line = line_of(document, diagnostic)
     word = document.text[diagnostic.primary.span.start : diagnostic.primary.span.end].upper()
     opposite = {"SKIPE": "SKIPN", "SKIPN": "SKIPE"}[word]
@@ -88,7 +88,7 @@ def jump_over(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def _behind_motion(document: Document, number: int) -> int | None:
-    """Where the line behind the next motion, and its RESTOREs, begins."""
+    """Start of the line after the next motion and its RESTOREs."""
     moved = False
     for line in document.lines[number:]:
         definition, _ = instruction(line)
@@ -100,13 +100,13 @@ def _behind_motion(document: Document, number: int) -> int | None:
 
 
 def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """SKIPE of an error that cannot be there never skips; SKIPN always does, and is no good guess."""
+    """Only for SKIPE, which never skips: SKIPN of an impossible error always does, so there is no good guess."""
     if word_of(line_of(document, diagnostic)) == "SKIPE":
         yield from remove_line(document, diagnostic)
 
 
 def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """The blank lines between a modifier at the end of a macro and its motion, if one ends it before it is called."""
+    """Remove blank lines between a modifier at the end of a macro and its motion, if the macro then ends in time."""
     behind = document.line_at(diagnostic.secondary[0].span.start)
     assert behind is not None
     body = list(takewhile(lambda line: not line.is_blank, document.lines[behind.number :]))
@@ -118,7 +118,7 @@ def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def begin_search(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Before the label an AOJ goes back to; the step is that of 1973."""
+    """Insert a SEARCH before the label of an AOJ, with the step of 1973."""
     line = line_of(document, diagnostic)
     label = next(
         (n for n in document.names if n.kind == LABEL and line.start <= n.span.start < line.end), None

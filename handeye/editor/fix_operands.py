@@ -1,4 +1,4 @@
-"""Cures within a line: marks that are missing or too many, names, numbers."""
+"""Fixes within a line: marks, names, numbers."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -15,8 +15,7 @@ from handeye.editor.macro_bodies import called
 from handeye.editor.navigation import Edit
 from handeye.editor.places import expected, instruction, places
 
-MOST: Final = 8
-"""Choices offered for a name that is missing."""
+MAX_CHOICES: Final = 8  # for a missing name
 
 
 def colon(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
@@ -67,7 +66,7 @@ def end_macro(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def remove_parameter(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """The head without the parameter, and the calls without its operands; none where commas separate them."""
+    """Remove a parameter and its operands in all calls; not where commas separate them."""
     name = document.name_at(diagnostic.primary.span.start)
     macro = None if name is None else document.macros.get(name.scope)
     if name is None or macro is None:
@@ -117,7 +116,7 @@ def fill_in(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
         return
     wanted = expected(definition, tokens[1:])
     if len(wanted) == 1 and Name in wanted[0].takes:
-        for name in list(names(document, wanted[0].refers.value))[:MOST]:
+        for name in list(names(document, wanted[0].refers.value))[:MAX_CHOICES]:
             yield insert(diagnostic.primary.span.end, f" {name}", f"name {quoted(name)}")
 
 

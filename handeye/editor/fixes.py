@@ -1,6 +1,6 @@
-"""Cures: for a diagnostic whose cure is known, the edits that bring it about.
+"""Fixes of diagnostics.
 
-A diagnostic that knows what was meant tells it, as data; for the others there is a table.
+Diagnostics with `meant` carry the fix as data; for the others there is a table by code.
 """
 
 from collections.abc import Callable, Iterator
@@ -13,7 +13,7 @@ from handeye.editor.fix import Fix, replace
 
 
 def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
-    """The cures of a diagnostic of the document; none if none is known."""
+    """Fixes of a diagnostic of the document, if any are known."""
     if any(label.span.end > len(document.text) for label in (diagnostic.primary, *diagnostic.secondary)):
         return []  # some of it stands in a required file
     cure = _CURES.get(diagnostic.code)
@@ -22,7 +22,7 @@ def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
 
 
 def _meant(diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Other names for the one that is not known."""
+    """Fixes by other names."""
     span = diagnostic.primary.span
     match diagnostic.meant:
         case SimilarName(name):
@@ -66,4 +66,3 @@ _CURES: Final[dict[str, Callable[[Document, Diagnostic], Iterator[Fix]]]] = {
     "unused-vector": fix_lines.remove_unused,
     "wrong-operand": fix_operands.quote,
 }
-"""Cures of a diagnostic by its code, beside the names it tells."""

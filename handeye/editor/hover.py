@@ -1,4 +1,4 @@
-"""Hover: help for the word under the pointer, as Markdown."""
+"""Hover help for the word under the pointer, as Markdown."""
 
 import math
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from handeye.core.units import DEGREE, INCH
 from handeye.editor.checking import arm
 from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO, PART, POSITION, Occurrence, same
-from handeye.editor.places import Place, instruction, places
+from handeye.editor.places import OperandToken, instruction, places
 from handeye.program.program import Position
 from handeye.program.world_model import WorldModel
 
@@ -33,12 +33,12 @@ SI: Final = {
     "oz-in": ("N m", 1.0),
     "rpm": ("rad/s", 1.0),
 }
-"""For each unit as written: the other unit it is shown in, and that one's SI value."""
+"""For each unit as written: the other unit shown, and its SI value."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hover:
-    """Markdown, and the characters it is about."""
+    """Markdown for a span."""
 
     span: Span
     text: str
@@ -76,7 +76,7 @@ def about_instruction(definition: Instruction) -> str:
     return f"`{definition.usage}`\n\n{definition.help}\n\n*{definition.origin}*"
 
 
-def _about_value(definition: Instruction, place: Place) -> str | None:
+def _about_value(definition: Instruction, place: OperandToken) -> str | None:
     operand, token = place.operand, place.token
     if operand is None:
         return None
@@ -124,7 +124,7 @@ def _about_name(document: Document, name: Occurrence) -> str | None:
 
 
 def _macro(text: Source, line: int) -> list[str]:
-    """The lines of a macro, from its first."""
+    """Lines of a macro, from its head."""
     body = text.text.split("\n")[line - 1 :]
     return list(takewhile(lambda each: each.strip(), body))
 
@@ -144,7 +144,7 @@ def _position(document: Document, name: str) -> list[str]:
 
 
 def joints(arm: ArmModel, X_WT: Pose) -> str:
-    """Joint positions that put the hand there, from the middle of their ranges; or why there are none."""
+    """Joint positions for a hand pose, solved from mid-range; or why there are none."""
     result = solve(arm, X_WT, arm.middle)
     if result.q is None:
         return f"out of the arm's reach: {result.message(arm)}"

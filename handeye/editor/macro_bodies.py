@@ -1,4 +1,4 @@
-"""The macros of texts in the making, and what becomes of the operands of their calls."""
+"""Macros of unfinished texts, and where the operands of their calls end up."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -11,20 +11,20 @@ from handeye.editor.places import instruction, places
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MacroBody:
-    """A macro as it stands in its text."""
+    """A macro's head and lines."""
 
     head: MacroHead
     lines: Sequence[Line]
 
     @property
     def parameters(self) -> set[str]:
-        """Names that stand for operands in its lines."""
+        """Names of its parameters."""
         return {token.text for token in self.head.parameters}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Use:
-    """A place where an operand of a call comes to stand."""
+    """An operand of an instruction that a call's operand ends up in."""
 
     definition: Instruction
     operand: Operand
@@ -34,7 +34,7 @@ Macros = Mapping[str, MacroBody]
 
 
 def macros_of(text: str) -> dict[str, MacroBody]:
-    """The macros that a text makes, by name."""
+    """Macros of a text by name."""
     found: dict[str, MacroBody] = {}
     lines = scan(text)
     for number, line in enumerate(lines):
@@ -45,19 +45,19 @@ def macros_of(text: str) -> dict[str, MacroBody]:
 
 
 def ends(line: Line) -> bool:
-    """True if no macro goes on here: a blank line, or the beginning of another."""
+    """True for a blank line or another head, which end a macro."""
     return line.is_blank or any(token.text.upper() == "DEFINE" for token in line.split()[1][:1])
 
 
 def called(line: Line, macros: Macros) -> Instruction | None:
-    """The macro that a line calls, as an instruction; None if it calls none, or one with a wrong head."""
+    """The macro that a line calls, as an instruction; None if none, or one with a wrong head."""
     tokens = line.split()[1]
     macro = macros.get(tokens[0].text.upper()) if tokens else None
     return None if macro is None else macro.head.usage
 
 
 def uses(macros: Macros, macro: str, parameter: str, seen: frozenset[str] = frozenset()) -> Iterator[Use]:
-    """The instructions that an operand comes to, through whatever calls, and where it stands in them."""
+    """Operands of instructions that a call's operand ends up in, through nested calls."""
     if macro in seen or macro not in macros:
         return
     for line in macros[macro].lines:

@@ -1,63 +1,62 @@
-"""From a name to where it is made and used, and to another name."""
+"""Definitions, references and renaming."""
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 from handeye.al.definition import AXES
 from handeye.al.includes import key_of, own_key, required_by
 from handeye.al.instructions import INSTRUCTIONS, OPERAND_WORDS
+from handeye.al.scanner import TokenKind
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.source import Span
 from handeye.editor.document import Document
 from handeye.editor.occurrences import LABEL, MACRO, PARAMETER, PARK, PART, POSITION, Occurrence, same
+from handeye.editor.places import instruction
 
 _NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Found:
-    """A place in the script, in the file of what was taught, or in a required one."""
+class Place:
+    """A span in the script, in the taught file, or in a required file given by its key."""
 
     span: Span
     taught: bool = False
     file: str = ""
-    """The key of a required file."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Edit:
-    """Characters to be replaced."""
+    """A replacement in the script, in the taught file, or in a required file given by its key."""
 
     span: Span
     text: str
     taught: bool = False
-    """In the file of what was taught."""
     file: str = ""
-    """In the required file of that key."""
 
 
-def definition(document: Document, offset: int) -> list[Found]:
-    """Definitions of the name at an offset: each place where a difference is saved; the beginning of a file."""
+def definition(document: Document, offset: int) -> list[Place]:
+    """Definitions of the name at an offset: every SAVE of a difference; the start of a required file."""
     for file in required_by(document.text):
         key = key_of(file.text, own_key(document.source))
         if file.span.start <= offset <= file.span.end:
             there = [text for text in document.whole.required if text.key == key and not text.problem]
-            return [Found(span=Span(start=0, end=0), file=text.key) for text in there]
+            return [Place(span=Span(start=0, end=0), file=text.key) for text in there]
     name = document.name_at(offset)
     return [] if name is None else [f for o, f in _all(document, name) if o.makes]
 
 
-def references(document: Document, offset: int) -> list[Found]:
+def references(document: Document, offset: int) -> list[Place]:
     """Occurrences of the name at an offset."""
     name = document.name_at(offset)
     return [] if name is None else [found for _, found in _all(document, name)]
 
 
 def renamable(document: Document, offset: int) -> Occurrence:
-    """The name at an offset, if it can be renamed."""
+    """The name at an offset; raises Refused if it cannot be renamed."""
     name = document.name_at(offset)
     if name is None:
         raise Refused("there is no name here")
@@ -71,7 +70,7 @@ def renamable(document: Document, offset: int) -> Occurrence:
 
 
 def rename(document: Document, offset: int, new: str) -> list[Edit]:
-    """Edits of the script, the taught file and the required files that rename a thing."""
+    """Edits of all files that rename the name at an offset; raises BadArgument if it cannot have the new one."""
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:
         raise BadArgument(
@@ -103,7 +102,7 @@ def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
 
 
 def _hidden(others: Iterable[Occurrence], name: Occurrence, new: str) -> str | None:
-    """A macro in which the new name of a thing is a parameter, or that of a parameter a thing; None if none is."""
+    """The macro where the rename would shadow another name, or None."""
     used = {other.macro for other in others if same(other, name)} - {""}
     for other in others:
         if other.name == new and other.macro in used and PARAMETER in (other.kind, name.kind):
@@ -115,9 +114,80 @@ def _is_taught(document: Document, name: Occurrence) -> bool:
     return name.name in document.taught_of(name.kind)
 
 
-def _all(document: Document, name: Occurrence) -> list[tuple[Occurrence, Found]]:
+def _all(document: Document, name: Occurrence) -> list[tuple[Occurrence, Place]]:
     """Every occurrence of a name, with its place."""
-    own = [(o, Found(span=o.span)) for o in document.names]
-    taught = [(o, Found(span=o.span, taught=True)) for o in document.taught_names]
-    required = [(o, Found(span=o.span, file=text.key)) for text, o in document.required_names]
+    own = [(o, Place(span=o.span)) for o in document.names]
+    taught = [(o, Place(span=o.span, taught=True)) for o in document.taught_names]
+    required = [(o, Place(span=o.span, file=text.key)) for text, o in document.required_names]
     return [place for place in (*own, *taught, *required) if same(place[0], name)]
+
+
+STAGE = "stage"
+FIRST = "program"  # the stage before the first STAGE
+
+
+@dataclass(slots=True, kw_only=True)
+class Symbol:
+    """A named range of the text; `kind` is `stage`, or that of a name, and `at` the name's span."""
+
+    name: str
+    kind: str
+    span: Span
+    at: Span
+    parts: list["Symbol"] = field(default_factory=list)
+
+
+def outline(document: Document) -> list[Symbol]:
+    """Stages and macros, with the labels, positions, pictures and differences defined in them."""
+    found = [name for name in document.names if name.makes and name.kind != PARAMETER]
+    stages, macros = _stages(document), [_macro(document, name) for name in found if name.kind == MACRO]
+    for name in found:
+        if name.kind == MACRO:
+            continue
+        symbol = Symbol(name=name.name, kind=name.kind, span=_line(document, name.span), at=name.span)
+        macro = next((m for m in macros if m.span.start <= name.span.start < m.span.end), None)
+        home = macro or next((s for s in reversed(stages) if s.span.start <= name.span.start), None)
+        if home is None:
+            home = Symbol(name=FIRST, kind=STAGE, span=symbol.span, at=name.span)
+            stages.insert(0, home)
+        home.parts.append(symbol)
+        home.span = Span(start=home.span.start, end=max(home.span.end, symbol.span.end))
+    return sorted([*stages, *macros], key=lambda symbol: symbol.span.start)
+
+
+def _line(document: Document, at: Span) -> Span:
+    """Span of the line of a name."""
+    line = document.line_at(at.start)
+    assert line is not None
+    return Span(start=line.start, end=max(line.end, at.end))
+
+
+def _macro(document: Document, name: Occurrence) -> Symbol:
+    """A macro, from its head to the blank line that ends it."""
+    head = _line(document, name.span)
+    blank = re.compile(r"\n[ \t]*(?=\r?\n|\Z)").search(document.text, head.end)
+    end = len(document.text) if blank is None else blank.start()
+    return Symbol(name=name.name, kind=MACRO, span=Span(start=head.start, end=end), at=name.span)
+
+
+def _stages(document: Document) -> list[Symbol]:
+    found: list[Symbol] = []
+    for line in document.lines:
+        definition, tokens = instruction(line)
+        if definition is not None and definition.op == "STAGE" and len(tokens) > 1:
+            quoted = tokens[1].text.strip('"') if tokens[1].kind is TokenKind.STRING else tokens[1].text
+            _close(found, line.start)
+            found.append(
+                Symbol(
+                    name=quoted or STAGE,
+                    kind=STAGE,
+                    span=Span(start=line.start, end=len(document.text)),
+                    at=tokens[1].span,
+                )
+            )
+    return found
+
+
+def _close(stages: list[Symbol], end: int) -> None:
+    if stages:
+        stages[-1].span = Span(start=stages[-1].span.start, end=end)

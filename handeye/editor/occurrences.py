@@ -1,5 +1,6 @@
-"""Occurrences of names in a text: what they name, and whether they define or use it."""
+"""Occurrences of names in a text: definitions and uses."""
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
@@ -15,8 +16,7 @@ from handeye.editor.places import instruction, places
 
 POSITION, PART, PICTURE = Refers.POSITION.value, Refers.PART.value, Refers.PICTURE.value
 SAVED, LABEL, MACRO, PARAMETER = Refers.SAVED.value, Refers.LABEL.value, "macro", "parameter"
-PARK: Final = "PARK"
-"""The instruction whose word is the name of a position."""
+PARK: Final = "PARK"  # instruction and position in one
 _MAKES: Final = {
     "TRANS": POSITION, "HERE": POSITION, "SAVE": SAVED, "LOOK": PICTURE, "ASSIGN": "counter", "VECT": "vector"
 }  # fmt: skip
@@ -25,41 +25,31 @@ _MAKES: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Occurrence:
-    """A name at a place."""
+    """An occurrence of a name; names of different kinds are distinct."""
 
     kind: str
-    """`position`, `part`, `label`, ...: names of different kinds do not meet."""
     name: str
     span: Span
-    makes: bool
-    """It is defined here."""
-    scope: str = ""
-    """The macro within which a label or a parameter is known; empty: the text."""
-    macro: str = ""
-    """The macro it stands in; empty: none."""
-    fixed: bool = False
-    """A word of the language, which cannot be renamed."""
+    makes: bool  # defined here
+    scope: str = ""  # macro that a label or parameter belongs to; empty: the text
+    macro: str = ""  # enclosing macro, if any
+    fixed: bool = False  # a word of the language, not to be renamed
 
 
 def occurrences(text: str, parts: Iterable[str], macros: Macros) -> list[Occurrence]:
-    """Every name in a text, in its order.
-
-    Args:
-        parts: tells parts from positions where either may stand.
-        macros: those made here or elsewhere.
-    """
+    """Every name in a text, in order; `parts` tells parts from positions."""
     found = list(_walk(scan(text), macros, set(parts)))
     own = {(o.name, o.scope) for o in found if o.kind == LABEL and o.makes}
     return [_in_scope(occurrence, own) for occurrence in found]
 
 
 def same(one: Occurrence, other: Occurrence) -> bool:
-    """True if both name the same thing."""
+    """True if both refer to the same object."""
     return (one.kind, one.name, one.scope) == (other.kind, other.name, other.scope)
 
 
 def makes(definition: Instruction) -> str | None:
-    """The kind of thing an instruction with a new name makes."""
+    """The kind of name an instruction defines."""
     named = definition.operands and definition.operands[0].refers is Refers.NEW
     return _MAKES.get(definition.op) if named and Name in definition.operands[0].takes else None
 
@@ -81,7 +71,7 @@ def _walk(lines: Sequence[Line], macros: Macros, parts: set[str]) -> Iterator[Oc
             if tokens and tokens[0].text.upper() in macros:
                 word = tokens[0].text.upper()
                 yield Occurrence(kind=MACRO, name=word, span=tokens[0].span, makes=False, macro=scope)
-            yield from _operands(line, _Where(macros, scope, parameters, parts))
+            yield from _operands(line, _Context(macros, scope, parameters, parts))
 
 
 def _head(head: MacroHead) -> Iterator[Occurrence]:
@@ -94,8 +84,8 @@ def _head(head: MacroHead) -> Iterator[Occurrence]:
 
 
 @dataclass(frozen=True, slots=True)
-class _Where:
-    """The macro that a line stands in, and what tells names there."""
+class _Context:
+    """The macro around a line, and what its names can refer to."""
 
     macros: Macros
     macro: str
@@ -108,7 +98,7 @@ class _Where:
         )
 
     def names(self, token: Token, use: Use) -> Iterator[Occurrence]:
-        """What a word names where it comes to stand."""
+        """Occurrences of a word at an operand."""
         operand = use.operand
         if Name not in operand.takes or token.text.upper() == operand.word:
             return
@@ -123,7 +113,7 @@ class _Where:
             )
 
 
-def _operands(line: Line, where: _Where) -> Iterator[Occurrence]:
+def _operands(line: Line, where: _Context) -> Iterator[Occurrence]:
     definition, tokens = instruction(line)
     if definition is not None and definition.op == PARK:
         yield Occurrence(
@@ -146,8 +136,56 @@ def _operands(line: Line, where: _Where) -> Iterator[Occurrence]:
 
 
 def _in_scope(occurrence: Occurrence, own: set[tuple[str, str]]) -> Occurrence:
-    """A jump in a macro to a label that the macro does not have goes to one of the text."""
+    """A jump to a label that its macro lacks, moved to the scope of the text."""
     inside = occurrence.kind == LABEL and occurrence.scope and not occurrence.makes
     if not inside or (occurrence.name, occurrence.scope) in own:
         return occurrence
     return replace(occurrence, scope="")
+
+
+_KINDS: Final = {"positions": POSITION, "parts": PART}
+_NAME = r"\"?([A-Za-z_]\w*)\"?"
+_HEADER: Final = re.compile(rf"\s*\[\s*(positions|parts)\s*(?:\.\s*{_NAME}\s*)?\]", re.ASCII)
+_OTHER: Final = re.compile(r"\s*\[[^\]]*\]\s*(?:#.*)?$")
+_KEY: Final = re.compile(rf"\s*{_NAME}\s*=\s*\{{", re.ASCII)
+_DOTTED: Final = re.compile(rf"\s*(positions|parts)\s*\.\s*{_NAME}", re.ASCII)
+_OF: Final = re.compile(r"(?<![\w.\"'])of\s*=\s*[\"']([A-Za-z_]\w*)[\"']", re.ASCII)
+_HELD: Final = re.compile(r"(?<![\w.])positions\s*=\s*\[[^\]]*\]", re.ASCII)
+_QUOTED: Final = re.compile(r"[\"']([A-Za-z_]\w*)[\"']", re.ASCII)
+
+
+def taught_occurrences(text: str) -> list[Occurrence]:
+    """Every name found in a taught text."""
+    return list(_taught_lines(text))
+
+
+def _taught_lines(text: str) -> Iterator[Occurrence]:
+    table, start = "", 0
+    for line in text.split("\n"):
+        code = line.split("#", 1)[0]
+        if header := _HEADER.match(code):
+            table = header[1] if header[2] is None else ""
+            if header[2] is not None:
+                yield _definition(header[1], header, 2, start)
+        elif _OTHER.match(code):
+            table = ""
+        elif table and (key := _KEY.match(code)):
+            yield _definition(table, key, 1, start)
+        elif dotted := _DOTTED.match(code):
+            yield _definition(dotted[1], dotted, 2, start)
+        for of in _OF.finditer(code):
+            yield Occurrence(kind=PART, name=of[1], span=_match_span(of, 1, start), makes=False)
+        for held in _HELD.finditer(code):
+            for at in _QUOTED.finditer(code, held.start(), held.end()):
+                yield Occurrence(kind=POSITION, name=at[1], span=_match_span(at, 1, start), makes=False)
+        start += len(line) + 1
+
+
+def _definition(table: str, match: re.Match[str], group: int, start: int) -> Occurrence:
+    return Occurrence(
+        kind=_KINDS[table], name=match[group], span=_match_span(match, group, start), makes=True
+    )
+
+
+def _match_span(match: re.Match[str], group: int, start: int) -> Span:
+    return Span(start=start + match.start(group), end=start + match.end(group))

@@ -1,6 +1,6 @@
-"""Which operand of its instruction each token of a line is, as far as that can be told from a line in the making.
+"""Assigns tokens of an unfinished line to the operands of its instruction.
 
-The parser reads whole lines and refuses wrong ones; an editor looks at lines that somebody is typing.
+The parser reads whole lines and rejects wrong ones; an editor sees lines being typed.
 """
 
 from collections.abc import Iterator, Sequence
@@ -15,25 +15,23 @@ SEPARATOR = ","
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Place:
-    """A token in the operand column."""
+class OperandToken:
+    """A token with its operand, None for a surplus one; `component`, from 0, is the index in a vector."""
 
     token: Token
     operand: Operand | None
-    """None: it is more than the instruction takes."""
     component: int = 0
-    """Of a number in a vector: which, from 0."""
 
 
 def instruction(line: Line) -> tuple[Instruction | None, tuple[Token, ...]]:
-    """The instruction of a line, if it is one, and the tokens from its word on (none: labels at most)."""
+    """The instruction of a line, if any, and the tokens from its word on."""
     tokens = line.split()[1]
     known = bool(tokens) and tokens[0].kind is TokenKind.NAME
     return (INSTRUCTIONS.get(tokens[0].text.upper()) if known else None), tokens
 
 
-def places(definition: Instruction, tokens: Sequence[Token]) -> list[Place]:
-    """Every token behind the word of an instruction, with the operand it belongs to."""
+def places(definition: Instruction, tokens: Sequence[Token]) -> list[OperandToken]:
+    """Tokens after an instruction's word, with their operands."""
     return list(_Walk(definition, tokens).go())
 
 
@@ -52,7 +50,7 @@ class _Walk:
         self.at = 0
         self.expected: list[Operand] = []
 
-    def go(self) -> Iterator[Place]:
+    def go(self) -> Iterator[OperandToken]:
         for number, operand in enumerate(self.operands):
             if self.at == len(self.tokens):
                 self.expected = self._open(number)
@@ -75,7 +73,7 @@ class _Walk:
         needed = next((i for i, operand in enumerate(rest) if not operand.optional), len(rest) - 1)
         return list(rest[: needed + 1])
 
-    def _value(self, operand: Operand) -> Iterator[Place]:
+    def _value(self, operand: Operand) -> Iterator[OperandToken]:
         if operand.free:
             while self.at < len(self.tokens):
                 yield self._take(operand)
@@ -85,7 +83,7 @@ class _Walk:
         else:
             yield self._take(operand)
 
-    def _components(self, operand: Operand) -> Iterator[Place]:
+    def _components(self, operand: Operand) -> Iterator[OperandToken]:
         component, limit = 0, len(operand.units) if Vector in operand.takes else 0
         while self.at < len(self.tokens):
             token = self.tokens[self.at]
@@ -94,6 +92,6 @@ class _Walk:
                 return
             component += 1
 
-    def _take(self, operand: Operand | None, component: int = 0) -> Place:
+    def _take(self, operand: Operand | None, component: int = 0) -> OperandToken:
         self.at += 1
-        return Place(token=self.tokens[self.at - 1], operand=operand, component=component)
+        return OperandToken(token=self.tokens[self.at - 1], operand=operand, component=component)

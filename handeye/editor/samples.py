@@ -1,4 +1,4 @@
-"""What is taught in the examples of `handeye explain` and of the manual."""
+"""The taught data of the examples of `handeye explain` and the manual."""
 
 from typing import Final
 
@@ -38,4 +38,3 @@ SAMPLE: Final = Taught(
     fixtures={"STAND": Fixture(at=(32 * INCH, 46 * INCH, 0.0, 0.0), boxes=(_box(2, 2, 0, 1.75),))},
     held={"STICK": Held(positions=("P",), boxes=(_box(0.2, 0.2, -0.5, 2.5),))},
 )
-"""Taught file of the examples."""

@@ -1,4 +1,4 @@
-"""A script in a client's workspace, with what is taught beside it and what it requires."""
+"""A script in a client's workspace, with its taught and required files."""
 
 import os
 from collections.abc import Iterable
@@ -15,13 +15,13 @@ from handeye.core.errors import InvalidInput
 from handeye.core.source import Source, Span, line_name, read_source
 from handeye.editor import wire
 from handeye.editor.document import Document
-from handeye.editor.navigation import Edit, Found
+from handeye.editor.navigation import Edit, Place
 from handeye.program.taught import Taught
 from handeye.runs.scripts import taught
 
 
 class EditedScript:
-    """A document, and how its client counts."""
+    """A document with the client's way of counting characters."""
 
     def __init__(self, workspace: Workspace, uri: str) -> None:
         text = workspace.get_text_document(uri)
@@ -42,7 +42,7 @@ class EditedScript:
         self.document = Document(source=source, taught=known, taught_text=taught_text, read=read)
 
     def diagnostics(self) -> list[Diagnostic]:
-        """Diagnostics of the text; of its form alone, if the taught file cannot be used."""
+        """Diagnostics of the text; only of its form if the taught file cannot be used."""
         if self.problem is not None:
             return arranged(check_form(self.document.whole))
         return self.document.compiled[1]
@@ -55,8 +55,8 @@ class EditedScript:
         """The range of a span of the script."""
         return wire.range_(self.document.source, span, self.units)
 
-    def told(self, found: Diagnostic) -> lsp.Diagnostic:
-        """A diagnostic as the client takes it; one about a required file stands where that is required."""
+    def published(self, found: Diagnostic) -> lsp.Diagnostic:
+        """A diagnostic for the client; one in a required file is shown at its REQUIRE."""
         related = [(self.place(label.span), label.text) for label in found.secondary]
         text, start = self.document.whole.find(found.primary.span.start)
         place = self.place(found.primary.span)
@@ -72,8 +72,8 @@ class EditedScript:
         local = Span(start=start, end=start + span.end - span.start)
         return lsp.Location(uri=self._uri(text), range=wire.range_(text, local, self.units))
 
-    def location(self, found: Found) -> lsp.Location:
-        """Location of a place, in whichever of the files."""
+    def location(self, found: Place) -> lsp.Location:
+        """Location of a place in any of the files."""
         if found.taught:
             return lsp.Location(uri=self.taught_uri, range=wire.range_(self._taught, found.span, self.units))
         text = next(text for text in self.document.whole.texts if text.key == found.file)
@@ -83,7 +83,7 @@ class EditedScript:
         """Edits of all files."""
         changes: dict[str, list[lsp.TextEdit]] = {}
         for edit in edits:
-            place = self.location(Found(span=edit.span, taught=edit.taught, file=edit.file))
+            place = self.location(Place(span=edit.span, taught=edit.taught, file=edit.file))
             changes.setdefault(place.uri, []).append(lsp.TextEdit(range=place.range, new_text=edit.text))
         return lsp.WorkspaceEdit(changes=changes)
 
@@ -92,7 +92,7 @@ class EditedScript:
         return uri in map(self._uri, self.document.whole.required)
 
     def _taught_text(self, file: Path) -> str:
-        """The text of the taught file, as it is in the editor if it is open there; empty if there is none."""
+        """Text of the taught file, from the editor if open there; empty if there is none."""
         if not file.is_file():
             return ""
         self.taught_uri = from_fs_path(str(file)) or ""
@@ -107,12 +107,12 @@ class EditedScript:
         return from_fs_path(os.path.normpath(self._folder / key)) or ""
 
     def _read(self, key: str) -> str:
-        """A required file, as it is in the editor if it is open there."""
+        """Text of a required file, from the editor if open there."""
         opened = self._workspace.text_documents.get(self._uri_of(key))
         assert self._folder is not None
         return read_source(self._folder / key).text if opened is None else opened.source
 
     @property
     def _taught(self) -> Source:
-        """The file beside the script."""
+        """The taught file."""
         return Source(name="", text=self.document.taught_text)

@@ -1,4 +1,4 @@
-"""The language server: what it knows about the scripts that are open."""
+"""The language server."""
 
 import asyncio
 from typing import Final
@@ -15,12 +15,12 @@ from handeye.editor.script import EditedScript
 from handeye.program.language import OwnLanguage, own_language
 from handeye.program.taught import Taught
 
-PAUSE: Final = 0.3
-"""Seconds without a keystroke after which motions are planned; what the text alone tells comes at once."""
+PAUSE_S: Final = 0.3
+"""Time without a keystroke before motions are planned; other diagnostics are sent at once."""
 
 
 class ArmServer(LanguageServer):
-    """The server and what it has planned: for each script, the text and what the planner said about it."""
+    """The server, with the planner's diagnostics of each script and the text they are for."""
 
     def __init__(self) -> None:
         super().__init__("handeye", HANDEYE)
@@ -31,14 +31,14 @@ class ArmServer(LanguageServer):
         return EditedScript(self.workspace, uri)
 
     def diagnostics(self, script: EditedScript) -> list[Diagnostic]:
-        """Diagnostics of a script known by now: the planner's part only if it is about this very text."""
+        """Current diagnostics of a script, the planner's only if they are for this text."""
         whole, taught, problems = self.planned.get(script.uri, (None, None, []))
         known = problems if (whole, taught) == (script.document.whole, script.document.taught) else []
         return [*script.diagnostics(), *known]
 
     def publish(self, script: EditedScript) -> None:
-        """Tell the client what is known about a script."""
-        found = [script.told(problem) for problem in self.diagnostics(script)]
+        """Publish the diagnostics of a script."""
+        found = [script.published(problem) for problem in self.diagnostics(script)]
         if script.problem is not None:
             start = script.range(Span(start=0, end=0))
             found.append(lsp.Diagnostic(range=start, message=script.problem, source="handeye"))
@@ -59,7 +59,7 @@ class ArmServer(LanguageServer):
         )
 
     async def check(self, uri: str) -> None:
-        """Say what the text tells; when nobody has typed for a while, what the planner tells too."""
+        """Publish diagnostics of the text, then the planner's after a pause in typing."""
         if (language := own_language(uri)) is not None:
             await self.publish_own(uri, language)
             return
@@ -68,7 +68,7 @@ class ArmServer(LanguageServer):
         program = None if script.problem is not None else script.document.compiled[0]
         if program is None:
             return
-        await asyncio.sleep(PAUSE)
+        await asyncio.sleep(PAUSE_S)
         if self._is_old(script):
             return
         problems = await asyncio.to_thread(planning, program)

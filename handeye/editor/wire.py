@@ -1,4 +1,4 @@
-"""Offsets of our texts and positions of the language server protocol, which count code units from 0."""
+"""Conversion to the language server protocol, whose positions count code units from 0."""
 
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -9,7 +9,7 @@ from handeye.core.diagnostics import Diagnostic
 from handeye.core.source import Source, Span
 
 Units = Callable[[str], int]
-"""How many code units of the agreed encoding a text has."""
+"""Number of code units of a text in the agreed encoding."""
 _UNNECESSARY: Final = {
     "unreachable-code",
     "unused-label",
@@ -18,7 +18,7 @@ _UNNECESSARY: Final = {
     "unused-position",
     "unused-vector",
 }
-"""Codes of what could be left out: editors show it paler."""
+"""Codes of superfluous code, which editors show paler."""
 
 
 def position(source: Source, offset: int, units: Units) -> lsp.Position:
@@ -28,7 +28,7 @@ def position(source: Source, offset: int, units: Units) -> lsp.Position:
 
 
 def offset(source: Source, at: lsp.Position, units: Units) -> int:
-    """The offset of a position; one beyond the end of its line is that end, one beyond the text the end of that."""
+    """The offset of a position, clipped to the end of its line and of the text."""
     lines = source.text.split("\n")
     if at.line >= len(lines):
         return len(source.text)
@@ -49,11 +49,11 @@ def range_(source: Source, span: Span, units: Units) -> lsp.Range:
 def diagnostic(
     found: Diagnostic, at: lsp.Range, related: Sequence[tuple[lsp.Location, str]], where: str = ""
 ) -> lsp.Diagnostic:
-    """A diagnostic as editors show it: what is said beside the mark, notes and help are lines of the message.
+    """A diagnostic for an editor: texts, notes and help are lines of the message.
 
     Args:
-        related: other places, and what there is to say about them.
-        where: stands before the message, if it is about another file than the one it is shown in.
+        related: other places, with texts.
+        where: prefix of the message, for a diagnostic of another file.
     """
     severity = lsp.DiagnosticSeverity.Error if found.severity == "error" else lsp.DiagnosticSeverity.Warning
     said = [found.message, found.primary.text, *found.notes, *([f"help: {found.help}"] if found.help else [])]

@@ -1,1 +1,1 @@
-"""Laying a plan open: its stages and times, its flow, what a change in a script did to it."""
+"""Shows what is in a plan: stages and times, flow, and differences from another plan."""

@@ -1,4 +1,4 @@
-"""Which step of one program is which step of another, after somebody has changed the script."""
+"""Aligns the steps of two versions of a program."""
 
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
@@ -10,14 +10,14 @@ from handeye.core.plain_text import one_line
 from handeye.program.program import Step
 
 Pair = tuple[int | None, int | None]
-"""Numbers of a step before and after; None: it was added, or removed."""
+"""Numbers of a step before and after; None if it was added or removed."""
 
 
 def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
-    """Every step of both programs once, in the order of their texts.
+    """Every step of both programs once, in text order.
 
-    Steps that do and say the same are matched first. Between two such matches, steps are paired by what they say,
-    then by the kind of their operation: a step is changed rather than removed and added.
+    Identical steps are matched first. Between two such matches, steps are paired by their statements, then by the kind
+    of their operation: a step counts as changed rather than as removed and added.
     """
     keys = (_exact, _said, _kind)
     return list(_matched(before, after, range(len(before)), range(len(after)), keys))
@@ -26,7 +26,7 @@ def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
 def _matched(
     before: Sequence[Step], after: Sequence[Step], old: range, new: range, keys: tuple[Any, ...]
 ) -> Iterator[Pair]:
-    """Pairs of a stretch of each program, by the first of the keys; what differs in it, by the others."""
+    """Pairs of a stretch of each program by the first key, and of the rest by the other keys."""
     if not keys or not old or not new:
         yield from ((number, None) for number in old)
         yield from ((None, number) for number in new)
@@ -41,10 +41,9 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """True if a way that led to step `old` and now leads to `new` still goes to the same place.
+    """True if an edge to step `old` and one to step `new` lead to the same place.
 
-    A way to a step that was removed goes on to what stood behind it, or to what has come in its place; None is
-    the end of the program.
+    An edge to a removed step leads to what followed it, or replaced it; None is the end of the program.
     """
     at = _place(pairs, 0, old)
     if at < len(pairs) and pairs[at][1] is not None:
@@ -53,17 +52,17 @@ def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool
 
 
 def _place(pairs: Sequence[Pair], side: int, number: int | None) -> int:
-    """Where a step of one side stands among the pairs; the end of the program behind them all."""
+    """Index of the pair with a step of one side; past the last for the end of the program."""
     return next((at for at, pair in enumerate(pairs) if pair[side] == number is not None), len(pairs))
 
 
 def _survivor(pairs: Sequence[Pair], at: int) -> int | None:
-    """The first place from `at` on whose step is in both programs."""
+    """The first index from `at` on whose step is in both programs."""
     return next((place for place in range(at, len(pairs)) if None not in pairs[place]), None)
 
 
 def does(step: Step) -> dict[str, Any]:
-    """The operation of a step as data, but for where it leads."""
+    """The operation of a step as data, without its branch target."""
     operation = step.operation
     found: dict[str, Any] = msgspec.to_builtins(
         operation.leading_to(None) if operation.branches else operation

@@ -1,70 +1,59 @@
-"""The steps of a stage put into columns, and a lane beside the column for each way that does not just go down."""
+"""Arranges the steps of a stage in columns, with lanes beside them for edges that jump."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from handeye.inspection.flow import Node, Way
+from handeye.inspection.flow import FlowEdge, Node
 
-WIDTH: Final = 264
-"""Of a step."""
-ROW: Final = 24
-"""Height of a step without notes."""
-NOTE: Final = 14
-"""Height that each note adds to it."""
-GAP: Final = 18
-"""Between a step and the one below."""
-TALL: Final = 1150
-"""Columns are broken at this height, if they can be."""
+WIDTH: Final = 264  # px, of a step
+ROW: Final = 24  # px, height of a step without notes
+NOTE: Final = 14  # px, height of a note
+GAP: Final = 18  # px, between steps
+COLUMN_HEIGHT: Final = 1150  # px, at which columns are broken if possible
 LANE: Final = 11
-SIDE: Final = 18
-"""From a step to the first lane beside it, and from the last to the border of the column."""
-ALMOST: Final = 0.9
-"""A column may be broken when it has this share of the height it should have."""
-WORTH: Final = 0.35
-"""The rest of a stage must have this share of it to be worth a column of its own."""
+SIDE: Final = 18  # px, from step to first lane, and from last lane to the column's border
+MIN_FILL: Final = 0.9  # fraction of its height at which a column may be broken
+MIN_REST: Final = 0.35  # fraction of a column that justifies another one
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Column:
-    """Steps one below the other."""
+    """Steps one below the other, with lanes by edge, from 0 next to the steps."""
 
     nodes: tuple[Node, ...]
-    back: dict[Way, int]
-    """Lanes of the ways that go back, on the left; 0 is next to the steps."""
-    skip: dict[Way, int]
-    """Lanes of those that skip something, on the right."""
+    back: dict[FlowEdge, int]  # on the left
+    skip: dict[FlowEdge, int]  # on the right
 
     @property
     def before(self) -> float:
-        """From the border to the steps."""
+        """Width left of the steps."""
         return _breadth(self.back)
 
     @property
     def width(self) -> float:
-        """With all its lanes."""
+        """Width including lanes."""
         return self.before + WIDTH + _breadth(self.skip)
 
     @property
     def height(self) -> float:
-        """Of all its steps and the gaps between them."""
         return sum(height(node) + GAP for node in self.nodes) - GAP
 
 
-def _breadth(lanes: dict[Way, int]) -> float:
+def _breadth(lanes: dict[FlowEdge, int]) -> float:
     deepest = max(lanes.values(), default=-1) + 1
     return SIDE + (SIDE + LANE * deepest if deepest else 0)
 
 
 def height(node: Node) -> float:
-    """Of the box of a step."""
+    """Height of a step's box."""
     return ROW + NOTE * len(node.notes)
 
 
-def columns(nodes: Sequence[Node], edges: Sequence[Way]) -> list[Column]:
-    """The steps of a stage in columns of equal height as nearly as loops allow."""
+def columns(nodes: Sequence[Node], edges: Sequence[FlowEdge]) -> list[Column]:
+    """The steps of a stage in columns of about equal height, broken outside loops."""
     total = sum(height(node) + GAP for node in nodes)
-    goal = total / max(1, round(total / TALL + 0.2))
+    goal = total / max(1, round(total / COLUMN_HEIGHT + 0.2))
     left = total
     place = {node.step: at for at, node in enumerate(nodes)}
     spanned: set[int] = set()
@@ -75,7 +64,7 @@ def columns(nodes: Sequence[Node], edges: Sequence[Way]) -> list[Column]:
     cut: list[list[Node]] = [[]]
     filled = 0.0
     for at, node in enumerate(nodes):
-        if filled >= goal * ALMOST and left >= goal * WORTH and at not in spanned:
+        if filled >= goal * MIN_FILL and left >= goal * MIN_REST and at not in spanned:
             cut.append([])
             filled = 0.0
         cut[-1].append(node)
@@ -86,8 +75,8 @@ def columns(nodes: Sequence[Node], edges: Sequence[Way]) -> list[Column]:
     ]
 
 
-def _lanes(column: Sequence[Node], edges: Sequence[Way], side: str) -> dict[Way, int]:
-    """A lane for each way that goes back, or skips something, within a column; short ones inside."""
+def _lanes(column: Sequence[Node], edges: Sequence[FlowEdge], side: str) -> dict[FlowEdge, int]:
+    """Lanes of edges within a column that go back, or skip steps; short ones inside."""
     place = {node.step: at for at, node in enumerate(column)}
     found = []
     for edge in edges:
@@ -96,7 +85,7 @@ def _lanes(column: Sequence[Node], edges: Sequence[Way], side: str) -> dict[Way,
             if (span <= 0 and side == "back") or (span > 1 and side == "skip"):
                 found.append((abs(span), min(place[edge.start], place[edge.end]), edge))
     taken: list[list[tuple[int, int]]] = []
-    lanes: dict[Way, int] = {}
+    lanes: dict[FlowEdge, int] = {}
     for span, low, edge in sorted(found, key=lambda item: item[:2]):
         high = low + span
         lane = next((n for n, of in enumerate(taken) if all(high < a or b < low for a, b in of)), len(taken))

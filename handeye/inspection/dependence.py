@@ -1,7 +1,7 @@
-"""Find what a step depends on that only the working phase knows: parts seen, positions and differences kept, a search.
+"""Finds what a step depends on that is measured at run time: parts seen, saved positions and differences, a search.
 
-For each step it is worked out which measurements can be the newest when it is reached, over every way through the
-graph, loops and error edges included.
+For each step the possible newest measurements are computed over all paths through the graph, loops and error edges
+included.
 """
 
 from typing import Final, Literal, get_args
@@ -16,25 +16,21 @@ Measured = Literal["part", "position", "difference", "search"]
 Key = tuple[Measured, str]
 _MEASURED: Final[tuple[Measured, ...]] = get_args(Measured)
 Newest = dict[Key, frozenset[int]]
-"""The steps that may have measured something last."""
+"""Steps that may have made each measurement last."""
 
 
 class Dependence(Record, frozen=True, kw_only=True):
-    """Something measured that a step is carried out by."""
+    """A measurement that a step depends on."""
 
     kind: Measured
-    name: str
-    """Of the part, position or difference; empty for a search."""
-    level: bool = False
-    """Only its horizontal components count."""
-    steps: tuple[int, ...]
-    """Steps that may have measured it last. None: a place is as planned, a difference is zero."""
-    lines: tuple[int | str, ...]
-    """Their lines of the source: 12, or `pins.al:12` in a required file."""
+    name: str  # empty for a search
+    level: bool = False  # horizontal components only
+    steps: tuple[int, ...]  # may have measured it last; empty: as planned, or zero
+    lines: tuple[int | str, ...]  # lines of the source, or `pins.al:12` in a required file
 
 
 def dependences(program: Program) -> tuple[tuple[Dependence, ...], ...]:
-    """Dependences of each step of a program, in the order of the steps."""
+    """Dependences of each step, in order."""
     newest = _newest(program)
     kept = program.written("position")
     return tuple(
@@ -58,11 +54,7 @@ def _measures(operation: Operation) -> list[Key]:
 
 
 def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
-    """Everything a motion or a look is carried out by, and whether only its horizontal components count.
-
-    Args:
-        kept: positions that a HERE keeps.
-    """
+    """What a motion or look depends on, and whether only horizontally; `kept` are positions that a HERE defines."""
     found: list[tuple[Key, bool]] = []
     for kind, name, level in operation.reads if operation.family in ("motion", "sight") else ():
         if kind in ("difference", "search"):

@@ -1,74 +1,120 @@
-"""Compare two plans: what a change did to stages and steps, to positions and parts, to the motions of the arm."""
+"""Compares two plans: stages and steps, positions and parts, motions."""
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import Final, Literal
 
 import numpy as np
 
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.robots import robot
 from handeye.core.plain_text import one_line
+from handeye.core.pose import Pose, hand, planar
 from handeye.core.record import Record
 from handeye.inspection.alignment import Pair, aligned, does, leads_alike
-from handeye.inspection.place_changes import PlaceChange, place_changes
 from handeye.inspection.wording import conditions
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.program.operation import Branch
-from handeye.program.program import Step
+from handeye.program.program import Part, Position, Program, Step
+
+_TOLERANCE_M: Final = 1e-9
+"""m; smaller shifts are rounding."""
+_LEAST_TURN: Final = 1e-6
+"""rad; the precision of an arc cosine near 1."""
+
+
+class PlaceChange(Record, frozen=True, kw_only=True):
+    """A position or part added, removed, moved or changed: by `shift` (m, table or part axes) and `turn` (rad)."""
+
+    kind: Literal["added", "removed", "moved", "changed"]
+    what: Literal["position", "part"]
+    name: str
+    shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    turn: float = 0.0
+
+
+def place_changes(before: Program, after: Program) -> list[PlaceChange]:
+    """Changes of positions and parts."""
+    found = [
+        _placed("part", n, before.parts.get(n), after.parts.get(n)) for n in {**before.parts, **after.parts}
+    ]
+    names = {**before.positions, **after.positions}
+    found += [_placed("position", n, before.positions.get(n), after.positions.get(n)) for n in names]
+    return [change for change in found if change is not None]
+
+
+def _placed(
+    what: Literal["position", "part"], name: str, one: Position | Part | None, other: Position | Part | None
+) -> PlaceChange | None:
+    if one == other:
+        return None
+    if one is None or other is None:
+        return PlaceChange(kind="added" if one is None else "removed", what=what, name=name)
+    X_one, X_other = _pose(one), _pose(other)
+    shift = X_other[:3, 3] - X_one[:3, 3]
+    x, y, z = (float(value) for value in np.where(np.abs(shift) > _TOLERANCE_M, shift, 0.0))
+    R = X_one[:3, :3].T @ X_other[:3, :3]
+    turn = float(np.arccos(np.clip((np.trace(R) - 1) / 2, -1, 1)))
+    moved = (x, y, z) != (0, 0, 0) or turn > _LEAST_TURN
+    if one.at == other.at or _part(one) != _part(other) or not moved:
+        return PlaceChange(kind="changed", what=what, name=name)
+    return PlaceChange(
+        kind="moved", what=what, name=name, shift=(x, y, z), turn=turn if turn > _LEAST_TURN else 0.0
+    )
+
+
+def _part(place: Position | Part) -> str | None:
+    """The part that a position belongs to."""
+    return place.of if isinstance(place, Position) else None
+
+
+def _pose(place: Position | Part) -> Pose:
+    return planar(*place.at) if isinstance(place, Part) else hand(*place.at)
+
 
 _ALIKE = 1e-9
-"""m, rad or s: below this, two motions differ by rounding."""
+"""m, rad or s; smaller differences of motions are rounding."""
 
 
 class MotionChange(Record, frozen=True, kw_only=True):
-    """A motion that is not as it was."""
+    """A change of a motion."""
 
-    before: float | None
-    """Planned duration, s; None if there was no motion."""
+    before: float | None  # planned duration, s; None if there was no motion
     after: float | None
     joint: int | None = None
-    """The joint that ends farthest from where it did, measured by the time it needs; from 1. None: all end alike, or
-    the arms are different ones."""
+    """The joint, from 1, whose end has moved farthest in terms of time; None if ends agree, or the arms differ."""
     name: str = ""
-    """Of that joint."""
     kind: Literal["revolute", "prismatic"] | None = None
-    """Of that joint."""
     moved: float = 0.0
-    """How far that joint ends from where it did, rad or m."""
+    """Displacement of that joint's end, rad or m."""
 
 
 class StepChange(Record, frozen=True, kw_only=True):
-    """A step that is new, gone, or does something else."""
+    """A step added, removed, changed, or with another motion only (`replanned`)."""
 
     kind: Literal["added", "removed", "changed", "replanned"]
-    """Replanned: the step is as it was, and its motion is not."""
     before: int | None
     after: int | None
     stage: str
-    file: str = ""
-    """The required file its line is in; empty: the script itself."""
+    file: str = ""  # a required file; empty: the script itself
     line: int
     text: str
-    changes: tuple[tuple[str, str, str], ...] = ()
-    """Each change: of what, as it was, as it is."""
+    changes: tuple[tuple[str, str, str], ...] = ()  # what, before, after
     motion: MotionChange | None = None
 
 
 class Difference(Record, frozen=True, kw_only=True):
-    """All that differs between two plans; nothing if they do the same."""
+    """All differences between two plans; empty if they do the same."""
 
-    heads: tuple[tuple[str, str, str], ...]
-    """Arm, speed and the like: what, as it was, as it is."""
+    heads: tuple[tuple[str, str, str], ...]  # arm, speed and the like: what, before, after
     stages_removed: tuple[str, ...]
     stages_added: tuple[str, ...]
     places: tuple[PlaceChange, ...]
     steps: tuple[StepChange, ...]
-    seconds: tuple[float, float]
-    """Planned motion before and after, each step counted once."""
+    seconds: tuple[float, float]  # planned motion before and after, each step once
 
     @property
     def same(self) -> bool:
-        """Both plans do the same, whatever their comments say."""
+        """True if both plans do the same, whatever their comments say."""
         return not (self.heads or self.stages_removed or self.stages_added or self.places or self.steps)
 
 
@@ -128,7 +174,7 @@ def _step(before: Plan, after: Plan, pair: Pair, pairs: list[Pair]) -> StepChang
 
 
 def _arm(before: Plan, after: Plan) -> ArmModel | None:
-    """The arm of both plans, if it is one that is known here."""
+    """The arm of both plans, if it is a known one."""
     arm = robot(after.arm) if before.arm == after.arm else None
     same = arm is not None and {*before.joint_counts, *after.joint_counts} <= {len(arm.joints)}
     return arm if same else None
@@ -146,7 +192,7 @@ def _change(
 
 
 def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
-    """Differences of two steps, wherever they lead: what, as it was, as it is."""
+    """Differences of two steps apart from their targets: what, before, after."""
     texts, guards = [one_line(s.text) for s in (one, other)], [_guards(s) for s in (one, other)]
     if texts[0] != texts[1]:
         yield "statement", texts[0], texts[1]
@@ -162,7 +208,7 @@ def _guards(step: Step) -> str:
 
 
 def _when(branch: Branch) -> str:
-    """When the other way is gone."""
+    """The condition of a branch."""
     return f"if error {branch.error}" if branch.error is not None else f"while {branch.counter} is positive"
 
 

@@ -1,11 +1,10 @@
-"""The difference between two plans, told in lines."""
+"""The difference between two plans as text."""
 
 from typing import Final
 
 from handeye.core.source import line_name
 from handeye.core.units import INCH
-from handeye.inspection.difference import Difference, MotionChange, StepChange
-from handeye.inspection.place_changes import PlaceChange
+from handeye.inspection.difference import Difference, MotionChange, PlaceChange, StepChange
 from handeye.inspection.wording import degrees, figure, inches
 
 _SIGNS: Final = {"added": "+", "removed": "-", "changed": "~", "replanned": " "}

@@ -1,11 +1,11 @@
-"""The flow of a plan as a drawing (SVG). Text and rectangles: it can be searched, and scaled without end."""
+"""Draws the flow of a plan as SVG, with searchable text."""
 
 from html import escape
 from typing import Final
 
 from handeye.core.plain_text import counted
 from handeye.inspection.columns import NOTE, ROW, WIDTH
-from handeye.inspection.flow import Flow, Way
+from handeye.inspection.flow import Flow, FlowEdge
 from handeye.inspection.layout import Layout, Point, Route, StepBox, layout
 
 COLOURS: Final = {
@@ -16,13 +16,10 @@ COLOURS: Final = {
     "search": ("#e3eff0", "#3d8087"),
     "other": ("#ededed", "#808080"),
 }
-"""Paper and ink of each kind of step."""
-RADIUS: Final = 6.0
-"""Of the corners of a way, pixels."""
-LETTERS: Final = (30, 43)
-"""As many as fit into a step, of its statement and of a note."""
-_MARGIN: Final = 64
-"""Over the drawing: title and legend."""
+"""Fill and stroke of each kind of step."""
+RADIUS: Final = 6.0  # px, of the corners of an edge
+LETTERS: Final = (30, 43)  # that fit into a step, of its statement and of a note
+_MARGIN: Final = 64  # px above the drawing, for title and legend
 
 _STYLE: Final = (
     "text{font-family:ui-monospace,'DejaVu Sans Mono',Menlo,Consolas,monospace;fill:#222}"
@@ -34,7 +31,7 @@ _STYLE: Final = (
 
 
 def flow_svg(graph: Flow) -> str:
-    """The drawing of a graph."""
+    """The SVG of a graph."""
     placed = layout(graph)
     width, height = max(placed.width, 660), placed.height + _MARGIN
     out = [
@@ -106,7 +103,7 @@ def _route(route: Route, graph: Flow) -> str:
     return f'{line}<text class="l h" x="{x + 8:g}" y="{y + 4:g}">{said}</text>'
 
 
-def _outside(edge: Way, graph: Flow) -> str:
+def _outside(edge: FlowEdge, graph: Flow) -> str:
     return "end" if edge.end is None else f"to {graph.outside[edge.end]}"
 
 
@@ -117,7 +114,7 @@ def _label(route: Route) -> str:
 
 
 def _path(points: tuple[Point, ...]) -> str:
-    """A line through points, its corners rounded."""
+    """Path through points with rounded corners."""
     out = [f"M{points[0][0]:g} {points[0][1]:g}"]
     for before, here, after in zip(points, points[1:], points[2:], strict=False):
         (x1, y1), (x2, y2) = _towards(here, before), _towards(here, after)
@@ -126,7 +123,7 @@ def _path(points: tuple[Point, ...]) -> str:
 
 
 def _towards(here: Point, there: Point) -> Point:
-    """The point on the way from a corner where its rounding ends."""
+    """Where the rounding of a corner ends, towards another point."""
     dx, dy = there[0] - here[0], there[1] - here[1]
     size = abs(dx) + abs(dy)
     share = min(RADIUS, size / 2) / size if size else 0.0

@@ -1,4 +1,4 @@
-"""The flow of a plan as a graph: steps, and the ways from one to the next, by themselves or on an error."""
+"""The flow of a plan as a graph of steps and edges."""
 
 import json
 from dataclasses import dataclass
@@ -12,50 +12,42 @@ from handeye.program.program import Step
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Node:
-    """A step."""
+    """A step, with its guards as notes."""
 
     step: int
-    stage: int
-    """Index of its stage."""
-    line: str
-    """As people are told: `12`, or `pins.al:12`."""
+    stage: int  # index
+    line: str  # `12`, or `pins.al:12`
     text: str
-    notes: tuple[str, ...]
-    """Its guards, in words."""
+    notes: tuple[str, ...]  # guards in words
     seconds: float | None
     kind: Family
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Way:
-    """A way from one step to another."""
+class FlowEdge:
+    """An edge to the next step, or None for the end, if `error` was raised."""
 
     start: int
     end: int | None
-    """None: the program ends."""
     error: int | None = None
-    """It is gone when this error was raised."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Flow:
-    """The graph of a plan, or of one of its stages; ways that leave that stage are there, their ends are not."""
+    """The graph of a plan, or of one stage, whose outgoing edges end in steps that are left out."""
 
     name: str
-    stages: tuple[str, ...]
-    """Of the whole plan."""
-    nodes: tuple[Node, ...]
-    """In the order of the text."""
-    edges: tuple[Way, ...]
-    outside: dict[int, str]
-    """Steps that ways lead to and that are not shown, with their stages."""
+    stages: tuple[str, ...]  # of the whole plan
+    nodes: tuple[Node, ...]  # in text order
+    edges: tuple[FlowEdge, ...]
+    outside: dict[int, str]  # steps left out that edges lead to, with their stages
 
 
 def flow(plan: Plan, stage: int | None = None) -> Flow:
     """The graph of a plan, or of one stage, by its number from 1."""
     steps = plan.program.steps
     shown = [n for n, step in enumerate(steps) if stage in (None, step.stage + 1)]
-    edges = [edge for number in shown for edge in _ways(number, steps[number])]
+    edges = [edge for number in shown for edge in _edges(number, steps[number])]
     ends = {edge.end for edge in edges if edge.end is not None} - {*shown}
     return Flow(
         name=one_line(plan.program.name), stages=tuple(map(one_line, plan.program.stages)),
@@ -92,11 +84,14 @@ def _node(plan: Plan, number: int) -> Node:
     )  # fmt: skip
 
 
-def _ways(number: int, step: Step) -> list[Way]:
+def _edges(number: int, step: Step) -> list[FlowEdge]:
     branch = step.operation.branch
     if branch is None or branch.error is None:
-        return [Way(start=number, end=end) for end in dict.fromkeys(step.ways)]
-    return [Way(start=number, end=step.next), Way(start=number, end=branch.target, error=branch.error)]
+        return [FlowEdge(start=number, end=end) for end in dict.fromkeys(step.ways)]
+    return [
+        FlowEdge(start=number, end=step.next),
+        FlowEdge(start=number, end=branch.target, error=branch.error),
+    ]
 
 
 def _quoted(text: str) -> str:

@@ -1,4 +1,4 @@
-"""A plan laid open: its stages and steps, how long they take, what guards them, and what they depend on."""
+"""A plan as data and text: stages and steps, durations, guards, and dependences."""
 
 from handeye.core.plain_text import counted, one_line
 from handeye.core.record import Record, Vector3
@@ -15,16 +15,16 @@ class InspectedStep(Record, frozen=True, kw_only=True):
 
     step: int
     file: str = ""
-    """The required file its line is in; empty: the script itself."""
+    """The required file of its line; empty: the script itself."""
     line: int
     text: str
-    """Its statement. What modifies it is told by `conditions` (`STOP`, `FORCE`) and `depends` (`RESTORE`)."""
+    """Its statement. `conditions` (`STOP`, `FORCE`) and `depends` (`RESTORE`) say what modifies it."""
     operation: str
-    """Its name on disk."""
+    """Name on disk."""
     seconds: float | None
     """Planned duration of its motion; None if it has none."""
     guards: Guards
-    """Each of them ends it, SI."""
+    """Guards that end it, SI."""
     press: Vector3 | None
     """Force it exerts, N, table coordinates."""
     conditions: tuple[str, ...]
@@ -37,7 +37,7 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     counter: str | None = None
     """The counter it counts down."""
     positive: int | None = None
-    """The step that follows while that is still positive."""
+    """The step that follows while the counter is positive."""
     next: int | None
     """The step that follows otherwise; None ends the program."""
 
@@ -81,7 +81,7 @@ def inspection(plan: Plan) -> Inspection:
 
 
 def inspection_text(found: Inspection, stage: int | None = None) -> list[str]:
-    """A plan laid open, as lines of text; of one stage, by its number from 1, if it is given."""
+    """A plan as lines of text; only one stage, by its number from 1, if given."""
     count = counted(sum(len(s.steps) for s in found.stages), "step")
     out = [
         f"{one_line(found.name)}, planned for the {found.arm} arm at {found.speed:g} of its speed: "
@@ -97,7 +97,7 @@ def inspection_text(found: Inspection, stage: int | None = None) -> list[str]:
 
 
 def depends_text(one: Dependence) -> str:
-    """Say what a step depends on."""
+    """A dependence in words."""
     lines = f"line{'' if len(one.lines) == 1 else 's'} {', '.join(map(str, one.lines))}"
     if one.kind == "search":
         return f"search of {lines}" if one.lines else "no search"

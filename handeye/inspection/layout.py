@@ -1,9 +1,8 @@
-"""Layout of a flow graph: places of the steps, and routes of the edges. Pixels, y downwards.
+"""Layout of a flow graph: positions of steps, and routes of edges, in pixels, y downwards.
 
-Stages stand side by side on shelves, their steps from top to bottom; a long one has several columns, broken where no
-loop is.
-Ways to the step below are short and straight. Those that go back run on the left of their column, those that skip
-something on its right, each in a lane of its own; what leads to another column goes round the top.
+Stages stand side by side on shelves, their steps from top to bottom; a long one has several columns, broken outside
+loops. Edges to the step below are short and straight. Those that go back run on the left of their column, those that
+skip steps on its right, each in a lane of its own; edges to another column go round the top.
 """
 
 from dataclasses import dataclass, field
@@ -11,23 +10,19 @@ from itertools import groupby
 from typing import Final, Literal
 
 from handeye.inspection.columns import GAP, LANE, SIDE, WIDTH, Column, columns, height
-from handeye.inspection.flow import Flow, Node, Way
+from handeye.inspection.flow import Flow, FlowEdge, Node
 
-TOP: Final = 76
-"""Over the columns: names of the stages, and the ways round the top."""
-FOOT: Final = 28
-"""Below them."""
-FRAME: Final = 16
-"""Between two stages."""
-SHELF: Final = 3800
-"""A shelf holds stages up to this width."""
+TOP: Final = 76  # above columns: stage names, and edges round the top
+FOOT: Final = 28  # below columns
+FRAME: Final = 16  # between stages
+SHELF_WIDTH: Final = 3800
 
 Point = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StepBox:
-    """A step in its place; x, y is the upper left corner."""
+    """A placed step; x, y is the upper left corner."""
 
     node: Node
     x: float
@@ -37,17 +32,16 @@ class StepBox:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Route:
-    """The line of a way, from corner to corner."""
+    """An edge's polyline: to the step below, back, past steps, to another column, or out of the drawing."""
 
-    edge: Way
+    edge: FlowEdge
     points: tuple[Point, ...]
     kind: Literal["down", "back", "skip", "over", "out"]
-    """Down to the next, back, past some steps, to another column, or out of what is drawn."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Area:
-    """The area that a stage takes up; x, y is the upper left corner."""
+    """The area of a stage; x, y is the upper left corner."""
 
     stage: int
     x: float
@@ -60,7 +54,7 @@ class Area:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Layout:
-    """A flow graph in its place."""
+    """A placed flow graph."""
 
     boxes: tuple[StepBox, ...]
     routes: tuple[Route, ...]
@@ -71,25 +65,24 @@ class Layout:
 
 @dataclass(slots=True, kw_only=True)
 class _Shelves:
-    """Stages side by side, and below those before when there is no room."""
+    """Places stages side by side, starting a new shelf when there is no room."""
 
-    edges: tuple[Way, ...]
+    edges: tuple[FlowEdge, ...]
     boxes: dict[int, StepBox] = field(default_factory=dict)
     areas: list[Area] = field(default_factory=list)
     routes: list[Route] = field(default_factory=list)
     borders: dict[int, tuple[float, float, float]] = field(default_factory=dict)
-    """Of the column a step is in: left and right, and the upper end of its shelf."""
+    """Of a step's column: left, right, and top of its shelf."""
     x: float = FRAME
     y: float = 0.0
     width: float = 0.0
-    tallest: float = 0.0
-    """On the present shelf."""
+    tallest: float = 0.0  # on the present shelf
 
     def add(self, stage: int, nodes: list[Node]) -> None:
-        """Put a stage on the shelf, or on the next."""
+        """Place a stage."""
         parts = columns(nodes, self.edges)
         width = sum(part.width for part in parts)
-        if self.x > FRAME and self.x + width > SHELF:
+        if self.x > FRAME and self.x + width > SHELF_WIDTH:
             self.x, self.y, self.tallest = FRAME, self.y + self.tallest + FRAME, 0.0
         tall = TOP + max(part.height for part in parts) + FOOT
         seconds = sum(node.seconds or 0.0 for node in nodes)
@@ -113,7 +106,7 @@ class _Shelves:
 
 
 def layout(graph: Flow) -> Layout:
-    """Places for all steps and ways of a graph."""
+    """Place all steps and edges of a graph."""
     shelves = _Shelves(edges=graph.edges)
     for stage, run in groupby(graph.nodes, key=lambda node: node.stage):
         shelves.add(stage, list(run))
@@ -125,7 +118,7 @@ def layout(graph: Flow) -> Layout:
     )  # fmt: skip
 
 
-def _beside(edge: Way, lane: int, side: str, boxes: dict[int, StepBox]) -> Route:
+def _beside(edge: FlowEdge, lane: int, side: str, boxes: dict[int, StepBox]) -> Route:
     assert edge.end is not None
     one, other = boxes[edge.start], boxes[edge.end]
     start, end = one.y + one.height * 0.62, other.y + other.height * 0.38
@@ -137,8 +130,10 @@ def _beside(edge: Way, lane: int, side: str, boxes: dict[int, StepBox]) -> Route
     return Route(edge=edge, points=points, kind="back" if side == "back" else "skip")
 
 
-def _plain(edge: Way, boxes: dict[int, StepBox], borders: dict[int, tuple[float, float, float]]) -> Route:
-    """The way down, to another column, or out."""
+def _plain(
+    edge: FlowEdge, boxes: dict[int, StepBox], borders: dict[int, tuple[float, float, float]]
+) -> Route:
+    """The route of an edge down, to another column, or out."""
     one, other = boxes[edge.start], None if edge.end is None else boxes.get(edge.end)
     middle, bottom, y = one.x + WIDTH / 2, one.y + one.height, one.y + one.height * 0.62
     right = one.x + WIDTH

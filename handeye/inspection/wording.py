@@ -1,4 +1,4 @@
-"""Quantities of a plan in the units of the language: inches, degrees, ounces, ounce-inches."""
+"""Quantities of a plan in the language's units: inches, degrees, ounces, ounce-inches."""
 
 import math
 from collections.abc import Callable
@@ -14,13 +14,13 @@ from handeye.program.motion_operations import Center, Change, Close, Height, Mov
 from handeye.program.operations import AnyOperation
 
 FINGERS = {1: "finger 1", 2: "finger 2", 3: "either finger"}
-"""The fingers whose switches a mask enables; 1 is the one on the +y side of the hand frame."""
+"""Fingers by switch mask; 1 is the one on the hand's +y side."""
 _ON_AXIS = 1e-9
-"""A direction whose other two components are below this share of it lies on an axis."""
+"""Relative size of other components below which a direction lies on an axis."""
 
 
 def figure(value: float) -> str:
-    """A number to three decimals, with no zeros to fill them."""
+    """A number with up to three decimals."""
     return f"{round(value, 3) + 0.0:g}"
 
 
@@ -61,16 +61,16 @@ _MET: Final[dict[type[g.Guard], Callable[[Any], str]]] = {
     g.Torque: lambda guard: f"at {figure(guard.torque / OUNCE_INCH)} oz-in of torque",
     g.Touch: lambda guard: f"when {FINGERS[guard.fingers]} touches",
 }
-"""When each guard is met."""
+"""The condition of each guard."""
 
 
 def stops(guards: g.Guards) -> str:
-    """Say what ends a guarded motion, and which error there is if nothing does."""
+    """What ends a guarded motion, and the error otherwise."""
     return f"stops {' or '.join(_MET[type(guard)](guard) for guard in guards)}, else error {g.unmet(guards)}"
 
 
 def conditions(operation: AnyOperation) -> tuple[str, ...]:
-    """Say what guards an operation, and what it does with force; nothing for most."""
+    """What guards an operation, and how it uses force."""
     guarded = (stops(operation.guards),) if operation.guards else ()
     said = _CONDITIONS.get(type(operation))
     return guarded if said is None else (*guarded, *said(operation))
@@ -122,7 +122,7 @@ _CONDITIONS: Final[dict[type[AnyOperation], Callable[[Any], list[str]]]] = {
     Height: _stands,
     Undo: lambda operation: [f"undoes the stage, {counted(operation.times, 'time')} at most"],
 }
-"""More that is to be said of an operation than its guards."""
+"""Further conditions by operation."""
 
 
 def _axes(axes: Vector3) -> str:

@@ -1,4 +1,4 @@
-"""What the program sees: the three primitives of 1973 for whoever wants to try them, and what is made of them."""
+"""Vision: the three primitives of 1973 as a public interface, and what is built on them."""
 
 from handeye.vision.beam import beams
 from handeye.vision.blob import BoundingBox, localise

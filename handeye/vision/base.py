@@ -1,7 +1,7 @@
-"""Locating a part with large round holes, in two stages: roughly by its outline, then closely by its holes.
+"""Locates a part with large round holes in two stages: roughly by its outline, then closely by its holes.
 
-The part lies upright in a stated region, on a darker background, turned by at most 50 degrees from plan. Its
-height is known, so that one picture is enough: rays through the holes meet the plane of its upper face.
+The part lies upright in a stated region, on a darker background, turned by at most 50 degrees from plan. Its height is
+known, so that one picture is enough: rays through the holes meet the plane of its upper face.
 """
 
 import math
@@ -23,50 +23,42 @@ from handeye.vision.holes import Candidate, Pair, classify, dark_screw_holes, pl
 from handeye.vision.outline import fitting, silhouettes, window
 from handeye.vision.scan import Scan
 
-OUTLINE_STEP: Final = 2.0
-"""Least step of intensity, levels, from the background to the part."""
+OUTLINE_STEP: Final = 2.0  # levels, from background to part
 SHRINK: Final = (0.0, 0.6 * INCH, 1.2 * INCH)
-"""The window is tried again smaller: what is beside the region may reach into it if the camera is off."""
-SCREW_HOLES: Final = 2 / 3
-"""Share of the screw holes that must be seen where the two large ones say."""
+"""Shrinkage (m) of the window, tried in turn: neighbours may reach into it if the camera is off."""
+SCREW_HOLES: Final = 2 / 3  # fraction that must be seen where the two large holes imply them
 
 # All figures above: vision study, sections 1.2 and 1.3.
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Failure:
-    """Nothing was found."""
+    """Nothing was found, and why."""
 
     cause: SightCause
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GeneralLocation:
-    """Rough place of a part: within an inch or two."""
+    """Rough position of a part, within an inch or two: its reference point (m in W), if planned but for x, y."""
 
-    box: BoundingBox
-    """Around it in the picture."""
+    box: BoundingBox  # around it in the picture
     x: float
-    """Of its reference point in W, m, if it lies as planned but for x and y."""
     y: float
-    corners: tuple[tuple[float, float, float], ...]
-    """The corners of the box at half the part's height, m."""
+    corners: tuple[tuple[float, float, float], ...]  # corners of the box at half the part's height, m
     beams: int
-    points: int
-    """Beams sent and picture points read: what the time of processing would follow from."""
+    points: int  # beams and points read determine the processing time
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeenHole:
-    """A large hole in the picture and in the world."""
+    """A large hole: centre and size in picture points, and centre (m in W) at the upper face."""
 
     u: float
     v: float
     width: float
-    """Points."""
     height: float
     x: float
-    """Of its centre in W, at the height of the upper face, m."""
     y: float
 
 
@@ -74,24 +66,16 @@ class SeenHole:
 class SpecificLocation:
     """Pose of a part."""
 
-    pose: tuple[float, float, float]
-    """x, y (m) of the reference point and yaw (rad) in W, by circles fitted to the borders of the holes."""
-    bounce_pose: tuple[float, float, float]
-    """The same by the bouncing characteriser alone, the way of 1973."""
-    holes: tuple[SeenHole, SeenHole]
-    """The largest first; centres by the fitted circles. The line of centres joins them."""
-    screw_holes: int
-    """How many were seen where they should be."""
+    pose: tuple[float, float, float]  # x, y (m), yaw (rad) in W, by fitted circles
+    bounce_pose: tuple[float, float, float]  # by the bouncing characteriser alone, as in 1973
+    holes: tuple[SeenHole, SeenHole]  # largest first; centres by fitted circles
+    screw_holes: int  # seen where they should be
     beams: int
     points: int
 
 
 def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation | Failure:
-    """Find a part's outline in a picture of the region where it may be.
-
-    Raises:
-        InvalidInput: the program does not say enough of the part.
-    """
+    """Find a part's outline in a picture of the region where it may be; raises BadArgument without either."""
     if part.region is None or part.outline is None:
         raise BadArgument("vision needs the region and the outline of a part")
     fits, scan = fitting(view, part), Scan(picture)
@@ -125,11 +109,7 @@ def _general(scan: Scan, view: View, part: Part, box: BoundingBox) -> GeneralLoc
 def locate_specific(
     picture: Picture, view: View, part: Part, general: GeneralLocation
 ) -> SpecificLocation | Failure:
-    """Find a part's two largest holes in a close picture, and from them its pose.
-
-    Raises:
-        InvalidInput: the program does not give two holes of the part.
-    """
+    """Find a part's two largest holes in a close picture, and from them its pose; the part must have two holes."""
     if len(part.holes) < 2:
         raise BadArgument("a part can be located only by two holes; the program gives fewer")
     scan = Scan(picture)
@@ -153,7 +133,7 @@ def locate_specific(
 def _found(
     finders: list[HoleFinder], place: tuple[float, float], box: BoundingBox
 ) -> Iterator[tuple[HoleFinder, list[Candidate]]]:
-    """What may be holes: where they are expected, then all over the box in one way after the other, then in shadow."""
+    """Hole candidates: where expected, then all over the box with each search, then in shadow."""
     yield finders[0], finders[0].expected(place)
     for finder in finders:
         yield finder, finder.all_over(box)
@@ -161,7 +141,7 @@ def _found(
 
 
 def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
-    """The box of general location, as this view sees it."""
+    """The box of general location in this view."""
     uv = view.project(np.array(general.corners))
     left, top = (int(n) for n in np.floor(uv.min(axis=0)))
     right, bottom = (int(n) for n in np.ceil(uv.max(axis=0)))
@@ -172,7 +152,7 @@ def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
 def _confirm(
     scan: Scan, view: View, part: Part, pair: Pair, finder: HoleFinder, levels: Levels
 ) -> SpecificLocation | None:
-    """The location, unless the borders are not round or the screw holes are not where they should be."""
+    """The location, unless borders are not round or screw holes are missing."""
     centres = finder.refined(pair)
     if centres is None:
         return None

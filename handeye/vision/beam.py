@@ -1,6 +1,6 @@
-"""Beams: the first discontinuity along each of several rays. Every other primitive is made of them and of walks.
+"""Beams: the first discontinuity along each of several rays; all other primitives consist of them and of walks.
 
-A beam is done with when it has met its discontinuity: what it would have met farther on is not looked at.
+A beam ends at its discontinuity: what lies beyond is not read.
 """
 
 from typing import Final
@@ -59,12 +59,11 @@ def beams(
     )
 
 
-_BLOCKED: Final = -1e6
-"""The rise where a beam may not look."""
+_BLOCKED: Final = -1e6  # the rise where a beam may not look
 
 
 def _run(scan: Scan, starts: Array, directions: Array, reach: float | Array) -> tuple[Array, Array]:
-    """First and last point of each ray that may be read, shape (n,); no ray is shorter than what a step takes."""
+    """First and last readable point of each ray, shape (n,); rays too short for a step become empty."""
     back, ahead = scan.runs(starts, directions)
     low = np.maximum(np.ceil(-back), 1 - SPAN)
     high = np.minimum(np.floor(ahead), np.trunc(reach) + SPAN - 1)
@@ -73,19 +72,19 @@ def _run(scan: Scan, starts: Array, directions: Array, reach: float | Array) -> 
 
 
 def _along(scan: Scan, starts: Array, directions: Array, k: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Numbers of the points at distances `k` along rays, shape (n, len(k))."""
+    """Indices of the points at distances `k` along rays, shape (n, len(k))."""
     u, v = np.rint(starts.T[:, :, None] + directions.T[:, :, None] * k)
     return np.asarray(v * scan.columns + u, dtype=np.intp)
 
 
 def _across(scan: Scan, directions: Array) -> NDArray[np.intp]:
-    """From a point to its neighbour across a ray, shape (n, 1): the one below or the one to the right."""
+    """Index offset to the neighbour across a ray, shape (n, 1): below, or to the right."""
     level = np.abs(directions[:, 0]) >= np.abs(directions[:, 1])
     return np.where(level, scan.columns, 1)[:, None]
 
 
 def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) -> Array:
-    """Sums over SPAN points in a row, and over three across if so, shape (n, points less SPAN - 1)."""
+    """Sums over SPAN points along, and optionally three across, shape (n, points less SPAN - 1)."""
     line = scan.levels(where if across is None else where - across).astype(float)
     if across is not None:
         line += scan.levels(where)
@@ -100,9 +99,9 @@ def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) 
 def _steepest(
     rise: Array, step: float, ahead: Array, beyond: float
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp], NDArray[np.intp]]:
-    """Whether each line has a rise of at least `step`, where the first is, and where near it is steepest.
+    """For each line: whether it rises by `step`, where first, and where near there it is steepest.
 
-    Those that lead to less than `beyond` are passed over.
+    Rises that lead to less than `beyond` are skipped.
     """
     n, last = np.arange(len(rise)), rise.shape[1] - 1
     strong = rise >= step
@@ -124,7 +123,7 @@ def _account(
     across: NDArray[np.intp] | None,
     ends: NDArray[np.intp],
 ) -> None:
-    """Note what beams have read that looked at so many of their points at most."""
+    """Record the points that beams have read."""
     looked = usable & (np.arange(where.shape[1]) < ends[:, None])
     read = where[looked]
     scan.account(read)
@@ -135,7 +134,7 @@ def _account(
 
 
 def _vertex(y: Array, i: NDArray[np.intp]) -> Array:
-    """Places of the tops of the parabolas through three values about `i` in each line, from -.5 to .5, shape (n,)."""
+    """Vertices of the parabolas through three values about `i` in each line, from -.5 to .5, shape (n,)."""
     n, last = np.arange(len(y)), y.shape[1] - 1
     left, top, right = y[n, np.maximum(i - 1, 0)], y[n, i], y[n, np.minimum(i + 1, last)]
     bend = left - 2 * top + right

@@ -1,4 +1,4 @@
-"""The blob localiser: isolates a bright blob on a darker background by surrounding it with a box."""
+"""The blob localiser: encloses a bright blob on a darker background in a box."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -12,12 +12,9 @@ from handeye.vision.beam import beams
 from handeye.vision.edge import BRIGHTER, SPAN
 from handeye.vision.scan import MARGIN, Scan
 
-COARSE: Final = 4
-"""The first beams are so many times as far from each other: a blob as large as what is looked for is met by those."""
-SPACING: Final = 6
-"""Points between the beams sent inwards from the border of the window."""
-LOOK_AHEAD: Final = 4
-"""Points a side of the box looks outwards, so that a dark wall between two bright faces does not stop it."""
+COARSE: Final = 4  # the first beams are this many times farther apart: enough for blobs of the wanted size
+SPACING: Final = 6  # points between beams from the window's border
+LOOK_AHEAD: Final = 4  # points beyond a side of the box: crosses a dark wall between bright faces
 
 
 class BoundingBox(NamedTuple):
@@ -86,8 +83,7 @@ def localise(
     return None
 
 
-Rays = tuple[Array, Array]
-"""Starts (u, v) and unit vectors (du, dv), shape (n, 2) each."""
+Rays = tuple[Array, Array]  # starts (u, v) and unit vectors (du, dv), (n, 2) each
 
 
 def _inwards(scan: Scan, window: Array) -> list[Rays]:
@@ -98,14 +94,14 @@ def _inwards(scan: Scan, window: Array) -> list[Rays]:
     inwards = along[:, ::-1] * (-1, 1)
     inwards[((window.mean(axis=0) - window) * inwards).sum(axis=1) < 0] *= -1
     rays = []
-    for corner, way, inward, length in zip(window, along, inwards, lengths, strict=True):
-        starts = corner + np.arange(SPACING / 2, length, SPACING)[:, None] * way + inward * (SPAN + 1)
+    for corner, side, inward, length in zip(window, along, inwards, lengths, strict=True):
+        starts = corner + np.arange(SPACING / 2, length, SPACING)[:, None] * side + inward * (SPAN + 1)
         rays.append((starts[scan.inside(np.rint(starts))], inward))
     return [(starts, np.broadcast_to(inward, starts.shape)) for starts, inward in rays]
 
 
 def _coarse_first(sides: list[Rays]) -> Iterator[Rays]:
-    """The rays of each side: first a few of each, then those between them."""
+    """Rays of all sides: first a few of each, then those between."""
     for starts, inwards in sides:
         yield starts[COARSE // 2 :: COARSE], inwards[COARSE // 2 :: COARSE]
     for starts, inwards in sides:
@@ -116,7 +112,7 @@ def _coarse_first(sides: list[Rays]) -> Iterator[Rays]:
 def _bright(
     scan: Scan, starts: Array, inwards: Array, step: float, reach: float, threshold: float
 ) -> Iterator[tuple[float, float]]:
-    """Places (u, v) just behind what beams have met, where it is more than a speck."""
+    """Points (u, v) just behind the beams' discontinuities, if larger than a speck."""
     edges = beams(scan, starts, inwards, BRIGHTER, step, reach, wide=True)
     places = (edges.uv + SPAN * inwards)[edges.met]
     places = places[scan.inside(places)]
@@ -125,7 +121,7 @@ def _bright(
 
 
 def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:
-    """A side moves outwards as long as a line a little farther out still crosses the blob."""
+    """Grow a box: a side moves outwards while a line a little farther out crosses the blob."""
     box = [u - SPAN, v - SPAN, u + SPAN, v + SPAN]  # left, top, right, bottom
     sides = [_Side(scan, side) for side in range(4)]
     while sum(side.moves(box, threshold) for side in sides):
@@ -134,19 +130,19 @@ def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:
 
 
 class _Side:
-    """A side of a growing box. It sees the picture turned so that outwards is to later lines."""
+    """A side of a growing box, which sees the picture turned so that outwards is towards later lines."""
 
     def __init__(self, scan: Scan, side: int) -> None:
-        """`side`: its number in a box."""
+        """`side` is its index in a box."""
         self.number, self.upright, self.backwards = side, side % 2 == 0, side < 2
         self._clear: tuple[int, int, int] | None = None
-        """Line and places, outwards of which there was background only."""
+        """Line and range beyond which there was only background."""
         self._image, self._read = self._turned(scan.image), self._turned(scan.read)
         across, along, offset = scan.sides.T
         self._window = list(zip(*self._turned_window(across, along, offset), strict=True))
 
     def moves(self, box: list[int], threshold: float) -> bool:
-        """Move outwards in a box to where a line ahead crosses the blob, and on to the blob's end from there."""
+        """Move to where a line ahead crosses the blob, and on to the blob's end there; False if none does."""
         line = self._line(box[self.number])
         low, high = (box[1], box[3]) if self.upright else (box[0], box[2])
         if (line, low, high) == self._clear:
@@ -170,20 +166,20 @@ class _Side:
         return turned[::-1] if self.backwards else turned
 
     def _line(self, place: int) -> int:
-        """The line of a row or column of the picture, and the other way round."""
+        """Converts between picture row or column and line."""
         return len(self._image) - 1 - place if self.backwards else place
 
     def _turned_window(
         self, u: Array, v: Array, offset: Array
     ) -> tuple[list[float], list[float], list[float]]:
-        """The window's sides: what is added for each line outwards, for each point along it, and at the first."""
+        """The window's sides: increments per line outwards and per point along it, and offset."""
         outwards, along = (u, v) if self.upright else (v, u)
         if self.backwards:
             offset, outwards = offset + outwards * (len(self._image) - 1), -outwards
         return outwards.tolist(), along.tolist(), offset.tolist()
 
     def _in_window(self, first: int, last: int, low: int, high: int) -> tuple[int, int]:
-        """What of places `low` to `high` lies within the window on all lines from `first` to `last`."""
+        """The part of `low` to `high` within the window on all lines from `first` to `last`."""
         for outwards, along, offset in self._window:
             least = offset + outwards * (last if outwards < 0 else first)
             if along > 0:
@@ -205,7 +201,7 @@ class _Side:
         return means
 
     def _end(self, line: int, middle: int, threshold: float) -> int:
-        """The last line that is reached from a line through the blob, straight outwards."""
+        """The last bright line straight outwards from a line through the blob."""
         far = len(self._image) - 1 - MARGIN
         for outwards, along, offset in self._window:
             if outwards < 0:

@@ -1,8 +1,8 @@
-"""Camera-arm calibration: where the camera really stands, from spots the arm has carried through its view.
+"""Camera-arm calibration: fits the camera model to spots that the arm has carried through its view.
 
-The arm holds a lamp at known places and the camera sees it with both lenses. The model of the camera is
-fitted to what was seen, held near its drawing by what a careful mechanic can be off by. The arm's own error,
-about a tenth of an inch, is the floor: the residual shows it.
+The arm holds a lamp at known places and the camera sees it with both lenses. The model is fitted to the sightings, with
+priors from what a careful mechanic can be off by. The arm's own error, about a tenth of an inch, is the floor, which
+the residual shows.
 """
 
 from collections.abc import Sequence
@@ -21,50 +21,41 @@ TURN_PRIOR: Final = 2 * DEGREE  # sigma, of pan, tilt and roll
 SCALE_PRIOR: Final = 0.01  # sigma, of the focal lengths
 SIGHT_ERROR: Final = 0.13 * INCH  # sigma: .1 in of the arm and .07 deg of the pots at 65 in
 """Weak priors of the vision study, section 3."""
-FEWEST: Final = 6
-"""Sightings for a lens. Below, priors decide more than sight does; 12 to 20 are good."""
+MIN_SIGHTINGS: Final = 6
+"""Sightings per lens. Fewer let priors decide; 12 to 20 are good."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sighting:
-    """A lamp at a known place, seen in a picture."""
+    """A lamp at a known place, seen in a picture at (u, v)."""
 
-    lens: float
-    """Focal length, m."""
-    pan: float
-    """Pot reading, rad."""
+    lens: float  # focal length, m
+    pan: float  # potentiometer reading, rad, as tilt
     tilt: float
     u: float
     v: float
-    point_W: tuple[float, float, float]
-    """Where the arm says the lamp is, m."""
+    point_W: tuple[float, float, float]  # by the arm, m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Calibration:
-    """A fitted camera and how well it agrees with the sightings."""
+    """A fitted camera, and its root mean square deviations from the sightings."""
 
     model: CameraModel
-    residual_px: dict[float, float]
-    """Root mean square distance in the picture for each lens (by focal length, m)."""
-    residual_m: float
-    """Root mean square horizontal distance, at the height of each lamp."""
+    residual_px: dict[float, float]  # in the picture, by focal length (m)
+    residual_m: float  # horizontal, at the height of each lamp
 
 
 def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibration:
-    """Fit the camera to the sightings, starting from its drawing. Lenses never seen with keep their drawing.
-
-    Raises:
-        InvalidInput: fewer than six sightings with a lens, or a lens that the drawing does not have.
-    """
+    """Fit the camera to the sightings, starting from its drawing. Lenses never seen with keep their drawing."""
     from scipy.optimize import least_squares
 
     used = sorted({drawing.lens(s.lens).focal_length for s in sightings})
     for focal_length in used:
         count = sum(drawing.lens(s.lens).focal_length == focal_length for s in sightings)
-        if count < FEWEST:
+        if count < MIN_SIGHTINGS:
             raise BadArgument(
-                f"{count} sightings with the {focal_length * 1000:.0f} mm lens; at least {FEWEST} are needed"
+                f"{count} sightings with the {focal_length * 1000:.0f} mm lens; at least {MIN_SIGHTINGS} are needed"
             )
     if not used:
         raise BadArgument("no sightings to calibrate the camera with")
@@ -84,7 +75,7 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
 
 
 def moved(drawing: CameraModel, x: Array) -> CameraModel:
-    """The drawing changed by parameters in units of their priors."""
+    """The drawing with parameters in units of their priors."""
     mount = np.array(drawing.mount) + x[:3] * PLACE_PRIOR
     lenses = tuple(
         replace(
@@ -113,7 +104,7 @@ def _miss_px(model: CameraModel, s: Sighting) -> Array:
 
 
 def _miss(model: CameraModel, s: Sighting) -> Array:
-    """Distance between the lamp and the line of sight, across it, in columns and rows direction, m."""
+    """Distance of the lamp from the line of sight, along columns and rows, m."""
     view = _view(model, s)
     distance = float(np.linalg.norm(np.array(s.point_W) - view.X_WC[:3, 3]))
     return np.asarray(_miss_px(model, s) / view.focal * distance)

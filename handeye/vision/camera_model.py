@@ -1,4 +1,4 @@
-"""The television camera as the program models it: a pan/tilt mount, a two-lens turret, a raster of points.
+"""The television camera model: a pan/tilt mount, a two-lens turret, a raster of points.
 
 Camera frame C: x along the lines (column u grows), y down the lines (row v grows), z forward. A picture point
 (u, v) counts from the centre of the first point of the first line. The camera looks along table -y at pan 0
@@ -17,9 +17,8 @@ from handeye.core.pose import Array, Pose, pose
 from handeye.ports.camera import COLUMNS, RASTER, ROWS
 
 CENTRE: Final = ((COLUMNS - 1) / 2, (ROWS - 1) / 2)
-SHORTEST: Final = 0.001
-LONGEST: Final = 1.0
-"""m, focal lengths of any lens."""
+MIN_FOCAL_LENGTH: Final = 0.001
+MAX_FOCAL_LENGTH: Final = 1.0
 
 
 def in_picture(points: Array) -> bool:
@@ -29,48 +28,37 @@ def in_picture(points: Array) -> bool:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LensModel:
-    """One lens of the turret."""
+    """A lens of the turret; offsets from the crossing of pan and tilt axes to the centre of projection, m."""
 
-    focal_length: float
-    """m, as engraved; the name of the lens."""
-    scale: float = 1.0
-    """True focal length over the engraved one."""
-    forward: float
-    """m, from the crossing of the pan and tilt axes to the centre of projection, along the line of sight."""
-    up: float
-    """m, the same, upwards in the picture."""
+    focal_length: float  # as engraved, m; names the lens
+    scale: float = 1.0  # true over engraved focal length
+    forward: float  # along the line of sight
+    up: float  # in the picture
     side: float = 0.0
-    """m, the same, to the right in the picture. Calibration leaves it as drawn: it looks like an error of pan."""
+    """To the right in the picture. Calibration leaves it as drawn: it looks like an error of pan."""
 
     def __post_init__(self) -> None:
-        """Raises ValueError if no lens is such: what is read from a file would ask for pictures without end."""
-        if not SHORTEST <= self.focal_length * self.scale <= LONGEST:
+        """Raise ValueError for an impossible lens, as pictures would take forever."""
+        if not MIN_FOCAL_LENGTH <= self.focal_length * self.scale <= MAX_FOCAL_LENGTH:
             raise ValueError(f"no lens has a focal length of {self.focal_length * self.scale:g} m")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraModel:
-    """Where the camera stands and how it is built. What its pictures show follows from this and two pots.
+    """Position and build of the camera, which with two potentiometer readings determine its view.
 
-    The form (mount, two zero errors, roll, focal scale and offset per lens) is that of research on this cell:
-    it carries over between aims and lenses, which a 3x4 collineation does not.
+    The form (mount, two zero errors, roll, focal scale and offset per lens) is that of research on this cell: unlike a
+    3x4 collineation it carries over between aims and lenses.
     """
 
-    mount: tuple[float, float, float]
-    """Crossing of the pan and tilt axes, W, m."""
-    pan0: float = 0.0
-    """True pan minus pot reading, rad."""
+    mount: tuple[float, float, float]  # crossing of pan and tilt axes in W, m
+    pan0: float = 0.0  # true minus potentiometer, rad, as tilt0
     tilt0: float = 0.0
-    roll: float = 0.0
-    """Turn of the raster about the line of sight, rad, clockwise seen from behind the camera."""
+    roll: float = 0.0  # of the raster about the line of sight, rad, clockwise from behind
     lenses: tuple[LensModel, ...]
 
     def lens(self, focal_length: float) -> LensModel:
-        """The lens of that engraved focal length.
-
-        Raises:
-            InvalidInput: no such lens.
-        """
+        """The lens of an engraved focal length (m); raises NoSuchName."""
         for lens in self.lenses:
             if math.isclose(lens.focal_length, focal_length, rel_tol=1e-6):
                 return lens
@@ -78,19 +66,11 @@ class CameraModel:
         raise BadArgument(f"no lens of {focal_length * 1000:.0f} mm in the turret; it has {known}")
 
     def view(self, focal_length: float, pan: float, tilt: float) -> "View":
-        """View with that lens at these pot readings (rad).
-
-        Raises:
-            InvalidInput: no such lens.
-        """
+        """View with that lens at these pot readings (rad)."""
         return View(model=self, lens=self.lens(focal_length), pan=pan, tilt=tilt)
 
     def aim(self, point_W: Array | tuple[float, float, float], focal_length: float) -> tuple[float, float]:
-        """Pot readings (pan, tilt), rad, that bring a point, shape (3,), m, to the middle of the picture.
-
-        Raises:
-            InvalidInput: no such lens.
-        """
+        """Pot readings (pan, tilt), rad, that bring a point, shape (3,), m, to the middle of the picture."""
         pan, tilt = 0.0, 0.0
         for _ in range(6):  # the offset of the lens from the axes makes the solution slightly implicit
             X_WC = self.view(focal_length, pan, tilt).X_WC
@@ -102,12 +82,11 @@ class CameraModel:
 
 @dataclass(frozen=True, kw_only=True)
 class View:
-    """A camera at one setting: where points of the world fall in the picture, and back."""
+    """A camera at one setting: projects points of the world to the picture, and back."""
 
     model: CameraModel
     lens: LensModel
-    pan: float
-    """Pot reading, rad."""
+    pan: float  # potentiometer reading, rad, as tilt
     tilt: float
 
     @cached_property
@@ -136,20 +115,20 @@ class View:
         return np.asarray(p[:, :2] / p[:, 2:] * focal + CENTRE)
 
     def back_project(self, uv: Array, z: float) -> Array:
-        """Points, shape (n, 3), m, at height `z` that are seen at `uv`, shape (n, 2)."""
+        """Points, shape (n, 3), m, at height `z` that appear at `uv`, shape (n, 2)."""
         X_WC = self.X_WC
         rays = self.rays(uv)
         return np.asarray(X_WC[:3, 3] + rays * ((z - X_WC[2, 3]) / rays[:, 2:]))
 
     def rays(self, uv: Array) -> Array:
-        """Directions in W, shape (n, 3), of points (u, v), shape (n, 2); length 1 along the line of sight."""
+        """Directions in W, shape (n, 3), of points (u, v), shape (n, 2), with unit depth."""
         slopes = (np.atleast_2d(uv) - CENTRE) / self.focal
         in_camera = np.ones((len(slopes), 3))
         in_camera[:, :2] = slopes
         return np.asarray(in_camera @ self.X_WC[:3, :3].T)
 
     def resolution(self, point_W: Array) -> tuple[float, float]:
-        """Picture points per metre, along the lines and across them, of the horizontal plane there."""
+        """Picture points per metre of the horizontal plane there, along the lines and across."""
         uv = self.project(point_W) + np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
         around = self.back_project(uv, float(np.ravel(point_W)[2]))
         across, down = np.linalg.norm(around[1:] - around[0], axis=1)

@@ -1,4 +1,4 @@
-"""The convex blob characteriser: centre, width and height of a convex blob by bouncing around inside it.
+"""The convex blob characteriser: centre, width and height of a convex blob by bouncing inside it.
 
 `fit_circle` is an addition of ours to the period's primitives, made of the same beams: bouncing uses four
 points of the border, the fit up to 24.
@@ -22,12 +22,12 @@ RAYS: Final = 24
 
 
 class Blob(NamedTuple):
-    """A convex blob."""
+    """A convex blob, in picture points."""
 
     u: float
     v: float
     width: float
-    """Length of the last chord along the lines, points."""
+    """Length of the last chord along the lines."""
     height: float
     bounces: int
 
@@ -79,7 +79,7 @@ def _chord(
     wide: bool,
     beyond: float,
 ) -> tuple[Edge, Edge] | None:
-    """What two beams from a start, one either way, meet."""
+    """The edges that two opposite beams from a start meet."""
     du, dv = direction
     back = walk(scan, start, (-du, -dv), polarity, step, reach, wide=wide, beyond=beyond)
     ahead = walk(scan, start, (du, dv), polarity, step, reach, wide=wide, beyond=beyond) if back else None
@@ -98,9 +98,9 @@ def rim(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Array:
-    """Points (u, v) of the border around a centre, shape (`rays`, 2), by angle; NaN where none is met.
+    """Border points (u, v) around a centre, shape (`rays`, 2), by angle; NaN where none is met.
 
-    `inner`: how far from the centre beams begin, points; the border is farther.
+    Beams begin `inner` points from the centre.
     """
     borders = rims(
         scan, np.array([centre]), step, np.array([reach]),
@@ -121,9 +121,9 @@ def rims(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Array:
-    """The borders around several centres at once, shape (n, `rays`, 2), sooner than one by one.
+    """Border points around several centres at once, shape (n, `rays`, 2), faster than one by one.
 
-    Centres: shape (n, 2); `reach` and `inner`: of each, shape (n,).
+    Centres have shape (n, 2), `reach` and `inner` shape (n,).
     """
     spokes = _spokes(rays)
     starts = centres[:, None] + inner[:, None, None] * spokes
@@ -145,10 +145,9 @@ def _spokes(rays: int) -> Array:
 
 
 def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[float, float] | None:
-    """Centre (x, y), m, of a circle of known diameter (m) at height `z`.
+    """Centre (x, y), m, of a circle of known diameter (m) at height `z`, from its border points, shape (n, 2).
 
-    From points (u, v) of its border, shape (n, 2), of which some may be NaN.
-    Points that disagree (shadows, noise) are dropped; None with fewer than half the rays left.
+    Points that are NaN or disagree (shadows, noise) are dropped; None with fewer than half the rays left.
     """
     met = points[~np.isnan(points[:, 0])]
     if len(met) < RAYS // 2:
@@ -171,13 +170,13 @@ def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[fl
 
 
 def _median(values: Array) -> float:
-    """The middle value; of an even number of them the mean of two. np.median takes thirty times as long."""
+    """The median; np.median takes thirty times as long."""
     ordered, half = sorted(values.tolist()), len(values) // 2
     return float(ordered[half] + ordered[-1 - half]) / 2
 
 
 def _least_squares(a: Array, b: Array, c: Array) -> tuple[float, float] | None:
-    """The numbers p, q for which a p + b q comes nearest to c; None if there are none such."""
+    """Least squares solution p, q of a p + b q = c; None if singular."""
     aa, ab, bb = float(a @ a), float(a @ b), float(b @ b)
     ac, bc = float(a @ c), float(b @ c)
     determinant = aa * bb - ab * ab

@@ -1,4 +1,4 @@
-"""Overlays for people: marks drawn on the picture that they belong to."""
+"""Draws marks on a picture."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -10,20 +10,15 @@ from numpy.typing import NDArray
 from handeye.ports.camera import Picture
 from handeye.vision.marks import Disc, Line, Loop, Mark, Point
 
-Image = NDArray[np.uint8]
-"""Blue, green, red of every pixel, shape (height, width, 3)."""
+Image = NDArray[np.uint8]  # blue, green, red, (height, width, 3)
 
 SCALE: Final = 3
-FARTHEST: Final = 10_000.0
-"""Picture points from the middle of the first one within which a mark is drawn, or cut off by the picture's edge."""
+MAX_COORDINATE: Final = 10_000.0
+"""Limit on coordinates of marks, in picture points."""
 
 
 def annotate(picture: Picture, marks: Sequence[Mark], scale: int = SCALE) -> Image:
-    """The picture, enlarged, with marks on it.
-
-    Raises:
-        ValueError: a mark is farther from the picture than anything that was found in it.
-    """
+    """The enlarged picture with marks; raises ValueError for a mark too far outside."""
     grey = np.clip(picture * 17, 0, 255).astype(np.uint8)
     large = np.repeat(np.repeat(grey, scale, axis=0), scale, axis=1)
     image: Image = np.repeat(large[:, :, None], 3, axis=2)
@@ -46,8 +41,8 @@ def _draw(image: Image, mark: Mark, scale: int) -> None:
 
 
 def _pixel(point: Point, scale: int) -> tuple[int, int]:
-    """The pixel of a picture point; the middle of a point is not its corner."""
+    """The pixel at the middle of a picture point."""
     u, v = point
-    if not max(abs(u), abs(v)) <= FARTHEST:
+    if not max(abs(u), abs(v)) <= MAX_COORDINATE:
         raise ValueError(f"a mark at ({u:g}, {v:g}) belongs to no picture")
     return round((u + 0.5) * scale), round((v + 0.5) * scale)

@@ -1,4 +1,4 @@
-"""What beams look for: a discontinuity of intensity along a ray through the picture."""
+"""Edges: discontinuities of intensity along a ray through the picture."""
 
 from typing import Final, Literal, NamedTuple
 
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from handeye.core.pose import Array
 
 SPAN: Final = 3
-"""Points averaged on either side of a discontinuity: means of 2 are too noisy at one level of noise."""
+"""Points averaged on either side of a discontinuity; means of 2 are too noisy at one level of noise."""
 
 BRIGHTER: Final = 1
 DARKER: Final = -1
@@ -16,30 +16,28 @@ Polarity = Literal[1, -1]
 
 
 class Edge(NamedTuple):
-    """A discontinuity met by a beam."""
+    """An edge: intensities before and after it on the beam, and its distance from the start, points."""
 
     u: float
     v: float
     before: float
-    """Intensity on the side the beam came from."""
     after: float
     length: float
-    """Points from the start of the beam."""
 
 
 class Edges(NamedTuple):
-    """What several beams have met; each array has a row for each beam."""
+    """Edges of several beams, a row each."""
 
     met: NDArray[np.bool_]
-    """Whether it met anything. What the others say of a beam that did not is of no meaning."""
+    """Whether the beam met an edge; the other fields are meaningless if not."""
     uv: Array
-    """Where, shape (n, 2)."""
+    """Position of the edge, shape (n, 2)."""
     before: Array
     after: Array
     length: Array
 
     def edge(self, n: int) -> Edge | None:
-        """What beam number `n` met."""
+        """The edge of beam `n`, if it met one."""
         if not self.met[n]:
             return None
         (u, v), before, after = self.uv[n].tolist(), float(self.before[n]), float(self.after[n])

@@ -1,9 +1,8 @@
-"""Is the gasket on properly? A picture taken after is compared with one taken before.
+"""Inspects a gasket by comparing pictures taken before and after it was put on.
 
-In their difference the gasket is a bright blob with two dark holes. Where either base or
-gasket has a hole there is little difference, so that a displaced gasket shows the *union* of both holes: its
-centre moves by half the displacement only, but its border on one side by all of it. Hence two tests, of
-centre and of rim.
+In their difference the gasket is a bright blob with two dark holes. Where either base or gasket has a hole there is
+little difference, so that a displaced gasket shows the *union* of both holes: its centre moves by half the displacement
+only, but its border on one side by all of it. Hence two tests, of centre and of rim.
 """
 
 import math
@@ -33,48 +32,46 @@ from handeye.vision.holes import hole_places
 from handeye.vision.scan import Scan
 
 ABSENT: Final = 2.2
-"""Mean difference, levels, where the gasket should be, below which there is none."""
+"""Mean difference, levels, below which there is no gasket."""
 STEP: Final = (1.8, 0.3)
-"""Least step across a border of the gasket: levels, and share of the difference it makes."""
+"""Least step across a border of the gasket: levels, and fraction of its difference."""
 CENTRE_SHIFT: Final = 0.09 * INCH
 RIM_SHIFT: Final = 0.10 * INCH
-"""Most that centre and rim may be off. These four: vision study, section 4."""
-BESIDE: Final = 0.3 * INCH
-"""From the border of a hole to where the gasket's difference is measured."""
+"""Most that centre and rim may be off, m. These four: vision study, section 4."""
+BESIDE: Final = 0.3 * INCH  # from a hole's border to where the difference is measured, m
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
-"""In the picture before: share of the contrast that is a border, and of the face's level that is face."""
+"""In the picture before: fraction of the contrast that is a border, and of the face's level that is face."""
 ROUNDS: Final = 2
-"""Times that the largest hole of the base is looked for: from where it should be, and from where that has found it."""
+"""Searches for the base's largest hole, each starting from the one before."""
 RAYS: Final = 32
 WINDOW: Final = 9
-"""Neighbouring rays whose median counts: a quarter of the rim, wider than what an aligning pin hides."""
+"""Neighbouring rays whose median counts: a quarter of the rim, wider than an aligning pin hides."""
 CLEAR: Final = 0.06 * INCH
-"""The base's border in the picture before counts where it is this near to the circle that it is seen as. How large that
-is tells the camera's scale, which may be 5 % off (high level, seed 54010)."""
+"""Border points of the base count within this (m) of its apparent circle.
+
+Its apparent size shows the camera's scale, which may be 5 % off (high level, seed 54010).
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GasketInspection:
-    """Findings on the gasket. Centres are (u, v) in the picture, largest hole first."""
+    """Result of an inspection. Centres are (u, v) in the picture, largest hole first."""
 
-    cause: InspectionCause | None
-    """Why it is not on properly; None: it is."""
-    expected: tuple[tuple[float, float], ...]
-    """Where the centres of the large holes should be: by the pose of the base, moved to where its largest is seen."""
-    found: tuple[tuple[float, float] | None, ...]
-    """Where they are found in the difference."""
+    cause: InspectionCause | None  # None: it is on properly
+    expected: tuple[tuple[float, float], ...]  # by the base's pose, corrected by its largest hole
+    found: tuple[tuple[float, float] | None, ...]  # in the difference
     shift: float | None
-    """The most that the border of a hole is displaced, m; None if no border is found."""
+    """Greatest displacement of a hole's border, m; None if no border is found."""
 
     @property
     def ok(self) -> bool:
-        """It is on properly."""
+        """True if it is on properly."""
         return self.cause is None
 
 
 def difference(before: Picture, after: Picture) -> NDArray[np.float32]:
-    """|after - before| at every point of the first, with what has not changed in one place."""
+    """|after - before| at every point of the first, aligned by what has not changed."""
     from handeye.vision.alignment import aligned  # takes OpenCV, without which plans are made
 
     return np.abs(aligned(after, to=before) - before.astype(np.float32))
@@ -85,11 +82,8 @@ def inspect(
 ) -> GasketInspection:
     """Compare pictures of a part at `pose` (x, y m, yaw rad) before and after a gasket was put on it.
 
-    Both must be taken with one aim and one target voltage, and with the arm in one place: its shadow is the
-    main enemy. The second is aligned with the first by what has not changed in it.
-
-    Raises:
-        InvalidInput: the program does not give two holes of the part.
+    Both must be taken with one aim and one target voltage, and with the arm in one place: its shadow is the main enemy.
+    The second is aligned with the first by what has not changed. The part must have two holes.
     """
     if len(part.holes) < 2:
         raise BadArgument("a gasket can be inspected only by two holes; the program gives fewer of the part")
@@ -124,10 +118,10 @@ _NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
 
 
 def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
-    """Places of the base's holes, shape (2, 3), m, moved by what the largest lies off its own in the picture before.
+    """Places of the base's holes, shape (2, 3), m, shifted by the error of the largest in the picture before.
 
-    The mount stands beside what its potentiometers tell, by more than the border of a hole is wide at times; the arm
-    knows the place of the base better than that. Where the hole is not found, they are as they were.
+    The mount may be off its potentiometers by more than the border of a hole is wide; the arm knows the base's place
+    better. Where the hole is not found, they stay.
     """
     for _ in range(ROUNDS):
         steps = _base_steps(old, view, places[0], part.holes[0])
@@ -139,14 +133,14 @@ def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
 
 
 class _BaseSteps(NamedTuple):
-    """Levels: least step across a border in the picture before, and what is face there."""
+    """Levels: least step across a border in the picture before, and brightness of the face there."""
 
     before: float
     face: float
 
 
 class _Steps(NamedTuple):
-    """Levels: least step across a border in the difference, in the picture before, and what is face there."""
+    """Levels: least steps across a border in the difference and in the picture before, and brightness of the face."""
 
     after: float
     before: float
@@ -155,7 +149,7 @@ class _Steps(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Check:
-    """Finding on one hole; no fault if all is well."""
+    """Result for one hole; no fault if all is well."""
 
     fault: BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff | None = None
     found: tuple[float, float] | None = None
@@ -180,7 +174,7 @@ def _check(name: LargeHole, new: Scan, old: Scan, view: View, place: Array, hole
 
 
 def _levels(new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Steps:
-    """Steps for one hole. The darkest quarter of its surroundings counts: a shadow may lie across."""
+    """Steps for one hole, by the darkest quarter of its surroundings, as a shadow may lie across."""
     gasket = float(np.percentile(_around(new, view, place, hole), 25))
     base = _base_steps(old, view, place, hole)
     return _Steps(after=max(STEP[0], STEP[1] * gasket), before=base.before, face=base.face)
@@ -195,7 +189,7 @@ def _base_steps(old: Scan, view: View, place: Array, hole: Hole) -> _BaseSteps:
 
 
 def _around(scan: Scan, view: View, place: Array, hole: Hole) -> Array:
-    """Intensities on a ring around a hole, where there is face or gasket and little else, shape (24,)."""
+    """Intensities on a ring around a hole, of face or gasket and little else, shape (24,)."""
     return np.asarray(scan.patches(_ring(view, place, hole), 1).mean(axis=(1, 2)))
 
 
@@ -209,10 +203,10 @@ def _ring(view: View, place: Array, hole: Hole) -> Array:
 def _centre(
     scan: Scan, view: View, place: Array, hole: Hole, step: float, beyond: float = 0.0
 ) -> tuple[float, float] | None:
-    """Centre (x, y), m, of the hole that is expected at a place, shape (3,), m.
+    """Centre (x, y), m, of the hole expected at a place, shape (3,), m.
 
-    By the characteriser, as when the base is found, and a circle about what it finds; about the place itself where an
-    aligning pin stands in the way of the characteriser's beams, which are but four.
+    By the characteriser, as for the base, and a fitted circle about the result; about the place itself where an
+    aligning pin blocks one of the characteriser's four beams.
     """
     seed, reach = _seen(view, place, hole)
     blob = characterise(scan, seed, step, reach, wide=True, beyond=beyond)
@@ -228,16 +222,16 @@ def _border(scan: Scan, view: View, place: Array, hole: Hole, step: float, beyon
 
 
 def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], float]:
-    """Where a place is in the picture, and how far its hole's border may be from there, points."""
+    """A place in the picture, and how far from there its hole's border may be, points."""
     u, v = view.project(place)[0].tolist()
     return (u, v), 0.9 * hole.diameter * view.resolution(place)[0]
 
 
 def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _Steps) -> float | None:
-    """Bulge of the border of the difference about the base's hole at `centre`, shape (3,), m.
+    """Bulge (m) of the difference's border about the base's hole at `centre`, shape (3,), m.
 
-    Against its own median radius: half of the border of a union of two discs is nearly undisturbed. Only
-    where the base's border is seen in the picture before: an aligning pin may stand in front of it.
+    Against its own median radius: half of the border of a union of two discs is nearly undisturbed. Only where the
+    base's border is seen in the picture before: an aligning pin may stand in front of it.
     """
     radii = []
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):

@@ -1,4 +1,4 @@
-"""Finding the large holes of a part in a picture of it: where they should be, or else by beams all over it."""
+"""Finds the large holes of a part in a picture: where expected, or else by beams all over it."""
 
 import math
 from typing import Final, NamedTuple
@@ -19,30 +19,25 @@ from handeye.vision.scan import Scan
 ELONGATION: Final = (0.6, 1.65)
 SIZES: Final = (0.55, 1.3)
 """Accepted sizes, over the diameters of the smallest and the largest hole."""
-SEED: Final = 4
-"""Points inside the border where bouncing starts."""
+SEED: Final = 4  # points inside the border where bouncing starts
 
 # All figures above: vision study, sections 1.2 and 1.3.
 
 INNER: Final = 0.25
-"""Where beams to the border of a hole begin, over its smaller width: half-way to it."""
+"""Start of beams to a hole's border, over its smaller width: half-way to it."""
 ANGLES: Final = np.linspace(-TURN, TURN, 7)
-"""Of beams from the largest hole to the second, from where it is planned: none can pass between two of them."""
+"""Angles of beams from the largest hole to the second about its planned direction; no hole fits between two."""
 BEFORE: Final = 0.35 * INCH
-"""Before the border of the second hole, where those beams begin: beyond the screw holes about the first."""
+"""Start of those beams before the second hole's border, m: beyond the screw holes about the first."""
 
 
 class HoleSearch(NamedTuple):
-    """One way to look for holes: how closely, and for how clear a border."""
+    """Parameters of a search for holes: beam spacing and contrast of a border."""
 
-    spacing: int
-    """Points between beams."""
-    wide: bool
-    """Average over three points across a beam."""
-    contrast: float
-    """Step that is an edge, as a share of the contrast in the box."""
-    face: float = 0.72
-    """Least brightness around a hole, as a share of the level of the machined face."""
+    spacing: int  # points between beams
+    wide: bool  # averages over three points across a beam
+    contrast: float  # of an edge, as a fraction of the box's
+    face: float = 0.72  # least brightness around a hole, over the machined face's
 
 
 SEARCHES: Final = (
@@ -52,19 +47,20 @@ SEARCHES: Final = (
     HoleSearch(5, True, 0.20),
     HoleSearch(5, True, 0.20, face=0.4),
 )
-"""Tried in this order: starting with a small step finds more that is not a hole. The last is for the shadow
-of the arm across the face, which the vision study did not have."""
+"""Tried in this order: a small step first would find more that is no hole. The last is for the arm's shadow across
+the face, which the vision study did not have.
+"""
 
 
 class Levels(NamedTuple):
-    """Intensities in a box about the part."""
+    """Intensities in a box around the part."""
 
     face: float
     dark: float
 
     @classmethod
     def measure(cls, scan: Scan, box: BoundingBox) -> "Levels":
-        """From every fourth point of every fourth line."""
+        """Measured on every fourth point of every fourth line."""
         where = np.s_[box.top : box.bottom : 4, box.left : box.right : 4]
         scan.read[where] = True
         ordered = np.sort(scan.image[where], axis=None)
@@ -72,12 +68,12 @@ class Levels(NamedTuple):
         return cls(face=face, dark=dark)
 
     def step(self, search: HoleSearch) -> float:
-        """Least difference of intensity for an edge; two levels are a few times the noise."""
+        """Least step of an edge; two levels are a few times the noise."""
         return max(2.0, search.contrast * (self.face - self.dark))
 
 
 class HoleFinder:
-    """Looks for the holes of a part in one way."""
+    """Searches for the holes of a part with one set of parameters."""
 
     def __init__(
         self,
@@ -88,18 +84,17 @@ class HoleFinder:
         levels: Levels,
         search: HoleSearch,
     ) -> None:
-        """`resolution`: picture points per metre of the part's upper face, along the lines and across them."""
+        """`resolution`: picture points per metre of the part's upper face, along lines and across."""
         self._scan, self._view, self._part, self._search = scan, view, part, search
         self._z = part.at[2] + part.face
         self._across, self._down = resolution
         self._step, self._bright = levels.step(search), search.face * levels.face
 
     def expected(self, place: tuple[float, float], *, shaded: bool = False) -> list[Candidate]:
-        """The largest hole where the part's reference point (x, y), m, lets it be expected, and what is around it.
+        """The largest hole where the part's reference point (x, y), m, puts it, and holes around it.
 
-        The second hole is met by beams that go out from the first, at all angles that the part may be turned by.
-        `shaded`: a shadow lies across the border of the first, and stops one of the characteriser's four beams; a
-        circle of its size is looked for instead.
+        The second hole is met by beams from the first, at all angles that the part may be turned by. `shaded`: a shadow
+        blocks one of the characteriser's four beams on the first, so a circle of its size is fitted instead.
         """
         part = self._part
         seed = self._view.project(hole_places(part, (*place, part.at[3]))[0])[0]
@@ -113,7 +108,7 @@ class HoleFinder:
         return found
 
     def _circle(self, middle: Array) -> Candidate | None:
-        """The largest hole, by as much of its border as is met around a place (u, v), and again around its centre."""
+        """The largest hole by the border met around a point (u, v), then around the fitted centre."""
         diameter = self._part.holes[0].diameter
         width, height = diameter * self._across, diameter * self._down
         for _ in range(2):
@@ -130,7 +125,7 @@ class HoleFinder:
         return Candidate(Blob(u=u, v=v, width=width, height=height, bounces=0), x, y, diameter)
 
     def _around(self, first: Candidate) -> Array:
-        """Places (u, v) just within what beams from the largest hole outwards meet, shape (n, 2)."""
+        """Points (u, v) just inside the edges met by beams from the largest hole, shape (n, 2)."""
         large, small = self._part.holes[:2]
         planned = self._part.at[3] + math.atan2(small.y - large.y, small.x - large.x)
         spokes = np.column_stack([np.cos(planned + ANGLES), np.sin(planned + ANGLES)])
@@ -145,7 +140,7 @@ class HoleFinder:
         return np.asarray((edges.uv + SEED * ahead)[edges.met & (edges.before >= self._bright)])
 
     def all_over(self, box: BoundingBox) -> list[Candidate]:
-        """Send beams through the box; at every step from the bright face to dark try the characteriser."""
+        """Send beams through the box, and characterise at every step from the bright face to dark."""
         found: list[Candidate] = []
         for seed in self._dark_steps(box):
             if not any(_within(seed, known.blob) for known in found):
@@ -153,7 +148,7 @@ class HoleFinder:
         return found
 
     def _dark_steps(self, box: BoundingBox) -> Array:
-        """Places (u, v) just behind every step from bright to dark on beams through the box, shape (n, 2)."""
+        """Points (u, v) just behind every step from bright to dark on beams through the box, shape (n, 2)."""
         starts, ahead, lengths = _lines(box, self._search.spacing)
         gone, line = np.zeros(len(starts)), np.arange(len(starts))
         steps: list[tuple[int, float]] = []
@@ -170,7 +165,7 @@ class HoleFinder:
         return np.array([starts[n] + k * ahead[n] for n, k in steps]).reshape(-1, 2)
 
     def _tried(self, seed: Array) -> Candidate | None:
-        """What the characteriser makes of a place, if that may be a hole of the part."""
+        """The characteriser's result at a point, if it may be a hole of the part."""
         reach = 1.35 * self._part.holes[0].diameter * self._across
         blob = characterise(
             self._scan, (float(seed[0]), float(seed[1])), self._step, reach,
@@ -183,7 +178,7 @@ class HoleFinder:
         return Candidate(blob, x, y, size)
 
     def refined(self, pair: Pair) -> Array | None:
-        """Centres of the two holes by fitted circles, shape (2, 2), m; None if a border is not seen well."""
+        """Centres of both holes by fitted circles, shape (2, 2), m; None if a border is not seen well."""
         blobs = [candidate.blob for candidate in pair]
         middles = np.array([(blob.u, blob.v) for blob in blobs])
         reach = np.array([0.75 * blob.width + 3 for blob in blobs])
@@ -200,7 +195,7 @@ class HoleFinder:
 
 
 def _size(width: float, height: float, part: Part) -> float | None:
-    """Mean diameter (m) of a blob that is round enough, and as large as a hole of the part may be."""
+    """Mean diameter (m) of a blob that is round enough and within the part's hole sizes."""
     size = math.sqrt(max(width * height, 0.0))
     is_round = ELONGATION[0] * height < width < ELONGATION[1] * height
     fits = SIZES[0] * part.holes[1].diameter < size < SIZES[1] * part.holes[0].diameter

@@ -1,4 +1,4 @@
-"""The holes of a part: which is which by their sizes, where they should be, and the pose that follows from them."""
+"""Identifies the holes of a part by size and distance, and derives its pose."""
 
 import itertools
 import math
@@ -16,20 +16,18 @@ from handeye.vision.scan import Scan
 SIZE_ERROR: Final = 0.22
 RATIO_ERROR: Final = 0.16
 DISTANCE_ERROR: Final = 0.16
-"""Of the distance between the two holes, relative."""
-TURN: Final = 50 * DEGREE
-"""The line of centres lies within this of the planned one."""
+"""Relative, of the distance between the two holes."""
+TURN: Final = 50 * DEGREE  # of the line of centres against plan, rad
 # All figures above: vision study, section 1.3.
 
 
 class Candidate(NamedTuple):
-    """A blob that may be a hole."""
+    """A blob that may be a hole, with its centre (m) and mean diameter (m)."""
 
     blob: Blob
     x: float
     y: float
     size: float
-    """Mean diameter, m."""
 
 
 class Pair(NamedTuple):
@@ -40,7 +38,7 @@ class Pair(NamedTuple):
 
 
 def classify(found: list[Candidate], part: Part) -> Pair | None:
-    """The two candidates whose sizes, distance and direction agree best with the part's two largest holes."""
+    """The two candidates whose sizes, distance and direction agree best with the part's largest holes."""
     large, small = part.holes[:2]
     distance = math.hypot(small.x - large.x, small.y - large.y)
     planned = part.at[3] + math.atan2(small.y - large.y, small.x - large.x)
@@ -69,7 +67,7 @@ def placed(centres: Array, part: Part) -> tuple[float, float, float]:
 
 
 def hole_places(part: Part, pose: tuple[float, float, float], *, screws: bool = False) -> Array:
-    """Centres of the large holes, or of the screw holes, shape (n, 3), m in W, of the part at a pose."""
+    """Centres of the large holes, or of the screw holes, of a part at a pose, shape (n, 3), m in W."""
     x, y, yaw = pose
     c, s = math.cos(yaw), math.sin(yaw)
     z = part.at[2] + part.face
@@ -82,7 +80,7 @@ def hole_places(part: Part, pose: tuple[float, float, float], *, screws: bool = 
 def dark_screw_holes(
     scan: Scan, view: View, part: Part, pose: tuple[float, float, float], face: float
 ) -> int:
-    """Count of the screw holes that are dark spots in the bright face, as they should be."""
+    """Number of screw holes seen as dark spots in the bright face."""
     places = view.project(hole_places(part, pose, screws=True))
     places = places[scan.inside(places)]
     around = np.sort(scan.patches(places, 6, 2).reshape(len(places), 49), axis=1)[:, 24]  # the median

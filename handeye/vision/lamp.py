@@ -1,4 +1,4 @@
-"""Finding the lamp on the hand: the bright spot that is in one picture and not in the other."""
+"""Finds the lamp on the hand: the bright spot in one of two pictures."""
 
 from typing import Final
 
@@ -9,13 +9,13 @@ from handeye.ports.camera import Picture
 from handeye.vision.alignment import aligned
 
 LEVEL: Final = 3.0
-"""Least mean difference over 3 x 3 points: six times the noise of such a mean."""
+"""Least mean difference over 3 x 3 points: six times its noise."""
 RADIUS: Final = 10
 """Points about the peak that count to its centre: the lamp seen near, with the 50 mm lens."""
 
 
 def find_spot(dark_picture: Picture, lit_picture: Picture) -> tuple[float, float] | None:
-    """Centre (u, v) of the spot that only the lit picture has, or None if there is none, or more than one."""
+    """Centre (u, v) of the spot that only the lit picture has; None unless there is exactly one."""
     difference = lit_picture.astype(np.float32) - aligned(dark_picture, to=lit_picture)
     smooth = cv2.blur(difference, (3, 3))
     v, u = np.unravel_index(int(np.argmax(smooth)), smooth.shape)

@@ -1,4 +1,4 @@
-"""Is a picture a live camera's? Its noise makes every picture of one another, even of a scene that stands still."""
+"""Tells a live camera's picture by its noise, which makes any two differ."""
 
 import numpy as np
 
@@ -6,10 +6,10 @@ from handeye.ports.camera import Picture
 
 
 def blank(picture: Picture) -> bool:
-    """Every point has the same intensity."""
+    """True if all points have one intensity."""
     return bool(picture.min() == picture.max())
 
 
 def repeated(picture: Picture, earlier: Picture) -> bool:
-    """Two pictures are the same, point by point."""
+    """True if two pictures are equal."""
     return np.array_equal(picture, earlier)

@@ -1,4 +1,4 @@
-"""Marks for people on a picture: what was found in it, in picture points, for whoever draws.
+"""Marks for what was found in a picture, in picture points.
 
 The box of general location is white; holes have a red cross and a yellow box, with the line of centres between them.
 The line of the first grasp is blue: picture 10 of the paper has these two lines. Expected centres of a gasket are red
@@ -14,10 +14,8 @@ from handeye.vision.gasket import GasketInspection
 from handeye.vision.grasp_line import GraspLine
 from handeye.vision.part_match import PartMatch
 
-Colour = tuple[int, int, int]
-"""Red, green, blue, each 0 to 255."""
-Point = tuple[float, float]
-"""u and v, which count from the centre of the first point of the first line."""
+Colour = tuple[int, int, int]  # red, green, blue, 0 to 255
+Point = tuple[float, float]  # u, v from the centre of the first point
 
 WHITE: Final = (255, 255, 255)
 RED: Final = (235, 40, 40)
@@ -27,37 +25,34 @@ BLUE: Final = (40, 110, 255)
 BOLD: Final = 2 / 3
 THIN: Final = 1 / 3
 ARM: Final = 4.0
-"""Length of the four arms of a cross, in points, as the diameter of a disc."""
+"""Arm length of a cross, and diameter of a disc, in points."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Loop:
-    """A closed line through points."""
+    """A closed line through points; `width` in points."""
 
     points: tuple[Point, ...]
     colour: Colour
     width: float = THIN
-    """Of the line, in points."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """A line from point to point."""
+    """A line; `width` in points."""
 
     ends: tuple[Point, Point]
     colour: Colour
     width: float = THIN
-    """In points."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Disc:
-    """A filled circle."""
+    """A filled circle; `diameter` in points."""
 
     centre: Point
     colour: Colour
     diameter: float = ARM
-    """In points."""
 
 
 Mark = Loop | Line | Disc
@@ -71,7 +66,7 @@ def marks(
     inspection: GasketInspection | None = None,
     match: PartMatch | None = None,
 ) -> list[Mark]:
-    """The marks of what was found in a picture, in the order in which they are drawn."""
+    """Marks for findings in a picture, in drawing order."""
     drawn: list[Mark] = []
     if general:
         left, top, right, bottom = general.box

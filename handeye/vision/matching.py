@@ -1,8 +1,8 @@
-"""Does a part stand in a picture as it stood in an earlier one?
+"""Tells whether a part stands in a picture as in an earlier one.
 
-Nothing is asked of how the part looks: what was seen then is what should be seen now. A vidicon does not put every
-picture in quite the same place; so the part is compared with what is around it. How far it has moved against that
-follows to parts of a point; whatever else has become of it shows as points that have changed. An addition of ours.
+No assumption is made on how the part looks: the earlier picture is the model. A vidicon does not put every picture in
+quite the same place, so the part is compared with its surroundings: its relative shift is measured to fractions of a
+point, and other changes show as changed points. An addition of ours.
 """
 
 from typing import Final
@@ -22,13 +22,18 @@ from handeye.vision.outline import silhouettes
 from handeye.vision.part_match import PartMatch
 
 MOVED: Final = 0.03 * INCH
-"""m that a part may seem to have moved. Of a pump at rest two pictures tell .02 to .07 mm, of one pushed to its
-blocks in between .13 and .16 (nominal seeds 3 and 15); a base .05 in off its place is wrong (reference test 59)."""
+"""m that a part may seem to have moved.
+
+Two pictures of a pump at rest show .02 to .07 mm, of one pushed to its blocks in between .13 and .16 (nominal seeds 3
+and 15); a base .05 in off its place is wrong (reference test 59).
+"""
 UNLIKE: Final = 0.02
-"""Share of the part's points that may have changed. Of a pump at rest none do; of one that was taken away, half."""
+"""Fraction of the part's points that may have changed: of a pump at rest none do; of one taken away, half."""
 BESIDE: Final = 12
-"""Points beside the part that tell neither of it nor of what is around it: the mount stands beside what its
-potentiometers tell, and a part throws a shadow."""
+"""Points beside the part that count neither to it nor to its surroundings.
+
+The mount stands beside what its potentiometers tell, and a part throws a shadow.
+"""
 
 
 def match(
@@ -36,10 +41,8 @@ def match(
 ) -> PartMatch | Failure:
     """Compare two pictures of a part at `pose` (x, y m, yaw rad).
 
-    Both must be taken with one aim and one target voltage, and with the arm in one place.
-
-    Raises:
-        InvalidInput: the program does not give the outline of the part.
+    Both must be taken with one aim and one target voltage, and with the arm in one place. The part must
+    have an outline.
     """
     if part.outline is None:
         raise BadArgument(
@@ -66,7 +69,7 @@ def match(
 
 
 def _points(hull: np.ndarray) -> tuple[Points, Points]:
-    """The points of a part with this hull, shape (n, 2), and those around it."""
+    """Masks of a part with this hull, shape (n, 2), and of its surroundings."""
     drawn = np.zeros((ROWS, COLUMNS), np.uint8)
     cv2.fillConvexPoly(drawn, np.rint(hull).astype(np.int32), 1)
     wide = cv2.dilate(drawn, np.ones((2 * BESIDE + 1, 2 * BESIDE + 1), np.uint8))
@@ -74,7 +77,7 @@ def _points(hull: np.ndarray) -> tuple[Points, Points]:
 
 
 def _on_face(view: View, part: Part, place: tuple[float, float], points: np.ndarray) -> float:
-    """The length of a shift in the picture (columns, rows) on the plane of the part's face, m."""
+    """Length (m) on the plane of the part's face of a shift in the picture (columns, rows)."""
     z = part.at[2] + part.face
     there = view.project(np.array([[*place, z]]))[0]
     first, second = view.back_project(np.array([there, there + points]), z)

@@ -1,4 +1,4 @@
-"""The outline of a part in a picture: where it may be, how it looks from there, and how large its box can be."""
+"""The outline of a part in a picture: where it may be, and how large its box can be."""
 
 from collections.abc import Callable
 from typing import Final
@@ -14,15 +14,15 @@ from handeye.vision.camera_model import View
 TURNS: Final = np.linspace(-40, 40, 9) * DEGREE
 WIDTHS: Final = (0.8, 1.2)
 HEIGHTS: Final = (0.75, 1.25)
-"""Accepted size of the box, over the range the model gives for all TURNS."""
+"""Accepted box size, over the range the model gives for all TURNS."""
 # All figures above: vision study, section 1.2.
 
 Rectangle = tuple[float, float, float, float]
-"""x from, y from, x to, y to, part coordinates, m."""
+"""x, y from, x, y to, part coordinates, m."""
 
 
 def fitting(view: View, part: Part) -> Callable[[BoundingBox], bool]:
-    """Whether a box is as large as that of the part's outline can be."""
+    """A test whether a box can be that of the part's outline."""
     sizes = np.ptp(silhouettes(view, part, part.at[:2], TURNS), axis=1)
     smallest = sizes.min(axis=0) * (WIDTHS[0], HEIGHTS[0])
     largest = sizes.max(axis=0) * (WIDTHS[1], HEIGHTS[1])
@@ -35,7 +35,7 @@ def fitting(view: View, part: Part) -> Callable[[BoundingBox], bool]:
 
 
 def window(view: View, part: Part, shrink: float = 0.0) -> Array:
-    """Corners (u, v) of where the part may be, shape (4, 2), smaller on each side by so many m."""
+    """Corners (u, v) of the region where the part may be, shape (4, 2), smaller on each side by `shrink` (m)."""
     assert part.region is not None
     assert part.outline is not None
     x, y, z, yaw = part.at
@@ -47,7 +47,7 @@ def window(view: View, part: Part, shrink: float = 0.0) -> Array:
 
 
 def _rotated(outline: Rectangle, yaws: Array) -> Array:
-    """Its corners turned about the reference point, shape (n, 4, 2), for each yaw, shape (n,)."""
+    """Corners turned about the reference point by `yaws`, shape (n,); shape (n, 4, 2)."""
     x0, y0, x1, y1 = outline
     corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
     c, s = np.cos(yaws), np.sin(yaws)
@@ -55,7 +55,7 @@ def _rotated(outline: Rectangle, yaws: Array) -> Array:
 
 
 def silhouettes(view: View, part: Part, place: tuple[float, float] | Array, turns: Array) -> Array:
-    """Picture points of the corners of the part's outline, on the ground and on top, shape (n, 8, 2), for each turn."""
+    """Picture points of the outline's corners on the ground and on top, shape (n, 8, 2), for each turn."""
     assert part.outline is not None
     corners = _rotated(part.outline, part.at[3] + turns) + np.asarray(place)
     solid = np.empty((len(corners), 2, 4, 3))

@@ -1,4 +1,4 @@
-"""A picture as the primitives read it, with an account of what they have read."""
+"""A picture as the primitives read it, with a record of what they have read."""
 
 import math
 from collections.abc import Sequence
@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from handeye.core.pose import Array
 
-Places = NDArray[np.intp]
-"""Numbers of points, line by line from the first."""
+Places = NDArray[np.intp]  # indices of points, line by line
 MARGIN: Final = 1
-"""Points at the border that no beam enters, so that it can be three points wide."""
+"""Border points that no beam enters, so that it can be three points wide."""
 
 
 class Scan:
@@ -39,7 +38,7 @@ class Scan:
         self.sides = np.array(
             [[1, 0, -low], [0, 1, -low], [-1, 0, self.columns - high], [0, -1, self.rows - high]], dtype=float
         )
-        """A line for each side, shape (n, 3): within it a*u + b*v + c is positive."""
+        """A line for each side, shape (n, 3): inside, a*u + b*v + c is positive."""
         self._lines = self.sides.tolist()
 
     def limit(self, quadrilateral: Array) -> None:
@@ -57,7 +56,7 @@ class Scan:
         return np.asarray((self._heights(places) > 0).all(axis=1))
 
     def runs(self, starts: Array, directions: Array) -> tuple[Array, Array]:
-        """How far rays may go back and ahead from starts within the window, points, shape (n,) each."""
+        """How far rays may go back and ahead within the window, points, shape (n,) each."""
         heights, slopes = self._heights(starts), directions @ self.sides[:, :2].T
         back, ahead = np.full((2, *heights.shape), np.inf)
         np.divide(heights, -slopes, out=ahead, where=slopes < -1e-9)
@@ -67,7 +66,7 @@ class Scan:
         return back.min(axis=1), nearest
 
     def run(self, u: int, v: int, du: int, dv: int) -> tuple[int, int]:
-        """How many points one ray may go back and ahead; ahead less than none from a start outside the window."""
+        """How many points one ray may go back and ahead; (0, -1) from a start outside the window."""
         back = ahead = math.inf
         for a, b, c in self._lines:
             height, slope = a * u + b * v + c, a * du + b * dv
@@ -80,30 +79,30 @@ class Scan:
         return math.floor(back), math.floor(ahead)
 
     def _heights(self, places: Array) -> Array:
-        """How far within each side of the window places lie, in no unit, shape (n, sides)."""
+        """Signed distances of places to the window's sides, not normalised, shape (n, sides)."""
         return np.asarray(places @ self.sides[:, :2].T + self.sides[:, 2])
 
     def levels(self, places: Places) -> NDArray[np.float32]:
-        """Intensities at points; those beyond the picture's ends are those at its ends."""
+        """Intensities at points, clipped to the picture."""
         return self.image.take(places, mode="clip")
 
     def account(self, places: Places) -> None:
-        """Note that points have been read."""
+        """Record that points have been read."""
         self._read[places] = True
 
     def summed(self, starts: Sequence[int], length: int, stride: int) -> list[float]:
-        """Intensities on straight lines side by side that begin at these points, added across."""
+        """Intensities on parallel lines that begin at these points, summed across."""
         ends = [slice(start, start + length * stride, stride) for start in starts]
         lines: list[Any] = [self._levels[each].tolist() for each in ends]
         return lines[0] if len(lines) == 1 else [sum(across) for across in zip(*lines, strict=True)]
 
     def account_lines(self, starts: Sequence[int], length: int, stride: int) -> None:
-        """Note that so many points of such lines have been read."""
+        """Record that points of such lines have been read."""
         for start in starts:
             self._read[start : start + length * stride : stride] = True
 
     def patches(self, places: Array, radius: int, stride: int = 1) -> NDArray[np.float32]:
-        """Squares of points about places (u, v), shape (n, side, side), cut off at the picture's edge."""
+        """Squares of points about places (u, v), shape (n, side, side), clipped to the picture."""
         off = np.arange(-radius, radius + 1, stride)
         middle = np.rint(places).astype(np.intp)
         u = np.minimum(np.maximum(middle[:, 0, None] + off, 0), self.columns - 1)

@@ -1,4 +1,4 @@
-"""A beam along a line or a column of the picture, walked point by point: sooner done than arrays where it is one."""
+"""A beam along a line or column of the picture, point by point: faster than arrays for a single beam."""
 
 from handeye.vision.edge import SPAN, Edge, Polarity
 from handeye.vision.scan import Scan
@@ -15,10 +15,7 @@ def walk(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edge | None:
-    """The first discontinuity, or None; its arguments are those of `beams`.
-
-    `direction`: (1, 0), (-1, 0), (0, 1) or (0, -1).
-    """
+    """The first discontinuity, or None; arguments as for `beams`, `direction` along a line or column."""
     scan.beams += 1
     u, v, (du, dv) = round(start[0]), round(start[1]), direction
     back, ahead = scan.run(u, v, du, dv)
@@ -41,9 +38,9 @@ def walk(
 
 
 def _first(line: list[float], polarity: Polarity, step: float, beyond: float) -> tuple[int, int | None]:
-    """Where a line first rises by `step`, and where near there it rises most; its end, and None, if nowhere.
+    """Where a line first rises by `step`, and where near there it rises most; its end and None if nowhere.
 
-    A rise that leads to less than `beyond` is passed over.
+    Rises that lead to less than `beyond` are skipped.
     """
     rise, places = _rise(line, 0), len(line) - 2 * SPAN + 1
     entering = [*line[2 * SPAN :], 0.0]  # none enters behind the last place
@@ -58,12 +55,12 @@ def _first(line: list[float], polarity: Polarity, step: float, beyond: float) ->
 
 
 def _rise(line: list[float], i: int) -> float:
-    """The sum of SPAN points less that of those before them, which begin at `i`."""
+    """The sum of SPAN points minus that of the SPAN points before, from `i`."""
     return sum(line[i + SPAN : i + 2 * SPAN]) - sum(line[i : i + SPAN])
 
 
 def _vertex(line: list[float], polarity: Polarity, i: int) -> float:
-    """Place of the top of the parabola through the rises about `i`, from -.5 to .5."""
+    """Vertex of the parabola through the rises about `i`, from -.5 to .5."""
     if not 0 < i < len(line) - 2 * SPAN:
         return 0.0
     left, top, right = (polarity * _rise(line, k) for k in (i - 1, i, i + 1))

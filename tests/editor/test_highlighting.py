@@ -1,6 +1,7 @@
 """Colours: nothing that is part of the language is left plain, and what is not is marked."""
 
 import json
+import runpy
 import tomllib
 from pathlib import Path
 
@@ -10,11 +11,12 @@ from textmate_reader import tokens
 
 from handeye.al import INSTRUCTIONS
 from handeye.al.highlight import ArmLexer
-from handeye.editor.textmate import grammar, grammar_text
 
 ROOT = Path(__file__).parents[2]
 PUMP = (ROOT / "plans" / "water_pump.al").read_text(encoding="utf-8")
 EXTENSION = ROOT / "editors" / "vscode"
+MAKER = runpy.run_path(str(ROOT / "editors" / "make_grammar.py"))
+grammar, grammar_text = MAKER["grammar"], MAKER["grammar_text"]
 
 
 def lexed(text: str) -> list[tuple[_TokenType, str]]:
@@ -94,7 +96,7 @@ def test_the_grammar_leaves_nothing_of_the_pump_script_plain() -> None:
 
 
 def test_the_extension_holds_the_grammar_of_this_table_of_instructions() -> None:
-    # If not: python -m handeye.editor.textmate > editors/vscode/syntaxes/armal.tmLanguage.json
+    # If not: python editors/make_grammar.py > editors/vscode/syntaxes/armal.tmLanguage.json
     held = (EXTENSION / "syntaxes" / "armal.tmLanguage.json").read_text(encoding="utf-8")
     assert held == grammar_text()
 

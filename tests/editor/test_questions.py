@@ -16,9 +16,8 @@ from handeye.editor.completion import completions
 from handeye.editor.document import Document
 from handeye.editor.fixes import fixes
 from handeye.editor.hover import SI, hover
-from handeye.editor.navigation import definition, references, rename
-from handeye.editor.outline import outline
-from handeye.editor.taughtfile import taught_occurrences
+from handeye.editor.navigation import definition, outline, references, rename
+from handeye.editor.occurrences import taught_occurrences
 from handeye.program.taught import load_taught
 
 PLANS = Path(__file__).parents[2] / "plans"

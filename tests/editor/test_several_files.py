@@ -8,7 +8,7 @@ from handeye.editor.completion import completions
 from handeye.editor.document import Document
 from handeye.editor.fixes import fixes
 from handeye.editor.hover import hover
-from handeye.editor.navigation import Found, definition, references, rename
+from handeye.editor.navigation import Place, definition, references, rename
 from handeye.editor.samples import SAMPLE
 
 FILES = {
@@ -25,7 +25,7 @@ def pointed(marked: str) -> tuple[Document, int]:
     return Document(source=source, taught=SAMPLE, read=FILES.__getitem__), marked.index("|")
 
 
-def shown(document: Document, found: list[Found]) -> list[str]:
+def shown(document: Document, found: list[Place]) -> list[str]:
     """Each place as `file:line:column`."""
     texts = {text.key: text for text in document.whole.texts}
     return [f"{f.file}:{':'.join(map(str, texts[f.file].position(f.span.start)))}" for f in found]

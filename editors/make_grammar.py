@@ -1,6 +1,6 @@
 """The grammar that colours arm programs in VS Code and its like, made from the table of instructions.
 
-`python -m handeye.editor.textmate` prints it; `editors/vscode/syntaxes/armal.tmLanguage.json` holds it.
+`python editors/make_grammar.py` prints it; `editors/vscode/syntaxes/armal.tmLanguage.json` holds it.
 """
 
 import json
