@@ -125,7 +125,8 @@ def _number(model: mujoco.MjModel, camera: str) -> int:
     """
     names = [model.camera(i).name for i in range(model.ncam)]
     if camera not in names:
-        raise NoSuchName(f"no camera {camera}; there are {', '.join(names)}")
+        there = f"there are {', '.join(names)}" if names else "the scene has none"
+        raise NoSuchName(f"no camera {camera}; {there}")
     return names.index(camera)
 
 

@@ -75,7 +75,12 @@ def positive(count: int, what: str) -> None:
 
 WholeNumber = Annotated[int, Parameter(converter=whole)]
 PictureFile = Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")]
-SceneCamera = Annotated[str, Parameter(help="One of the scene's cameras.")]
+SceneCamera = Annotated[
+    str | None,
+    Parameter(
+        help="One of the scene's cameras; by default the one that shows all of it, `studio` in the pump's cell."
+    ),
+]
 Width = Annotated[WholeNumber, Parameter(help="Points of the picture from left to right.")]
 Height = Annotated[WholeNumber, Parameter(help="Points of the picture from top to bottom.")]
 Camera = Annotated[

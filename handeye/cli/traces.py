@@ -65,7 +65,7 @@ def photograph(
     at: Annotated[float, Parameter(help="Seconds since the run began, as `show` prints them.")],
     output: PictureFile,
     task: TaskWords = None,
-    camera: SceneCamera = "studio",
+    camera: SceneCamera = None,
     width: Width = 1280,
     height: Height = 960,
     how: FineOptions = PLAIN,
@@ -85,7 +85,8 @@ def photograph(
         raise BadArgument(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
     moment = trace.head.time + at
     state = trace.at(moment)
-    write_over(output, png(how.take(posed(trace.scene, state.poses, state.time), camera, width, height)), PNG)
+    shot = how.take(posed(trace.scene, state.poses, state.time), camera or trace.overview, width, height)
+    write_over(output, png(shot), PNG)
     doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
     say(f"{output}: {trace.elapsed(state.time):.2f} s{doing}")
     return 0

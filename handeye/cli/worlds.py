@@ -24,7 +24,7 @@ def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
 def render(
     *,
     output: PictureFile,
-    camera: SceneCamera = "studio",
+    camera: SceneCamera = None,
     width: Width = 1280,
     height: Height = 960,
     how: FineOptions = PLAIN,
@@ -39,7 +39,7 @@ def render(
     check_size(width, height)
     work = planned(world.work)
     spec = broken(world.spec, fault, work)
-    posed = as_it_stands(work.scene(spec), work.cell(spec, "ray").truth)
-    write_over(output, png(how.take(posed, camera, width, height)), PNG)
-    say(f"{output}: {width} x {height}, camera {camera}")
+    posed = as_it_stands(work.shown(spec), work.cell(spec, "ray").truth)
+    write_over(output, png(how.take(posed, camera or work.camera, width, height)), PNG)
+    say(f"{output}: {width} x {height}, camera {camera or work.camera}")
     return 0

@@ -15,13 +15,12 @@ from handeye.program.events import GuardTripped, StepFinished
 from handeye.report.facts.outcome import Outcome, outcome
 from handeye.report.recorded import Recorded
 from handeye.tasks import known
+from handeye.tasks.interface import AnyTask
 from handeye.trace.stages import Stage
 
 MOST: Final = 24
 """Stages that are photographed, at most."""
 _QUALITY: Final = 80
-_ROOM: Final = "studio"
-"""The camera of the scene that shows all of it."""
 _NEAR: Final = 0.62
 """m from which the hand is looked at."""
 
@@ -82,7 +81,7 @@ def album(run: Recorded) -> Album:
 
 def no_album(run: Recorded, why: str) -> Album:
     """An album without a photograph, where somebody wants none: it says why, once."""
-    leading = _none(_Wanted(time=outcome(run).time, view=_ROOM, shows="The run"), LARGE, why)
+    leading = _none(_Wanted(time=outcome(run).time, view=_room(run), shows="The run"), LARGE, why)
     return Album(leading=leading, stages=())
 
 
@@ -101,7 +100,7 @@ def _leading_view(run: Recorded, outcome: Outcome) -> str | Near:
         return _at_hand(run, outcome.time)
     task = known(run.trace.head.task)
     judged = outcome.kind in ("right", "wrong")
-    return task.photographs[-1] if judged and task is not None and task.photographs else _ROOM
+    return task.photographs[-1] if judged and task is not None and task.photographs else _room(run)
 
 
 def _left(picture: bytes, missing: Photograph) -> Photograph:
@@ -131,7 +130,15 @@ def _of_stage(run: Recorded, number: int, stage: Stage) -> _Wanted:
         if isinstance(event, GuardTripped) and stage.begin <= event.time <= stage.end
     ]
     time = run.seconds(trips[-1] if trips else stage.end)
-    return _Wanted(time=time, view=_at_hand(run, time) if trips else _ROOM, shows=f"{number} {stage.name}")
+    return _Wanted(
+        time=time, view=_at_hand(run, time) if trips else _room(run), shows=f"{number} {stage.name}"
+    )
+
+
+def _room(run: Recorded) -> str:
+    """The camera of the scene that shows all of it."""
+    task = known(run.trace.head.task)
+    return AnyTask.camera if task is None else task.camera
 
 
 def _at_hand(run: Recorded, time: float) -> str | Near:
@@ -143,7 +150,7 @@ def _at_hand(run: Recorded, time: float) -> str | Near:
         and event.hand is not None
         and run.seconds(event.time) <= time + 0.1
     ]
-    return Near(camera=_ROOM, place=ended[-1], distance=_NEAR) if ended else _ROOM
+    return Near(camera=_room(run), place=ended[-1], distance=_NEAR) if ended else _room(run)
 
 
 def _taken(run: Recorded, wanted: Sequence[_Wanted], size: _Print) -> tuple[Photograph, ...]:

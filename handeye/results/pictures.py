@@ -68,8 +68,6 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
     if runner.system.cell is None:
         return
     if runner.cell.renderer.method == "opengl" and runner.task.photographs:
-        posed = as_it_stands(
-            runner.task.recorded_scene(runner.setup.world, written(runner.setup)), runner.cell.truth
-        )
+        posed = as_it_stands(runner.task.shown(runner.setup.world, written(runner.setup)), runner.cell.truth)
         for camera in runner.task.photographs:
             write_whole(folder / f"end_{camera}.png", photograph_png(*posed, camera, 1280, 960))

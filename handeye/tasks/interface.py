@@ -93,6 +93,8 @@ class AnyTask(ABC):
 
     name: str
     words: Words
+    camera: str = "studio"
+    """The camera of the scene that shows all of it to people: pictures are taken by it where none is named."""
     photographs: tuple[str, ...] = ()
     """Cameras of the scene whose view of the end is kept for people."""
 
@@ -118,6 +120,9 @@ class AnyTask(ABC):
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         """The scene of a world as people are shown it, before anything has happened in it: it is never simulated.
 
+        It has the cameras that the task names, and shapes in the groups that people see (`handeye/cell/looks.py`); who
+        asks for it by `shown` is told what it lacks.
+
         Raises:
             InvalidInput: there is no such world.
         """
@@ -126,6 +131,16 @@ class AnyTask(ABC):
         """The same of a run with a plan, which may say what lies there; arguments and errors are those of `scene`."""
         return self.scene(spec)
 
+    def shown(self, spec: WorldSpec, plan: bytes | None = None) -> mujoco.MjModel:
+        """The scene of a world, or of a run with a plan, when it has been seen to offer what people are shown.
+
+        Raises:
+            InvalidInput: there is no such world, or the scene lacks a camera or anything to be seen.
+        """
+        scene = self.scene(spec) if plan is None else self.recorded_scene(spec, plan)
+        _check_scene(self, scene)
+        return scene
+
     @abstractmethod
     def judge(self, truth: Truth) -> Findings:
         """Findings of the referee on the finished work. The cell is not touched."""
@@ -133,6 +148,23 @@ class AnyTask(ABC):
     def judge_apart(self, truth: Truth) -> Findings:
         """Findings of the referee where the arm has undone all it did; none by default. The cell is not touched."""
         return {}
+
+
+def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
+    """Raises Refused if a scene lacks a camera that its task names, or has nothing that people are shown."""
+    from handeye.cell.looks import LATENT, SCENERY, SEEN
+
+    cameras = [scene.camera(number).name for number in range(scene.ncam)]
+    for name in (task.camera, *task.photographs):
+        if name not in cameras:
+            there = f"it has {', '.join(map(quoted, cameras))}" if cameras else "it has none"
+            lacks = f"lacks the camera {quoted(name)}, which the task names; {there}"
+            raise Refused(f"the scene of the task {quoted(task.name)} {lacks}")
+    if not {SCENERY, SEEN, LATENT} & {*map(int, scene.geom_group)}:
+        raise Refused(
+            f"the scene of the task {quoted(task.name)} shows nothing: none of its shapes is in group {SEEN} (what is "
+            f"worked with) or {SCENERY} (what stands around)"
+        )
 
 
 class Task(AnyTask):

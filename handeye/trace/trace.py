@@ -163,7 +163,7 @@ class Trace:
         return self._replay.seek(time)
 
     def frame(
-        self, time: float, camera: str = "studio", *, width: int = 1280, height: int = 960,
+        self, time: float, camera: str | None = None, *, width: int = 1280, height: int = 960,
         fine: bool = False, film: str | None = None, exposures: int | None = None,
     ) -> NDArray[np.uint8]:  # fmt: skip
         """Photograph of the cell as it was at a time (s), shape (height, width, 3), red, green, blue.
@@ -171,7 +171,7 @@ class Trace:
         Nothing is simulated. It takes OpenGL.
 
         Args:
-            camera: one of the scene's cameras.
+            camera: one of the scene's cameras; by default the one that shows all of it.
             fine: average many exposures in a light of their own: soft shadows, depth of field, smooth edges.
             film: of a fine photograph: `"colour"` or `"1973"`, black and white.
             exposures: of a fine photograph: how many, 24 by default. With this or `film` it is a fine one.
@@ -186,7 +186,7 @@ class Trace:
         how = exposing(fine=fine, film=film, exposures=exposures)
         scene, moment = self.scene, self.at(time)
         model, data = posed(scene, moment.poses, moment.time)
-        return photographed(model, data, camera=camera, width=width, height=height, how=how)
+        return photographed(model, data, camera=camera or self.overview, width=width, height=height, how=how)
 
     @cached_property
     def scene(self) -> Any:
@@ -197,7 +197,14 @@ class Trace:
         """
         from handeye.tasks import any_task
 
-        return any_task(self.head.task).recorded_scene(self.head.world, self.plan)
+        return any_task(self.head.task).shown(self.head.world, self.plan)
+
+    @property
+    def overview(self) -> str:
+        """The camera of its scene that shows all of it."""
+        from handeye.tasks import any_task
+
+        return any_task(self.head.task).camera
 
     @cached_property
     def _replay(self) -> Replay:

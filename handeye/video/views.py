@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from handeye.cell.photograph import Near
-from handeye.core.errors import NoSuchName, Refused
+from handeye.core.errors import NoSuchName
 from handeye.core.pose import Array
 from handeye.program.events import StepFinished
 from handeye.trace.stages import Stage
@@ -14,8 +14,6 @@ from handeye.trace.trace import Trace
 from handeye.video.wanted import FOLLOW, ORBIT
 
 View = str | Near
-_SIDE: Final = "studio"
-"""The camera on whose side the eye stays, if the scene has it."""
 _FAR: Final = 0.95
 """How far the eye is from the middle of the cell, over the size of the cell."""
 _SWAY: Final = 34.0
@@ -43,23 +41,12 @@ def views(trace: Trace, camera: str, stages: Sequence[int], rate: float) -> list
     """
     cameras = [trace.scene.camera(number).name for number in range(trace.scene.ncam)]
     if camera == ORBIT:
-        return list(_orbit(trace.scene, _side(cameras), len(stages)))
+        return list(_orbit(trace.scene, trace.overview, len(stages)))
     if camera == FOLLOW:
-        return list(_follow(trace, _side(cameras), stages, rate))
+        return list(_follow(trace, trace.overview, stages, rate))
     if camera not in cameras:
         raise NoSuchName(f"no camera {camera}; there are {', '.join([ORBIT, FOLLOW, *cameras])}")
     return [camera] * len(stages)
-
-
-def _side(cameras: Sequence[str]) -> str:
-    """The camera on whose side the eye stays.
-
-    Raises:
-        InvalidInput: the scene has none.
-    """
-    if not cameras:
-        raise Refused("the scene has no camera, so that nobody knows from which side to look")
-    return _SIDE if _SIDE in cameras else cameras[0]
 
 
 def _orbit(scene: Any, side: str, frames: int) -> list[View]:

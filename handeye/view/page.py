@@ -40,7 +40,7 @@ class Face:
 
 def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
     """The page of a live cell, as one file that fetches nothing; raises InvalidInput if the task shows no scene."""
-    model = runner.task.recorded_scene(runner.setup.world, written(runner.setup))
+    model = runner.task.shown(runner.setup.world, written(runner.setup))
     names = newest.frames.names
     facts = {
         "bodies": names,

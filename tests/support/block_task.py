@@ -15,6 +15,7 @@ from handeye.al import compile_text
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.device_errors import ArmErrors, HandErrors
 from handeye.cell.hand import SimulatedHand
+from handeye.cell.looks import SEEN
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
 from handeye.core.distributions import Normal, Range, Uniform
@@ -82,9 +83,10 @@ class Block(Task):
         scene.option.timestep = 1 / 960
         scene.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC  # else what is held creeps out of the fingers
         scene.option.impratio = 10
+        scene.worldbody.add_camera(name="studio", pos=[0.6, -1.2, 1.0], xyaxes=[1, 0, 0, 0, 0.4, 0.9])
         scene.worldbody.add_geom(
             name="table", type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.7, 0.7, 0.02], pos=[0.6, 0.7, -0.02],
-            contype=1, conaffinity=3,
+            contype=1, conaffinity=3, group=SEEN,
         )  # fmt: skip
         block = scene.worldbody.add_body(
             name="block", pos=[20 * INCH + world["block.x"], 24 * INCH + world["block.y"], HALF]
@@ -92,7 +94,7 @@ class Block(Task):
         block.add_freejoint(name="block")
         for size, height in _boxes(world["block.thickness"]):
             block.add_geom(
-                type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=[0.0, 0.0, height - HALF], mass=0.2,
+                type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=[0.0, 0.0, height - HALF], mass=0.2, group=SEEN,
                 contype=1, conaffinity=3, solref=STIFF, priority=1,
             )  # fmt: skip
         return scene.compile()

@@ -12,6 +12,7 @@ from handeye.core.resources import scenes
 from handeye.core.units import INCH
 from handeye.tasks.insertion.world import BenchWorld
 from handeye.tasks.water_pump.scene.arm import add_arm
+from handeye.tasks.water_pump.scene.room import add_camera
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper
 from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, pin_seat
 
@@ -55,6 +56,8 @@ def build(world: BenchWorld) -> mujoco.MjModel:
 def _add_room(shaper: Shaper) -> None:
     d, body = dimensions(), shaper.spec.worldbody
     width, depth = d.all("table.size")
+    eye, at = np.array([2.1, 1.8, 1.0]), np.array([0.52, 0.72, 0.15])
+    add_camera(shaper.spec, "studio", eye, at).fovy = 37.0
     body.add_light(pos=[0.2, 0.4, 2.0], dir=[0.3, 0.4, -1.0])
     table = shaper.box(body, "solid", (0, 0, -d("table.thickness")), (width, depth, 0), "table", "table")
     table.group = SEEN

@@ -39,6 +39,7 @@ _DROPPED: Final = 2
 class _BlocksTask(AnyTask):
     """Something that is done with blocks on the platter."""
 
+    camera = "people"
     force_axes = "the hand's own axes"
     measures = MILLIMETRES
 

@@ -158,7 +158,7 @@ def _add_cameras(spec: mujoco.MjSpec) -> None:
     """The television camera `tv` looks at the standard position; the cell turns it. Others are for people."""
     d = dimensions()
     focal = d.all("camera.focal_length")[0]
-    tv = _camera(spec, "tv", np.array(d.all("camera.mount")), np.array([*d.all("standard.place"), 0.04]))
+    tv = add_camera(spec, "tv", np.array(d.all("camera.mount")), np.array([*d.all("standard.place"), 0.04]))
     tv.resolution[:] = [COLUMNS, ROWS]
     tv.sensor_size[:] = d.all("camera.raster")
     tv.focal_length[:] = [focal, focal]
@@ -168,9 +168,9 @@ def _add_cameras(spec: mujoco.MjSpec) -> None:
         ("work", (1.55, 1.75, 0.62), (0.60, 0.93, 0.20), 27.0),
         ("belt", (1.62, 1.35, 0.75), (1.13, 0.75, 0.03), 32.0),
     ):
-        _camera(spec, name, np.array(eye), np.array(at)).fovy = fovy
+        add_camera(spec, name, np.array(eye), np.array(at)).fovy = fovy
 
 
-def _camera(spec: mujoco.MjSpec, name: str, eye: Array, at: Array) -> mujoco.MjsCamera:
+def add_camera(spec: mujoco.MjSpec, name: str, eye: Array, at: Array) -> mujoco.MjsCamera:
     """A camera at `eye` that looks at `at`, upright (m)."""
     return spec.worldbody.add_camera(name=name, pos=eye.tolist(), quat=_towards(at - eye))
