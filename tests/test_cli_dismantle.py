@@ -177,7 +177,7 @@ def test_a_run_of_an_older_handeye_is_refused_in_a_sentence(command: Command, ta
 def test_a_folder_without_a_run_is_refused(command: Command) -> None:
     Path("empty").mkdir()
     code, _, err = command("dismantle", "empty")
-    assert (code, err) == (2, "handeye: empty is not the folder of a run: it has no checkpoints\n")
+    assert (code, err) == (2, "handeye: empty holds no run\n")
 
 
 def test_a_run_that_has_not_begun_leaves_nothing_to_undo(command: Command) -> None:

@@ -261,7 +261,7 @@ def test_a_run_that_stopped_is_shown_with_how_to_go_on(command: Command, planned
 
 
 def test_what_is_no_run_cannot_be_shown(command: Command) -> None:
-    assert command("show", ".") == (2, "", "handeye: . is not the folder of a run: it has no plan.json\n")
+    assert command("show", ".") == (2, "", "handeye: . holds no run\n")
 
 
 @pytest.mark.parametrize("words", [("show",), ("report",), ("trace", "stats")])

@@ -18,7 +18,7 @@ from handeye.core.files import check_place, write_over
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
 from handeye.runs.operator import parse_policy
-from handeye.tasks import planned
+from handeye.tasks import DEFAULT, option, planned
 
 if TYPE_CHECKING:
     from handeye.core.variation import WorldSpec
@@ -97,8 +97,8 @@ def assembly_trials(
     The figures are the same for any number of workers. A trial whose process is killed is tried once more; an
     exception counts as a failure. With --out the figures are drawn on a page, too: figures.html in the folder.
 
-    Exit code 0: no silent failure; 3: in some world the program said done and the referee disagreed; 2: bad input; 130:
-    interrupted.
+    Exit code 0: no silent failure; 1: every trial was broken off; 3: in some world the program said done and the
+    referee disagreed; 2: bad input; 130: interrupted.
     """
     from handeye.trials.batch.batch import carry_out, jobs_of
     from handeye.trials.batch.figures import figures
@@ -139,7 +139,7 @@ def assembly_trials(
         rows = carry_out(
             trial, jobs_of(world, numbers), _engine(engine, workers, scheduler), folder=folder, told=tell
         )
-    again = command_of(world, plan, camera, senses, on_stop)
+    again = command_of(world, plan, record.task, camera, senses, on_stop)
     found = figures(rows, lambda row: again(row.seed), fresh=fresh, wall_s=timer.wall_s)
     if out is not None:
         _leave(out, rows, found, tables, _title(trial, world))
@@ -149,7 +149,7 @@ def assembly_trials(
         from handeye.cli.batch_text import page
 
         screen.print(page(found), soft_wrap=True)
-    return 3 if found.silent_failures else 0
+    return 3 if found.silent_failures else 1 if found.n == found.failed else 0
 
 
 def _engine(name: str, workers: int, scheduler: str | None) -> "Engine":
@@ -298,7 +298,12 @@ def _left(seconds: float) -> str:
 
 
 def command_of(
-    world: "WorldSpec", plan: Path | None, camera: str, senses: "tuple[Sense, ...]", on_stop: str = "abort"
+    world: "WorldSpec",
+    plan: Path | None,
+    task: str,
+    camera: str,
+    senses: "tuple[Sense, ...]",
+    on_stop: str = "abort",
 ) -> Callable[[int], str]:
     """What tells the command that carries the trial of a seed out."""
     from msgspec.structs import replace
@@ -306,10 +311,11 @@ def command_of(
     from handeye.report.facts.again import sense_words, world_words
 
     words = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
+    words += option(task) or (["--task", task] if plan is None and task != DEFAULT else [])
     made = sense_words(senses) + ([] if camera == "auto" else ["--camera", camera])
     made += [] if on_stop == "abort" else ["--on-stop", on_stop]
 
     def command(seed: int) -> str:
-        return shlex.join(["handeye", *words, *world_words(replace(world, seed=seed)), *made])
+        return shlex.join(["handeye", *words, *world_words(replace(world, seed=seed), task), *made])
 
     return command

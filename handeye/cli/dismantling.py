@@ -15,6 +15,7 @@ from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, b
 from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
+from handeye.tasks import DEFAULT, option
 
 if TYPE_CHECKING:
     from handeye.core.variation import WorldSpec
@@ -176,9 +177,11 @@ def _again(trial: "DismantlingTrial", world: "WorldSpec", plan: Path | None) -> 
 
     made = sense_words(trial.without) + ([] if trial.camera == "auto" else ["--camera", trial.camera])
     made += ([] if plan is None else ["--plan", str(plan)]) + (["--to", trial.to] if trial.to else [])
+    task = trial.plan.task
+    made += option(task) or (["--task", task] if plan is None and task != DEFAULT else [])
 
     def command(row: "Row") -> str:
-        words = world_words(replace(world, seed=row.seed))
+        words = world_words(replace(world, seed=row.seed), task)
         return shlex.join(["handeye", "trials", "dismantling", "--n", "1", *words, *made])
 
     return command

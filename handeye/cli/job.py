@@ -41,6 +41,7 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop
 from handeye.runs.systems import listing_of
+from handeye.tasks import option
 
 if TYPE_CHECKING:
     from handeye.view.moment import Newest
@@ -305,7 +306,8 @@ class _Work:
     def _tell_how_to_go_on(self, runner: Runner | None) -> None:
         kept = self.left if self.folder is None else self.folder.path
         if kept is not None:
-            say(f"resume with: handeye resume {shlex.quote(str(kept))}", notes, whole=True)
+            words = [str(kept), *option(self.job.start.setup.task)]
+            say(f"resume with: handeye resume {shlex.join(words)}", notes, whole=True)
         elif runner is not None and runner.position > max(0, self.job.start.position):
             note(NOT_KEPT)
 

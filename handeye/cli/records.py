@@ -32,14 +32,14 @@ def show(folder: Folder, /, *, json: Json = False) -> int:
 def _way_on(folder: Path, result: "Result") -> str:
     """Tell how a run is gone on with: from Python, if code of its caller belongs to it."""
     from handeye.runs.parts import deciding
-    from handeye.tasks import known_any
+    from handeye.tasks import known_any, option
 
     parts = deciding(result.replaced or {})
     own = [f"{part} {quoted(name)}" for part, name in parts.items()]
     if known_any(result.task) is None:
         own.append(f"task {quoted(result.task)}")
     if not own:
-        return f"resume with: handeye resume {shlex.quote(str(folder))}"
+        return f"resume with: handeye resume {shlex.join([str(folder), *option(result.task)])}"
     call = ", ".join([repr(str(folder)), *(f"{part}=..." for part in parts)])
     return (
         f"the run has a {' and a '.join(own)} of its own: from Python, handeye.begin({call}) goes on with it"

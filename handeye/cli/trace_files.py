@@ -18,19 +18,20 @@ def trace_file(path: Path) -> Path:
     Raises:
         InvalidInput: the run has not begun, or the folder is a batch's.
     """
-    from handeye.runs.folder import EVENTS, PLAN, TRACE
+    from handeye.runs.folder import EVENTS, TRACE, check_holds_run
     from handeye.trace.recorder import part
 
-    if not path.is_dir():
+    if path.exists() and not path.is_dir():
         return path
+    check_no_batch(path)
+    check_holds_run(path)
     growing = part(path / TRACE)
     if growing.exists():  # newer than the whole one, which is of before the run was resumed
         note(f"the run in {path} was interrupted; this is what its trace holds")
         return growing
     if (path / TRACE).exists():
         return path / TRACE
-    if (path / PLAN).exists() and not (path / EVENTS).exists():
-        check_no_batch(path)
+    if not (path / EVENTS).exists():
         raise BadFile(f"the run in {path} has not begun")
     return path / EVENTS
 
@@ -50,8 +51,6 @@ def motion_file(path: Path) -> Path:
         InvalidInput: there is no run, it has not begun, or there is only its event list.
     """
     file = trace_file(path)
-    if not file.exists():
-        raise BadFile(f"{path} holds no run" if path.is_dir() else f"{path}: there is no such file")
     if file.suffix == ".jsonl":
         raise Refused(f"{file} is an event list, which does not say where things were; take the trace.mcap")
     return file

@@ -25,7 +25,7 @@ from handeye.results.kept_result import read_result
 from handeye.results.result import Result
 from handeye.results.summary import camera_report, interventions, stage_times, timing, warnings
 from handeye.runs.checkpoint_store import CheckpointStore
-from handeye.runs.folder import CHECKPOINTS, EVENTS, HOST, PLAN, RESULT
+from handeye.runs.folder import CHECKPOINTS, EVENTS, HOST, PLAN, RESULT, check_holds_run
 from handeye.runs.host_seconds import HostSeconds, read_host_seconds
 from handeye.runs.parts import deciding
 from handeye.runs.snapshot import Checkpoint
@@ -62,7 +62,8 @@ def kept_run(path: Path) -> KeptRun:
             f"{path / RESULT} is of another run: of {quoted(result.program)} in the world of {result.world}"
         )
     if not (path / EVENTS).exists() and not (path / PLAN).exists():
-        raise BadFile(f"{path} is not the folder of a run: it has no {PLAN}")
+        check_holds_run(path)
+        raise BadFile(f"the run in {path} cannot be shown: it has no {PLAN}")
     events = effective(read_events(path / EVENTS, growing=True)) if (path / EVENTS).exists() else []
     if not events:
         raise BadFile(f"the run in {path} has not begun")

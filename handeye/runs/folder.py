@@ -250,7 +250,8 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
     if not folder.kept.folder.is_dir():
         if any(CheckpointStore(path).heads()):
             raise BadFile(f"{path} is a folder of checkpoints, not of a run; name one of them")
-        raise BadFile(f"{path} is not the folder of a run: it has no {CHECKPOINTS}")
+        check_holds_run(path)
+        raise BadFile(f"the run in {path} cannot be gone on with: it has no {CHECKPOINTS}")
     checkpoint, faults = folder.kept.newest()
     if checkpoint is None:
         raise BadFile(faults[0] if faults else f"there is no checkpoint in {folder.kept.folder}")
@@ -260,6 +261,15 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
     except InvalidInput as fault:
         faults.append(str(fault))
     return folder, checkpoint, faults
+
+
+def check_holds_run(path: Path) -> None:
+    """Raises BadFile unless a path is a folder in which a run has left anything: the one sentence of all commands."""
+    if not path.exists():
+        raise BadFile(f"{path}: there is no such file")
+    left = (PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS)
+    if not any((path / name).exists() for name in left):
+        raise BadFile(f"{path} holds no run")
 
 
 def _check_plan(path: Path, setup: Setup) -> None:

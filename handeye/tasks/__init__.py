@@ -8,7 +8,7 @@ import os
 import sys
 from collections.abc import Iterator
 from functools import cache
-from importlib import import_module, metadata
+from importlib import import_module
 from typing import Any, Final
 
 import numpy as np
@@ -34,6 +34,8 @@ _HINT: Final = (
     "known to the Python program that calls `handeye.tasks.register`)"
 )
 _REGISTERED: Final[dict[str, AnyTask]] = {}
+_WORDS: Final[dict[str, str]] = {}
+"""What `--task` said of those that it has made known, by their names."""
 
 
 def register(task: AnyTask) -> None:
@@ -71,9 +73,15 @@ def named(words: str) -> AnyTask:
         return any_task(words)
     found = _loaded(words)
     register(found)
+    _WORDS[found.name] = words
     if words not in (known := os.environ.get(ELSEWHERE, "").split()):
         os.environ[ELSEWHERE] = " ".join([*known, words])
     return found
+
+
+def option(name: str) -> tuple[str, ...]:
+    """The words by which a command knows the task of a plan or run; none where its name is enough."""
+    return ("--task", _WORDS[name]) if name in _WORDS else ()
 
 
 def any_task(name: str) -> AnyTask:
@@ -117,8 +125,8 @@ def known_any(name: str) -> AnyTask | None:
     Raises:
         InvalidInput: it is known where it is, and cannot be imported.
     """
-    if name in (ours := _ours()):
-        return _loaded(ours[name])
+    if name not in _REGISTERED and (place := _BUILT_IN.get(name) or _ours().get(name)) is not None:
+        return _loaded(place)
     if name not in _REGISTERED and name in _entry_points():
         found = _loaded(_entry_points()[name])
         if found.name != name:
@@ -153,7 +161,9 @@ def _ours() -> dict[str, str]:
 
 @cache
 def _entry_points() -> dict[str, str]:
-    return {point.name: point.value for point in metadata.entry_points(group=GROUP)}
+    from importlib.metadata import entry_points  # slow to import
+
+    return {point.name: point.value for point in entry_points(group=GROUP)}
 
 
 def _loaded(words: str) -> AnyTask:

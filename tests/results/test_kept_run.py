@@ -149,7 +149,7 @@ def test_seconds_that_cannot_be_read_are_left_out_by_name(broken: Path) -> None:
 
 Damage = Callable[[Path], object]
 DAMAGE: dict[str, tuple[str, Damage]] = {
-    "no files": ("is not the folder of a run", lambda run: [(run / n).unlink() for n in (EVENTS, PLAN)]),
+    "no files": ("cannot be shown: it has no plan.json", lambda run: [(run / n).unlink() for n in (EVENTS, PLAN)]),
     "no events": ("has not begun", lambda run: (run / EVENTS).unlink()),
     "empty events": ("has not begun", lambda run: (run / EVENTS).write_bytes(b"")),
     "no plan": ("there is no such file", lambda run: (run / PLAN).unlink()),

@@ -179,7 +179,7 @@ def test_checkpoints_of_another_plan_are_refused(copy: Path) -> None:
 
 
 def test_a_folder_without_checkpoints_cannot_be_gone_on_with(tmp_path: Path) -> None:
-    with pytest.raises(InvalidInput, match="is not the folder of a run"):
+    with pytest.raises(InvalidInput, match="holds no run"):
         open_again(tmp_path)
 
 

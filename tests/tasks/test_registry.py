@@ -4,15 +4,18 @@ import re
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import msgspec
 import pytest
+from block_task import BLOCK
 from short_runs import begin
 
 from handeye import tasks
 from handeye.arm import robots
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.errors import InvalidInput
+from handeye.core.variation import WorldSpec
 from handeye.runs.runner import Runner
 from handeye.tasks import DEFAULT, register, task
 from handeye.tasks.water_pump.task import WaterPump
@@ -109,3 +112,52 @@ def test_an_equal_arm_may_be_made_known_again() -> None:
 def test_an_arm_that_cannot_be_one_is_refused(wrong: object, sentence: str) -> None:
     with pytest.raises(InvalidInput, match=sentence):
         robots.register(wrong)
+
+
+def test_a_task_of_an_entry_point_is_found_by_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tasks, "_REGISTERED", {})
+    monkeypatch.setattr(
+        tasks, "_entry_points", lambda: {"block": "block_task:BLOCK", "gone": "no_module:TASK"}
+    )
+    assert task("block").arm.name == "cartesian"
+    with pytest.raises(
+        InvalidInput, match=r"^the task `no_module:TASK` cannot be imported: ModuleNotFoundError: "
+    ):
+        task("gone")
+
+
+def test_a_task_whose_module_fails_is_told_in_a_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    Path("broken_task.py").write_text("1 / 0\n", encoding="utf-8")
+    with pytest.raises(
+        InvalidInput, match=r"`broken_task:TASK` cannot be imported: ZeroDivisionError: division by"
+    ):
+        tasks.named("broken_task:TASK")
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ({"camera": "front"}, "lacks the camera `front`, which the task names; it has `studio`"),
+        ({"photographs": ("end",)}, "lacks the camera `end`, which the task names; it has `studio`"),
+    ],
+)
+def test_a_scene_without_a_camera_that_its_task_names_is_refused(
+    words: dict[str, object], sentence: str
+) -> None:
+    wrong = type("Wrong", (type(BLOCK),), words)()
+    with pytest.raises(InvalidInput, match=f"^the scene of the task `block` {sentence}$"):
+        wrong.shown(WorldSpec(seed=0))
+
+
+def test_a_scene_in_which_people_are_shown_nothing_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = BLOCK.scene(WorldSpec(seed=0))
+    scene.geom_group[:] = 0
+    monkeypatch.setattr(type(BLOCK), "scene", lambda *_: scene)
+    with pytest.raises(
+        InvalidInput, match=r"^the scene of the task `block` shows nothing: none of its shapes "
+    ):
+        BLOCK.shown(WorldSpec(seed=0))

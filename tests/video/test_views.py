@@ -102,9 +102,3 @@ def test_a_camera_of_the_scene_stands_still(trace: Trace) -> None:
 def test_there_is_no_other_camera(trace: Trace) -> None:
     with pytest.raises(InvalidInput, match=r"^no camera belt; there are orbit, follow, tv, studio$"):
         views(trace, "belt", [0], RATE)
-
-
-def test_a_scene_without_cameras_has_no_side_to_look_from(trace: Trace) -> None:
-    trace.scene.ncam = 0
-    with pytest.raises(InvalidInput, match=r"^the scene has no camera, so that nobody knows "):
-        views(trace, "orbit", [0], RATE)

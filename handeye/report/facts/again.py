@@ -10,7 +10,7 @@ from handeye.core.variation import Quantity, WorldSpec
 from handeye.planfile.store import written_digest
 from handeye.program.senses import Sense
 from handeye.report.recorded import Recorded
-from handeye.tasks import DEFAULT, known
+from handeye.tasks import DEFAULT, known, option
 
 _CAMERAS: Final = {"opengl": "gl", "rays": "ray"}
 
@@ -18,13 +18,13 @@ _CAMERAS: Final = {"opengl": "gl", "rays": "ray"}
 def command(run: Recorded) -> str | None:
     """The command; None: code or a task of the caller's own belongs to the run, which no command line has."""
     head = run.trace.head
-    if head.task != DEFAULT or head.own_parts:
+    if known(head.task) is None or head.own_parts:
         return None
     if is_shipped(head.plan):
         words = ["assemble"]
     else:
         judged = run.result is not None and run.result.assembled is not None
-        words = ["run", "plan.json", *(["--judge"] if judged else [])]
+        words = ["run", "plan.json", *option(head.task), *(["--judge"] if judged else [])]
     return shlex.join(
         ["handeye", *words, *world_words(head.world, head.task), *sense_words(head.lacking), *_camera(run)]
     )
@@ -49,8 +49,8 @@ def sense_words(senses: Sequence[Sense]) -> list[str]:
     return [word for sense in senses for word in ("--without", sense)]
 
 
-def world_words(world: WorldSpec, of: str = DEFAULT) -> list[str]:
-    """The options that stand for a world of the task of a name, which is one of handeye's own."""
+def world_words(world: WorldSpec, of: str) -> list[str]:
+    """The options that stand for a world of the task of a name, which is known here."""
     task = known(of)
     assert task is not None
     quantities, faults = task.variation(world.seed).quantities, task.faults(world.seed)

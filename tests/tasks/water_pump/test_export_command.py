@@ -130,7 +130,7 @@ def test_a_run_brings_its_own_world(command: Command, ended: tuple[Path, Runner]
 
 REFUSED = {
     "nothing": ("there is no such file", "nowhere"),
-    "no run": ("is not the folder of a run: it has no checkpoints", "."),
+    "no run": ("holds no run", "."),
 }
 
 

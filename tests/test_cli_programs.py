@@ -1,0 +1,76 @@
+"""Programs by name: each is planned and run in the task that comes with it; a file of that name wins."""
+
+import json
+from pathlib import Path
+
+import pytest
+from conftest import Command
+
+from handeye.core.resources import plans
+
+
+@pytest.mark.parametrize("name", ["insertion", "insertion_1973", "water_pump_1973"])
+def test_a_program_is_checked_by_its_name(command: Command, name: str) -> None:
+    code, out, err = command("check", name)
+    file = plans() / f"{name}.al"
+    task = name.removesuffix("_1973")
+    assert (code, out) == (0, f"{file}: no errors\n")
+    assert err.startswith(f"{name}: taking the program of the task {task}, {file}\n")
+
+
+@pytest.mark.slow
+def test_a_program_is_run_in_its_own_task_and_judged(command: Command) -> None:
+    code, out, _ = command("run", "insertion", "--json")
+    assert (code, json.loads(out)["assembled"], json.loads(out)["task"]) == (0, True, "insertion")
+
+
+def test_the_plan_of_a_program_is_left_here(command: Command) -> None:
+    code, out, _ = command("plan", "insertion")
+    assert (code, out) == (0, "insertion.plan.json: 20 steps, 8 motions, 2 stages\n")
+    assert json.loads(Path("insertion.plan.json").read_text(encoding="utf-8"))["task"] == "insertion"
+    code, listed, err = command("stages", "insertion")
+    assert (code, "lines 8 to 13" in listed, "taking the program" in err) == (0, True, True)
+
+
+def test_a_file_of_the_name_wins_and_a_folder_does_not(command: Command) -> None:
+    command("plan", "insertion", "-o", "insertion.plan.json")
+    Path("insertion.plan.json").rename("insertion")
+    code, _, err = command("stages", "insertion")
+    assert (code, err) == (0, "insertion: taking this file, not the program of that name\n")
+    Path("insertion").unlink()
+    Path("insertion").mkdir()
+    assert command("stages", "insertion")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("run water_pmup", "water_pmup: there is no such file, and no program is called so; did you mean"),
+        ("run palletise", "the task `palletise`: TRIG cannot follow a plan of motions"),
+        (
+            "check insertion --task water_pump",
+            "the program `insertion` is of the task `insertion`, not of `water_pump`; leave --task out",
+        ),
+        (
+            "world --task clock:TASK",
+            "the task `clock:TASK` cannot be imported: ModuleNotFoundError: No module named 'clock'",
+        ),
+        ("world --task block_task:HALF", "`block_task:HALF` is no task, which is an object of a class that is derived "
+         "from handeye.Task"),
+        ("world --task clock-TASK", "no task is called `clock-TASK`; "),
+        ("world --task :x", "a task is named as MODULE:NAME, such as my_task:TASK; `:x` is not"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_taken_is_told_in_a_sentence(command: Command, words: str, said: str) -> None:
+    code, out, err = command(*words.split())
+    assert (code, out) == (2, "")
+    assert err.startswith(f"handeye: {said}")
+
+
+@pytest.mark.parametrize(
+    "words", ["trace show", "report", "video", "resume", "show", "dismantle", "compare . ."]
+)
+def test_that_a_folder_holds_no_run_is_told_in_the_same_words(command: Command, words: str) -> None:
+    Path("empty").mkdir()
+    given = words.replace(".", "empty").split() if "." in words else [*words.split(), "empty"]
+    assert command(*given) == (2, "", "handeye: empty holds no run\n")
