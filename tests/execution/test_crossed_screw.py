@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from pump_bench import LAID, Bench, bench, put, shifted, stacked, stage
 
+from handeye.cell.threads import SQUARE, holes_of
 from handeye.core.errors import WRONG_TRAVEL
 from handeye.core.pose import Pose, planar, pose, rotation_x, translated
 from handeye.core.units import INCH
 from handeye.program.events import GuardTripped
-from handeye.tasks.water_pump.threads import SQUARE, holes_of
 from handeye.tasks.water_pump.world.dimensions import base_top, screw_holes
 
 pytestmark = pytest.mark.slow

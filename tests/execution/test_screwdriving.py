@@ -5,12 +5,12 @@ from functools import cache
 import pytest
 from pump_bench import COUNT, IN_WORLDS, LAID, Bench, bench, put, stacked, stage, world_of
 
+from handeye.cell.threads import holes_of
 from handeye.core.errors import NO_FORCE
 from handeye.core.mutable_records import copied
 from handeye.core.pose import planar, translated
 from handeye.core.units import INCH, OUNCE_INCH
 from handeye.program.events import GuardTripped, SearchAdvanced
-from handeye.tasks.water_pump.threads import holes_of
 from handeye.tasks.water_pump.world.dimensions import screw_holes
 
 pytestmark = pytest.mark.slow

@@ -11,6 +11,7 @@ from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.state import CellState
+from handeye.cell.threads import holes_of
 from handeye.core.mutable_records import copied
 from handeye.core.pose import translated
 from handeye.core.units import INCH, OUNCE_INCH
@@ -20,7 +21,6 @@ from handeye.execution.undo.resistance import Resistance
 from handeye.execution.undo.way import Way, packed, unpacked
 from handeye.program.causes import ScrewFast, ScrewLost, UndoResisted
 from handeye.program.guards import GuardKind
-from handeye.tasks.water_pump.threads import holes_of
 from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.touch.guards import Reading, Trip
 

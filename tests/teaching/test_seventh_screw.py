@@ -9,6 +9,7 @@ from whole_runs import STAGES, Whole, whole_run
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.threads import holes_of
 from handeye.core.resources import plans
 from handeye.core.source import Source
 from handeye.core.units import DEGREE, INCH
@@ -17,7 +18,6 @@ from handeye.planfile.store import read_plan
 from handeye.planning.planner import make_plan
 from handeye.program.program import Position
 from handeye.program.taught import load_taught
-from handeye.tasks.water_pump.threads import holes_of
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.variation import SEVENTH
 

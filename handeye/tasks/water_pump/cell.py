@@ -12,12 +12,13 @@ from handeye.cell.renderers import make_renderer
 from handeye.cell.rendering import RendererMaker
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.simulated import SimulatedCell
+from handeye.cell.threads import THREAD_FRICTION, ThreadFigures, Threads
 from handeye.tasks.water_pump.clamping import Clamping
+from handeye.tasks.water_pump.faults.before import crossing_threads, scarred_threads, slipping_screws
 from handeye.tasks.water_pump.faults.devices import defects
 from handeye.tasks.water_pump.faults.during import Mishaps, due
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.tasks.water_pump.threads import Threads
 from handeye.tasks.water_pump.world.nominal import DRAWING, PARK
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
@@ -40,8 +41,15 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
         model, data, ("drive", "spindle"), torque_noise=world.hand.torque_noise, noise=noise,
         watchdog=arm.watchdog, lines=lines,
     )  # fmt: skip
-    threads = Threads(model, data, world, driver, lines)
     faults = world.drawn.spec.faults
+    figures = ThreadFigures(
+        phases=world.thread_phase,
+        friction=THREAD_FRICTION * world.friction["thread"],
+        scarred=scarred_threads(faults),
+        crossing=crossing_threads(faults),
+        slipping=slipping_screws(faults, len(world.thread_phase)),
+    )
+    threads = Threads(model, data, driver, figures, lines)
     mishaps = (Mishaps(model, data, faults),) if due(faults) else ()
     return SimulatedCell(
         model,

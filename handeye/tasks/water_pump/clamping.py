@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.sleep import allow
+from handeye.cell.threads import Threads
 from handeye.core.pose import Array, inverse, pose
 from handeye.core.record import Record
-from handeye.tasks.water_pump.threads import Threads
 
 SCREWS: Final = 2
 CLAMP: Final = 40.0  # N, each: with friction .2 the two hold 16 N sideways. Chosen.

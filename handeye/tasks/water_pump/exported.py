@@ -1,7 +1,7 @@
 """The pump's cell as other programs are given it: things by people's names, screws where they are, no mechanisms.
 
 In the cell a screw in its thread is a carrier, and the screw itself lies on a tray below the floor
-(`tasks/water_pump/threads.py`). Here it is the screw that is in its hole: it is where the carrier is, welded to the
+(`cell/threads.py`). Here it is the screw that is in its hole: it is where the carrier is, welded to the
 base. Carriers, tray, and what couples the driver's motor to a carrier are left out.
 """
 
@@ -11,13 +11,13 @@ from typing import Final
 import mujoco
 
 from handeye.cell.keyframe import add_keyframe, body_pose
+from handeye.cell.threads import holes_of
 from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, inverse
 from handeye.core.resources import scenes
 from handeye.tasks.interface import ExportedScene
 from handeye.tasks.water_pump.scene import specification
 from handeye.tasks.water_pump.scene.textures import add_textures
-from handeye.tasks.water_pump.threads import holes_of
 from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 

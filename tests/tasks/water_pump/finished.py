@@ -9,6 +9,7 @@ import numpy as np
 from driving import tick
 
 from handeye.cell.simulated import SimulatedCell
+from handeye.cell.threads import Threads
 from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, planar, pose, translated
 from handeye.core.units import JIFFY
@@ -16,7 +17,6 @@ from handeye.judge.measured import Measured
 from handeye.runs.exported_state import ExportedState
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.referee import limits
-from handeye.tasks.water_pump.threads import Threads
 from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, standard
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 

@@ -13,10 +13,10 @@ from finished import put
 
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.threads import ThreadsState, holes_of
 from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, hand, inverse, planar, pose, rotation, rotation_x, translated
 from handeye.core.units import DEGREE
-from handeye.tasks.water_pump.threads import ThreadsState, holes_of
 from handeye.tasks.water_pump.world.dimensions import dimensions, screw_holes, standard
 from handeye.tasks.water_pump.world.nominal import PARK
 

@@ -9,7 +9,7 @@ from driving import tick
 from finished import enter, stacked, threads_of
 from static_rigs import Force
 
-from handeye.tasks.water_pump.threads import RUNNING_TORQUE, THREAD_FRICTION, THREAD_RADIUS
+from handeye.cell.threads import RUNNING_TORQUE, THREAD_FRICTION, THREAD_RADIUS
 from handeye.tasks.water_pump.world.dimensions import dimensions
 
 PERIODS, HELD, MEAN = 60, 20, 10

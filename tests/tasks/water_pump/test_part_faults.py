@@ -11,7 +11,7 @@ from handeye.core.faults import Fault
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
-from handeye.tasks.water_pump.faults.before import GONE, METAL, part_faults, scarred_threads
+from handeye.tasks.water_pump.faults.before import GONE, METAL, part_faults, scarred_threads, slipping_screws
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.variation import SEVENTH
@@ -152,3 +152,11 @@ def test_a_jammed_rotor_and_a_smooth_bit_rub_otherwise() -> None:
 
 def test_threads_are_scarred_by_number() -> None:
     assert scarred_threads([Fault(name="thread.2.scarred"), Fault(name="hole.3.blocked")]) == {1}
+
+
+@pytest.mark.parametrize("fault", ["screw.1.slotless", "bit.smooth"])
+def test_no_thread_takes_a_screw_on_which_the_bit_slips(fault: str) -> None:
+    """The bench's own bit rubs, so that the screw turns over the hole."""
+    bench = ThreadBench(slipping=slipping_screws([Fault(name=fault)], 1))
+    bench.drive_until(lambda: bench.thread.screw is not None, speed=SPEED, press=6.0, seconds=2.0)
+    assert (bench.thread.screw, bench.driver.torque() < 0.05) == (None, True)

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from finished import finished, put
 
+from handeye.cell.threads import Thread, ThreadsState, holes_of
 from handeye.cell.truth import Truth
 from handeye.core.pose import planar, pose, rotation_x, translated
 from handeye.judge.finding import all_right
 from handeye.judge.measured import Measured
 from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.referee.findings import judge
-from handeye.tasks.water_pump.threads import Thread, ThreadsState, holes_of
 from handeye.tasks.water_pump.world.dimensions import dimensions
 
 

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from finished import put, rested
 
+from handeye.cell.threads import ThreadsState, holes_of
 from handeye.cell.truth import Truth
 from handeye.core.pose import Array, Pose, inverse, planar, pose, rotation_x, translated
 from handeye.core.resources import plans
@@ -25,7 +26,6 @@ from handeye.judge.measured import Measured
 from handeye.tasks.water_pump.referee import limits, measure
 from handeye.tasks.water_pump.referee.findings import judge
 from handeye.tasks.water_pump.referee.measure import head_force
-from handeye.tasks.water_pump.threads import ThreadsState, holes_of
 from handeye.tasks.water_pump.world.dimensions import base_top, dimensions
 
 pytestmark = pytest.mark.slow

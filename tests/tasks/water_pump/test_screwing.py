@@ -8,10 +8,10 @@ import pytest
 from bench_hand import Hand
 from finished import stacked
 
+from handeye.cell.threads import holes_of
 from handeye.cell.truth import Truth
 from handeye.core.pose import Array
 from handeye.core.units import INCH
-from handeye.tasks.water_pump.threads import holes_of
 from handeye.tasks.water_pump.world.dimensions import dimensions
 
 DOWN = np.array([0.0, 0.0, -1.0])

@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from handeye.cell.threads import Thread, holes_of
 from handeye.cell.truth import Truth
 from handeye.core.pose import yaw
 from handeye.core.units import INCH
@@ -14,7 +15,6 @@ from handeye.judge.measured import Measured, tilt
 from handeye.tasks.water_pump.referee import limits, measure
 from handeye.tasks.water_pump.referee.measure import Overlap, deepest
 from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.tasks.water_pump.threads import Thread, holes_of
 from handeye.tasks.water_pump.world.dimensions import dimensions
 
 _PINS: Final = ("pin0", "pin1")

@@ -1,19 +1,17 @@
 """A bench with one tapped hole, one screw and a driver that is pressed down and gives way sideways: threads alone."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import acos, cos, degrees, pi, sin, tan
 
-import msgspec
 import mujoco
+import numpy as np
 
 from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.threads import Thread, ThreadFigures, Threads
 from handeye.cell.watchdog import Watchdog
-from handeye.core.faults import Fault
 from handeye.core.pose import Pose, pose
 from handeye.core.units import JIFFY
-from handeye.tasks.water_pump.threads import Thread, Threads
-from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 MOUTH = 0.05  # m, height of the hole's mouth
 LENGTH, HEAD = 0.01905, 0.004  # m, screw under the head; head
@@ -68,7 +66,7 @@ def scene(offset: float, tilt: float) -> str:
     lean = f"{cos(tilt / 2)} {sin(tilt / 2)} 0 0"
     return f"""<mujoco>{_RING.format(step=1 / 960, solref=2 / 960)}<asset>{ring}{sock}</asset><worldbody>
 <site name="park0" pos="1 0 -1"/><geom type="box" pos="1 0 -1.01" size=".1 .1 .01" conaffinity="8"/>
-<body name="base" pos="0 0 {MOUTH}"><freejoint name="base"/>
+<body name="block" pos="0 0 {MOUTH}"><freejoint name="block"/>
  <inertial pos="0 0 -.03" mass="2" diaginertia=".01 .01 .01"/>
  {ring_geoms}
  <geom class="seat" pos="0 .008 {FLANGE - 0.004}"/><geom class="seat" pos="0 -.008 {FLANGE - 0.004}"/>
@@ -96,7 +94,7 @@ def scene(offset: float, tilt: float) -> str:
 </worldbody>
 <equality><joint joint1="thread_slide0" joint2="thread_turn0" polycoef="0 {lead} 0 0 0"
   solref=".004 1" solimp=".999 .9999 .0001"/>
- <weld body1="base" relpose="0 0 {-MOUTH} 1 0 0 0" anchor="0 0 0" solref=".004 1"/></equality>
+ <weld body1="block" relpose="0 0 {-MOUTH} 1 0 0 0" anchor="0 0 0" solref=".004 1"/></equality>
 <actuator><general name="spindle" joint="spindle" gainprm=".02" biastype="affine" biasprm="0 0 -.02"
   forcelimited="true" forcerange="-.05 .05"/>
  <general name="drive" site="thread0" refsite="reaction" gear="0 0 0 0 0 1" biastype="affine"
@@ -107,17 +105,18 @@ def scene(offset: float, tilt: float) -> str:
 class ThreadBench:
     """The bench as it runs."""
 
-    def __init__(self, *, offset: float = 0.0, tilt: float = 0.0, faults: tuple[Fault, ...] = ()) -> None:
-        drawn = PumpWorld.nominal().drawn
-        broken = msgspec.structs.replace(drawn.spec, faults=faults)
-        world = replace(PumpWorld.nominal(), thread_phase=(1.0,) * 6, drawn=replace(drawn, spec=broken))
+    def __init__(
+        self, *, offset: float = 0.0, tilt: float = 0.0, slipping: frozenset[int] = frozenset()
+    ) -> None:
         self.model = mujoco.MjModel.from_xml_string(scene(offset, tilt))
         self.data = mujoco.MjData(self.model)
         self.driver = SimulatedScrewdriver(
-            self.model, self.data, ("drive", "spindle"), torque_noise=0.0, noise=world.generator("sensors"),
+            self.model, self.data, ("drive", "spindle"), torque_noise=0.0, noise=np.random.default_rng(0),
             watchdog=Watchdog(JIFFY),
         )  # fmt: skip
-        self.threads = Threads(self.model, self.data, world, self.driver)
+        self.threads = Threads(
+            self.model, self.data, self.driver, ThreadFigures(phases=(1.0,), slipping=slipping)
+        )
 
     @property
     def thread(self) -> Thread:
@@ -137,7 +136,7 @@ class ThreadBench:
     @property
     def head_gap(self) -> float:
         """Of the head over where it belongs, m."""
-        return float((self.screw @ (0.0, 0.0, LENGTH, 1.0))[2] - self.data.body("base").xpos[2] - FLANGE)
+        return float((self.screw @ (0.0, 0.0, LENGTH, 1.0))[2] - self.data.body("block").xpos[2] - FLANGE)
 
     def tick(self, speed: float, press: float) -> None:
         """Turn (rad/s) and press (N) for a servo period."""

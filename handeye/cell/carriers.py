@@ -1,4 +1,4 @@
-"""Carriers of the tapped holes: bodies in the base that stand for the screws in them.
+"""Carriers of tapped holes: bodies in the tapped one, the base, that stand for the screws in them.
 
 A carrier slides along its axis and turns about it, bound by the pitch. That axis is the tapped hole's, but for a
 screw that came in leaning: its carrier takes the screw's own axis, so that nothing jumps, and the thread draws it
@@ -33,8 +33,9 @@ class Carriers:
         self.count = sum(model.body(i).name.startswith("carrier") for i in range(model.nbody))
         """How many there are."""
         holes = range(self.count)
-        self._base = model.body("base").id
         self._body = np.array([model.body(f"carrier{k}").id for k in holes])
+        self.base = int(model.body_parentid[self._body[0]])
+        """The body that has the holes."""
         self._slide = [model.joint(f"thread_slide{k}").id for k in holes]
         self._turn = [model.joint(f"thread_turn{k}").id for k in holes]
         self.head = np.array([model.geom(f"head{k}").id for k in holes])
@@ -75,7 +76,7 @@ class Carriers:
     def fill(self, hole: int, X_WS: Pose, rate: float) -> None:
         """Put the carrier of a hole where a screw is, on the screw's own axis, turning at a rate (rad/s)."""
         model, data = self._model, self._data
-        X_WB = pose(data.xmat[self._base].reshape(3, 3), data.xpos[self._base])
+        X_WB = pose(data.xmat[self.base].reshape(3, 3), data.xpos[self.base])
         X_BS = inverse(X_WB) @ X_WS
         axis = X_BS[:3, 2]
         along = float(axis @ (X_BS[:3, 3] - self.mouths[hole]))

@@ -4,29 +4,33 @@ Threads are too fine to simulate by contact. Each tapped hole has a carrier in t
 screw is an ordinary body until the events here find, at a tick, that its tip is in the bore, near the axis, deep
 enough, turned clockwise and at the phase of the thread; then it is parked out of sight, and the carrier is where it
 was. A screw that enters tilted cuts its own thread, stays tilted and jams high. From there all is physics again: the
-shank meets the holes of gasket and top, the head the part beneath, friction grows with the clamp force, and the motor
-turns the carrier against the driver's body, so that arm and base feel the torque. A screw that is turned back to where
-its thread began is loose again. Limits of the model are in scenes/water_pump/README.md.
+shank meets the holes of the parts above, the head the part beneath, friction grows with the clamp force, and the motor
+turns the carrier against the driver's body, so that whatever holds driver and tapped body feels the torque. A screw
+that is turned back to where its thread began is loose again. Limits of the model are in scenes/water_pump/README.md.
+
+A scene with screws names them by number from 0: free bodies `screw0` (the origin is the point) with geoms
+`screw_head0`, and sites `park0` out of sight; carriers `carrier0` in the tapped body with site `thread0`, joints
+`thread_slide0` and `thread_turn0`, geoms `head0` and `shank0`; of the driver the geom `bit`, joint and actuator
+`spindle`, and the actuators `drive`, from the site of a thread to the driver's body, and `magnet`.
 """
 
+from collections.abc import Set
+from dataclasses import dataclass
 from math import acos, pi, radians
-from typing import Annotated, Final
+from typing import Annotated, Final, Protocol
 
 import msgspec
 import mujoco
 import numpy as np
 
+from handeye.cell.carriers import Carriers
 from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.sleep import wake
 from handeye.cell.state import finite
 from handeye.cell.truth import Truth
 from handeye.core.pose import Array, Pose, pose, translated
 from handeye.core.record import Record
-from handeye.tasks.water_pump.carriers import Carriers
-from handeye.tasks.water_pump.faults.before import crossing_threads, scarred_threads, slipping_screws
-from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 CAPTURE: Final = 0.0004  # m, tip to axis. The bore leaves the point .35 mm of play.
 START_DEPTH: Final = 0.00127  # m, tip below the mouth: one turn of the thread.
@@ -74,6 +78,33 @@ class ThreadsState(Record, frozen=True, kw_only=True):
     """The hole whose carrier the driver's motor is coupled to."""
 
 
+class Driver(Protocol):
+    """A powered screwdriver, as its motor is set."""
+
+    @property
+    def speed(self) -> float:
+        """Of its spindle, rad/s, positive drives a screw in."""
+
+    @property
+    def magnet(self) -> bool:
+        """The magnet of its bit is on."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ThreadFigures:
+    """How threads and screws were made; holes and screws are numbered from 0."""
+
+    phases: tuple[float, ...]
+    """Where the thread of each hole starts, rad."""
+    friction: float = THREAD_FRICTION
+    scarred: Set[int] = frozenset()
+    """Holes in which a screw has been crossed before."""
+    crossing: Set[int] = frozenset()
+    """Holes in which every screw crosses."""
+    slipping: Set[int] = frozenset()
+    """Screws on which the bit slips; no thread takes one, also if something else than the bit turns it a little."""
+
+
 class Threads(Mechanism[ThreadsState]):
     """The tapped holes, the loose screws and the driver's motor."""
 
@@ -85,20 +116,16 @@ class Threads(Mechanism[ThreadsState]):
         self,
         model: mujoco.MjModel,
         data: mujoco.MjData,
-        world: PumpWorld,
-        driver: SimulatedScrewdriver,
+        driver: Driver,
+        figures: ThreadFigures,
         lines: Lines = SOUND,
     ) -> None:
         """Empty holes; `lines`: `magnet`, the force of the bit's."""
         self._model, self._data, self._driver, self._lines = model, data, driver, lines
-        self._carriers = Carriers(model, data)
-        holes, scarred = range(self._carriers.count), scarred_threads(world.drawn.spec.faults)
-        self.holes: tuple[Thread, ...] = tuple(Thread(scarred=k in scarred) for k in holes)
-        self._crossing = crossing_threads(world.drawn.spec.faults)
-        self._slipping = slipping_screws(world.drawn.spec.faults, len(holes))
-        self._phase = world.thread_phase
-        self._friction = THREAD_FRICTION * world.friction["thread"]
-        self._base = model.body("base").id
+        self._carriers, self._figures = Carriers(model, data), figures
+        holes = range(self._carriers.count)
+        self.holes: tuple[Thread, ...] = tuple(Thread(scarred=k in figures.scarred) for k in holes)
+        self._base = self._carriers.base
         self._screw = np.array([model.body(f"screw{k}").id for k in holes])
         self._tray = [model.site(f"park{k}").id for k in holes]
         self._bit = model.geom("bit").id
@@ -160,7 +187,7 @@ class Threads(Mechanism[ThreadsState]):
         taken = {hole.screw for hole in self.holes}
         mouths = self._data.xpos[self._base] + self._carriers.mouths @ self._axes().T
         for j, body in enumerate(self._screw):
-            if j in taken or j in self._slipping:
+            if j in taken or j in self._figures.slipping:
                 continue
             offsets = (self._data.xpos[body] - mouths) @ self._axes()
             k = int(np.argmin(np.hypot(offsets[:, 0], offsets[:, 1])))
@@ -190,7 +217,7 @@ class Threads(Mechanism[ThreadsState]):
         if not in_bore or rate < START_RATE or self._tilt(self._pose(screw)) > STEEPEST:
             return False
         R = self._axes().T @ self._pose(screw)[:3, :3]
-        ahead = (np.arctan2(R[1, 0], R[0, 0]) - self._phase[hole]) % (2 * pi)
+        ahead = (np.arctan2(R[1, 0], R[0, 0]) - self._figures.phases[hole]) % (2 * pi)
         return bool(ahead < 1.2 * rate * seconds + 0.05)  # the thread starts within this turn
 
     def _tilt(self, X_WS: Pose) -> float:
@@ -208,7 +235,7 @@ class Threads(Mechanism[ThreadsState]):
     def take(self, screw: int, hole: int, X_WS: Pose) -> None:
         """Replace a loose screw by the carrier of a hole, which is then where the screw is."""
         scarred = self.holes[hole].scarred
-        crossed = hole in self._crossing or self._tilt(X_WS) > (SCARRED if scarred else SQUARE)
+        crossed = hole in self._figures.crossing or self._tilt(X_WS) > (SCARRED if scarred else SQUARE)
         self._carriers.fill(hole, X_WS, self._rate(screw))
         self._put(screw, pose(np.eye(3), self._data.site_xpos[self._tray[screw]]), np.zeros(6))
         self._set(hole, Thread(screw=screw, crossed=crossed, scarred=crossed or scarred))
@@ -271,7 +298,7 @@ class Threads(Mechanism[ThreadsState]):
             return
         state = self.holes[hole]
         clamp = (state.clamp + self.head_force(hole)) / 2  # a head that chatters on its seat still presses
-        torque = RUNNING_TORQUE + self._friction * THREAD_RADIUS * clamp
+        torque = RUNNING_TORQUE + self._figures.friction * THREAD_RADIUS * clamp
         if state.crossed:
             torque = BACKING_TORQUE if back else CROSSED_TORQUE
         self._model.dof_frictionloss[self._carriers.friction_of(hole)] = min(torque, CROSSED_TORQUE)
