@@ -5,11 +5,11 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from handeye.program.events import AnyEvent, RunStarted, StageFinished, StageStarted, StepStarted
-from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, LOG, MOMENTS, SCENE
+from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, LOG, MACHINES, MOMENTS, SCENE
 from handeye.trace.records import RawMessage
 from handeye.trace.trace import Trace
 
-OF_A_PERIOD: Final = (JOINTS, HAND, FRAMES)
+OF_A_PERIOD: Final = (JOINTS, HAND, MACHINES, FRAMES)
 """Channels of what is recorded of each servo period."""
 _SAID_TWICE: Final = (LOG, SCENE)
 """Channels that say nothing of their own: sentences of events, and how bodies look."""

@@ -23,6 +23,7 @@ from handeye.execution.state import Shot
 from handeye.execution.stopwatch import Stopwatch
 from handeye.execution.undo.done import Undoing
 from handeye.judge.finding import Findings
+from handeye.ports.axes import Channel
 from handeye.program.events import AnyEvent, Choice
 from handeye.program.operation import Device
 from handeye.program.system_state import SystemState
@@ -154,6 +155,11 @@ class RunningSystem(Protocol):
     @property
     def joints(self) -> tuple[str, ...]:
         """Names of the arm's joints, in order; none of a system without one."""
+        return ()
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """Channels that its servo periods tell of, besides joints and hand."""
         return ()
 
     @property

@@ -20,6 +20,7 @@ from google.protobuf.message import Message
 from handeye.program.event_reading import event_type
 from handeye.program.events import CommonEvent
 from handeye.trace.hand_message import hand_schema
+from handeye.trace.machine_channels import channels_schema
 
 FORMAT: Final = "handeye trace"
 VERSION: Final = 3
@@ -40,8 +41,9 @@ LOG: Final = "/log"
 SCENE: Final = "/scene"
 EVENTS: Final = "/events"
 HAND: Final = "/hand"
+MACHINES: Final = "/channels"
 ANNOTATIONS: Final = "/camera/annotations"
-MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND, ANNOTATIONS)
+MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND, MACHINES, ANNOTATIONS)
 """Channels recorded beside the events: how it was at a moment."""
 
 WORLD: Final = "world"
@@ -106,6 +108,13 @@ CHANNELS: Final = (
         schema=hand_schema(),
     ),
     _typed(ANNOTATIONS, ImageAnnotations),
+    Channel(
+        topic=MACHINES,
+        encoding="json",
+        schema_name="handeye.Channels",
+        schema_encoding="jsonschema",
+        schema=channels_schema(),
+    ),
 )
 """All channels, in the order of their numbers in the file, which begin with 1."""
 

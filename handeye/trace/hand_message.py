@@ -89,8 +89,13 @@ def read_hand(data: bytes) -> HandMessage:
 
 
 def hand_schema() -> bytes:
-    """JSON schema of the messages, all in one piece: not every tool follows references within a schema."""
-    whole = msgspec.json.schema(HandMessage)
+    """JSON schema of the messages."""
+    return in_one_piece(HandMessage)
+
+
+def in_one_piece(kind: type[Record]) -> bytes:
+    """JSON schema of a record without references within it, which not every tool follows."""
+    whole = msgspec.json.schema(kind)
     return msgspec.json.encode(_in_place(whole, whole["$defs"]), order="sorted")
 
 

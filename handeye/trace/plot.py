@@ -93,7 +93,7 @@ def plot(trace: Trace, stage: str | None = None) -> Plot:
         begin=trace.elapsed(begin),
         end=trace.elapsed(end),
         stages=tuple(_stages(trace)),
-        panels=(*_joints(trace, rows), _forces(trace, rows)),
+        panels=(*_joints(trace, rows), _forces(trace, rows), *_channels(trace, begin, end)),
         marks=tuple(_marks(trace, begin, end)),
     )
 
@@ -149,6 +149,18 @@ def _forces(trace: Trace, rows: slice) -> Panel:
         for number, axis in enumerate("xyz")
     )
     return Panel(name="force of the hand", unit=unit.name, curves=tuple(curves))
+
+
+def _channels(trace: Trace, begin: float, end: float) -> Iterator[Panel]:
+    """A panel for the channels of each unit."""
+    for unit in dict.fromkeys(channel.unit for channel in trace.channels):
+        curves = []
+        for channel in trace.channels:
+            rows = Span(begin, end).rows(channel.times)
+            if channel.unit == unit:
+                times = channel.times[rows] - trace.head.time
+                curves.append(Curve(name=channel.name, times=times, values=channel.values[rows]))
+        yield Panel(name="channels" if unit else "switches, counts", unit=unit, curves=tuple(curves))
 
 
 def _marks(trace: Trace, begin: float, end: float) -> Iterator[Mark]:

@@ -14,7 +14,7 @@ from handeye.arm.model import ArmModel
 from handeye.core.record import Record
 from handeye.program.events import AnyEvent, FrictionMeasured
 from handeye.trace.annotations import read_annotations
-from handeye.trace.channels import ANNOTATIONS, EVENTS, FRAMES, HAND, JOINTS, PICTURE
+from handeye.trace.channels import ANNOTATIONS, EVENTS, FRAMES, HAND, JOINTS, MACHINES, PICTURE
 from handeye.trace.messages import GAP, LEVEL
 from handeye.trace.records import RawMessage
 
@@ -108,6 +108,11 @@ def _hand(data: bytes) -> dict[str, Any]:
     return {"hand": msgspec.json.decode(data)}
 
 
+def _channels(data: bytes) -> dict[str, Any]:
+    told = msgspec.json.decode(data)["channels"]
+    return {"channel": {each["name"]: each["values"] for each in told}}
+
+
 def _frames(data: bytes) -> dict[str, Any]:
     bodies = {}
     for frame in FrameTransforms.FromString(data).transforms:
@@ -154,6 +159,7 @@ _AXES: Final = ("x", "y", "z", "O", "A", "T")
 _TELLERS: Final[Mapping[str, Callable[[bytes], dict[str, Any]]]] = {
     JOINTS: _joints,
     HAND: _hand,
+    MACHINES: _channels,
     FRAMES: _frames,
     PICTURE: _picture,
     ANNOTATIONS: _marks,
@@ -184,6 +190,11 @@ def _unit(message: RawMessage, quantity: tuple[str, ...], arm: ArmModel | None) 
             return "m"
         case ("hand", "guards", number, "limit"):
             return _GUARD_UNITS.get(_hand(message.data)["hand"]["guards"][int(number) - 1]["guard"], "")
+        case ("channel", name, *_):
+            units = {
+                each["name"]: each.get("unit", "") for each in msgspec.json.decode(message.data)["channels"]
+            }
+            return str(units.get(name, ""))
         case ("hand", what, *_):
             return _HAND_UNITS.get(what, "")
     return _event_unit(msgspec.json.decode(message.data), quantity) if message.topic == EVENTS else ""

@@ -44,6 +44,8 @@ def quantity_text(quantity: tuple[str, ...]) -> str:
     match quantity:
         case (("joint" | "body" | "link") as kind, name, *what):
             said = f"{' '.join(what)} of {kind} {name}"
+        case ("channel", name, *component):
+            said = " ".join(("channel", name, *component))
         case ("picture", "level", row, column):
             said = f"level of the picture in row {row}, column {column}"
         case (of, *what) if what:

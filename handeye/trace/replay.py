@@ -14,6 +14,7 @@ from handeye.ports.camera import Picture
 from handeye.program.event_reading import EventReader
 from handeye.program.events import AnyEvent, PictureTaken, StageFinished, StageStarted, StepStarted
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, PICTURE
+from handeye.trace.machine_channels import decoded_channels
 from handeye.trace.messages import GAP, LEVEL, Poses
 from handeye.trace.records import RawMessage
 
@@ -96,6 +97,33 @@ def read_motion(messages: Iterable[RawMessage]) -> Motion:
         rates=arm[:, :, 1],
         efforts=arm[:, :, 2],
         gaps=columns[:, gap, 0],
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ChannelCurve:
+    """One component of a channel against time."""
+
+    name: str
+    unit: str
+    """SI; empty: a switch or a count."""
+    times: Array
+    """Ends of the servo periods, shape (n,), s on the cell's clock."""
+    values: Array
+    """Shape (n,)."""
+
+
+def read_channels(messages: Iterable[RawMessage]) -> tuple[ChannelCurve, ...]:
+    """The components of all channels of some messages, in order; raises DecodeError if one is no such message."""
+    found: dict[tuple[str, str], list[tuple[float, float]]] = {}
+    for message in messages:
+        for channel in decoded_channels(message.data):
+            for part, value in zip(channel.parts, channel.values, strict=True):
+                found.setdefault((part, channel.unit), []).append((message.time / 1e9, value))
+    curves = ((name, np.array(points)) for name, points in found.items())
+    return tuple(
+        ChannelCurve(name=name, unit=unit, times=points[:, 0], values=points[:, 1])
+        for (name, unit), points in curves
     )
 
 

@@ -34,12 +34,12 @@ def table(trace: Trace, name: str) -> Table:
 
 
 def tables(trace: Trace) -> tuple[Table, ...]:
-    """Joints, forces and events of a run.
+    """Joints, forces and events of a run, and what its machines sensed on channels of their own, if any did.
 
     Raises:
         InvalidInput: a message is not what its channel says; or there are no forces, and the arm is not known here.
     """
-    return tuple(make(trace) for make in _TABLES.values())
+    return tuple(make(trace) for name, make in _TABLES.items() if name != "channels" or trace.channels)
 
 
 def _joints(trace: Trace) -> Table:
@@ -97,6 +97,18 @@ def _forces(trace: Trace) -> Table:
     return Table(name="forces", about=about, columns=(*_under_way(trace, forces.times[rows]), *columns))
 
 
+def _channels(trace: Trace) -> Table:
+    times = np.unique(np.concatenate([np.empty(0), *(channel.times for channel in trace.channels)]))
+    columns = []
+    for channel in trace.channels:
+        values = np.full(len(times), np.nan)
+        values[np.searchsorted(times, channel.times)] = channel.values
+        about = f"channel {channel.name}"
+        columns.append(Column(name=channel.name, about=about, unit=channel.unit, values=values))
+    about = "What machines sensed on channels of their own at the end of each servo period."
+    return Table(name="channels", about=about, columns=(*_under_way(trace, times), *columns))
+
+
 def _events(trace: Trace) -> Table:
     events, task = trace.events, known_any(trace.head.task)
     measures = INCHES if task is None else task.measures
@@ -117,6 +129,7 @@ _TABLES: Final[Mapping[str, Callable[[Trace], Table]]] = {
     "joints": _joints,
     "forces": _forces,
     "events": _events,
+    "channels": _channels,
 }
 
 

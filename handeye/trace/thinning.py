@@ -13,7 +13,7 @@ from handeye.core.polyline import Off, Rows, needed_rows, off_poses, off_values,
 from handeye.core.pose import Array
 from handeye.program.event_reading import EventReader
 from handeye.program.guards import GuardKind
-from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, SCENE
+from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, MACHINES, SCENE
 from handeye.trace.forces import Forces
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import FramesMessage, Poses
@@ -124,7 +124,9 @@ def _messages(trace: Trace, kept: frozenset[int]) -> Iterator[RawMessage]:
     frames, row = _Frames(trace), -1
     for message in trace.messages:
         row += message.topic == JOINTS
-        if message.topic in (FRAMES, SCENE) or (message.topic in (JOINTS, HAND) and row not in kept):
+        if message.topic in (FRAMES, SCENE) or (
+            message.topic in (JOINTS, HAND, MACHINES) and row not in kept
+        ):
             continue
         yield message
         if message.topic == JOINTS:

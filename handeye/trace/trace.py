@@ -14,11 +14,20 @@ from handeye.core.errors import BadArgument, BadFile, Refused
 from handeye.core.plain_text import one_line
 from handeye.core.pose import Array
 from handeye.program.events import AnyEvent, RunStarted
-from handeye.trace.channels import EVENTS, HAND, JOINTS, MOMENTS
+from handeye.trace.channels import EVENTS, HAND, JOINTS, MACHINES, MOMENTS
 from handeye.trace.forces import Forces, recorded_forces
 from handeye.trace.messages import Poses
 from handeye.trace.records import RawMessage
-from handeye.trace.replay import Moment, Motion, Replay, TakenPicture, read_motion, read_pictures
+from handeye.trace.replay import (
+    ChannelCurve,
+    Moment,
+    Motion,
+    Replay,
+    TakenPicture,
+    read_channels,
+    read_motion,
+    read_pictures,
+)
 from handeye.trace.stages import Stage, stages, stages_both_ways
 from handeye.trace.steps import done_steps
 
@@ -139,6 +148,11 @@ class Trace:
             return ""
         nearest = min(below, key=lambda step: step.line)
         return f"; the next line that was is {nearest.place}: {one_line(nearest.text)}"
+
+    @cached_property
+    def channels(self) -> tuple[ChannelCurve, ...]:
+        """What machines sensed on channels of their own, each component against time; none of a planned program."""
+        return self._read(lambda messages: read_channels(m for m in messages if m.topic == MACHINES))
 
     @cached_property
     def _forces(self) -> Forces:

@@ -19,12 +19,14 @@ from handeye.trace.channels import (
     HAND,
     JOINTS,
     LOG,
+    MACHINES,
     PICTURE,
     SCENE,
     nanoseconds,
 )
 from handeye.trace.frames import Frames, Mask
 from handeye.trace.hand_message import hand_message
+from handeye.trace.machine_channels import channels_message
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
 from handeye.trace.records import RawMessage, event_data
@@ -100,6 +102,8 @@ class TraceWriter:
         time = nanoseconds(period.sensed.time)
         self.file.write(JOINTS, time, self._joint_message.filled(time, period.sensed, period.effort))
         self.file.write(HAND, time, hand_message(period))
+        if period.sensed.channels:
+            self.file.write(MACHINES, time, channels_message(period.sensed))
 
     def frames(self, time: float, poses: Poses, there: Mask, *, anew: bool = False) -> None:
         """Write the frames that moved since they were last written, and those that appeared; `anew`: all there are.

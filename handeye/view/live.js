@@ -38,16 +38,22 @@ const live = (() => {
     return button;
   }
 
-  /** A moment: figures, joints, then seven numbers for each body, which are none where it is not there. */
+  /** A moment: figures, joints, channels, then seven numbers for each body, which are none where it is not there. */
   function moment(buffer) {
     const numbers = new Float32Array(buffer), [time, gap, ...force] = numbers.subarray(0, facts.figures);
     let at = facts.figures + facts.joints;
+    const sensed = facts.channels.map(([name, unit]) => [name, numbers[at++], unit]);
     for (const body of facts.bodies) {
       const pose = Array.from(numbers.subarray(at, at += 7));
       if (pose[2] >= facts.lowest) poses.set(body, pose); else poses.delete(body);
     }
-    byId("figures").textContent = [`${time.toFixed(2)} s`, ...felt(gap, force)].join(", ");
+    byId("figures").textContent = [`${time.toFixed(2)} s`, ...felt(gap, force), ...shown(sensed)].join(", ");
     player?.at(time);
+  }
+
+  function shown(sensed) {
+    const told = sensed.filter(([, value]) => !Number.isNaN(value));
+    return told.map(([name, value, unit]) => `${name} ${value.toPrecision(3)} ${unit}`.trim());
   }
 
   function felt(gap, force) {

@@ -97,14 +97,16 @@ class Moment:
     """Of the hand on the world, shape (3,), N; None: it is not estimated."""
     joints: Array
     """Shape (n,), rad and m."""
+    channels: Array
+    """Components of the system's channels, shape (k,), SI; NaN: nothing was sensed yet."""
     poses: Poses
     """Of all bodies of the cell, shape (m, 7): place (m), quaternion w, x, y, z; NaN: not there."""
 
     @cached_property
     def packed(self) -> bytes:
-        """The moment as 32-bit numbers, little-endian: `FIGURES`, joints, poses; NaN: not estimated."""
+        """The moment as 32-bit numbers, little-endian: `FIGURES`, joints, channels, poses; NaN: not estimated."""
         force = np.full(3, np.nan) if self.force is None else self.force
-        numbers = (np.array([self.time, self.gap]), force, self.joints, self.poses.ravel())
+        numbers = (np.array([self.time, self.gap]), force, self.joints, self.channels, self.poses.ravel())
         return np.concatenate(numbers).astype("<f4").tobytes()
 
 
@@ -122,6 +124,11 @@ class Newest(Observer):
         self._runner = runner
         self._joints: Array = np.full(len(self.frames.joints), np.nan)
         self._gap = np.nan
+        self.parts = tuple(
+            (part, channel.unit) for channel in runner.system.channels for part in channel.parts
+        )
+        """Names and units of the components of its channels."""
+        self._channels: Array = np.full(len(self.parts), np.nan)
         self.moment = self._now(None)
         self.television = television(runner)
 
@@ -132,6 +139,8 @@ class Newest(Observer):
     def tick(self, period: ServoPeriod) -> None:
         sensed = period.sensed
         self._joints, self._gap = np.array(sensed.q), float(sensed.gap)
+        if len(self.parts):
+            self._channels = np.concatenate([np.array(values) for values in sensed.channels.values()])
         self.moment = self._now(None if period.wrench is None else np.array(period.wrench[:3]))
 
     def undone(self, events: int) -> None:
@@ -147,7 +156,9 @@ class Newest(Observer):
     def _now(self, force: Array | None) -> Moment:
         poses = self.frames.poses()
         poses[~self.frames.there()] = np.nan
-        return Moment(time=self._elapsed(), gap=self._gap, force=force, joints=self._joints, poses=poses)
+        return Moment(
+            time=self._elapsed(), gap=self._gap, force=force, joints=self._joints, channels=self._channels, poses=poses,
+        )  # fmt: skip
 
     def _elapsed(self) -> float:
         """s since the first of the runs began."""

@@ -46,6 +46,7 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
         "bodies": names,
         "figures": FIGURES,
         "joints": len(newest.frames.joints),
+        "channels": newest.parts,
         "lowest": scene.lowest(model),
         **face.facts,
     }

@@ -144,7 +144,9 @@ def test_parquet_without_pyarrow_is_told_with_the_way_to_get_it(
 def test_a_trace_gives_a_table_by_its_name(trace: Trace, made: dict[str, Table]) -> None:
     assert csv_bytes(trace.table()) == csv_bytes(made["events"])
     assert trace.table("joints")["time"].tolist() == made["joints"]["time"].tolist()
-    with pytest.raises(InvalidInput, match=r"^there is no table 'event'; there are joints, forces, events$"):
+    with pytest.raises(
+        InvalidInput, match=r"^there is no table 'event'; there are joints, forces, events, channels$"
+    ):
         trace.table("event")
 
 

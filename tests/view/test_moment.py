@@ -79,7 +79,9 @@ def test_a_run_that_goes_back_is_shown_where_it_then_is(looked: tuple[Runner, Mo
 
 def test_a_moment_is_sent_as_32_bit_numbers() -> None:
     poses = np.arange(14, dtype=np.float32).reshape(2, 7)
-    moment = Moment(time=2.5, gap=0.03, force=None, joints=np.array([1.0, 2.0]), poses=poses)
+    moment = Moment(
+        time=2.5, gap=0.03, force=None, joints=np.array([1.0, 2.0]), poses=poses, channels=np.empty(0)
+    )
     numbers = np.frombuffer(moment.packed, "<f4")
     assert numbers[:2].tolist() == pytest.approx([2.5, 0.03])
     assert np.isnan(numbers[2:FIGURES]).all()

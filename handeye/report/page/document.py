@@ -18,6 +18,7 @@ from handeye.report.facts.planned import ends
 from handeye.report.facts.searches import searches
 from handeye.report.facts.seen import lost_pictures, seen_pictures
 from handeye.report.facts.told import told
+from handeye.report.page.channels import channels_section
 from handeye.report.page.elements import element
 from handeye.report.page.felt import How, felt_section
 from handeye.report.page.moments import moments
@@ -69,6 +70,7 @@ def _sections(run: Recorded, photographs: Album) -> Iterator[Markup]:
     yield felt_section(
         felt, how=How.THINNED if run.trace.thinned else How.RECORDED, lost=lost_trips(run, felt)
     )
+    yield channels_section(run.trace)
     yield planned_section(ends(run), corrections(run), searches(run), stages, run.trace.head.time)
     yield referee_section(run)
     yield record_section(run)

@@ -21,6 +21,7 @@ from handeye.execution.undo.done import Undoing
 from handeye.judge.finding import Findings
 from handeye.machines.purbrick import PURBRICK
 from handeye.planfile.store import written_digest
+from handeye.ports.axes import Channel
 from handeye.ports.workcell import sense_axes
 from handeye.program.events import (
     AnyEvent,
@@ -90,6 +91,10 @@ class RunningJob(RunningSystem):
     @property
     def joints(self) -> tuple[str, ...]:
         return tuple(spec.name for spec in PURBRICK.axes)
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        return self.job.axes.channels
 
     @property
     def time(self) -> float:
