@@ -63,10 +63,10 @@ class Bench(Clock, Mechanism[BenchTime]):
         self.after_period: list[Callable[[], None]] = []
         self.handlers: dict[str, Callable[[], None]] = {}
         """What is done about events that are due, by their names."""
-        self.step: Final = Fraction(model.opt.timestep).limit_denominator(_FINEST)
+        self.tick: Final = Fraction(model.opt.timestep).limit_denominator(_FINEST)
         """s of a physics step."""
         self._parts: list[Mechanism[Any]] = []
-        self._steps, self._stretch = 0, max(1, int(_STRETCH / self.step))
+        self._steps, self._stretch = 0, max(1, int(_STRETCH / self.tick))
         self._due: list[Due] = []
         mujoco.mj_forward(self.model, self.data)
 
@@ -94,10 +94,10 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     @property
     def now(self) -> float:
-        return float(self._steps * self.step)
+        return float(self._steps * self.tick)
 
     def advance(self, seconds: float) -> None:
-        end = self._steps + whole_steps(seconds, float(self.step))
+        end = self._steps + whole_steps(seconds, float(self.tick))
         while True:
             self._handle_due()
             if self._steps == end:
@@ -113,7 +113,7 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     def _begins(self, due: Due) -> int:
         """The number of the physics step before which an event is handled."""
-        return -int(-Fraction(due.microseconds, MICROSECONDS) // self.step)
+        return -int(-Fraction(due.microseconds, MICROSECONDS) // self.tick)
 
     def _handle_due(self) -> None:
         while self._due and self._begins(self._due[0]) <= self._steps:
@@ -123,12 +123,12 @@ class Bench(Clock, Mechanism[BenchTime]):
         """Make some physics steps, at most so many: for a stretch, or all of them if everything sleeps."""
         steps = min(most, self._stretch)
         for part in self._parts:
-            part.before(float(steps * self.step))
+            part.before(float(steps * self.tick))
         for act in self.before_period:
             act()
         if asleep(self.data):
             for part in self._parts:
-                part.rested(float((most - steps) * self.step))
+                part.rested(float((most - steps) * self.tick))
             self._steps += most
         else:
             self._make(steps)

@@ -74,7 +74,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         self._holds = np.array([spec.holds for spec in specs])
         self._gradual = np.array([spec.name not in at_once for spec in specs])
         self._powered, self._latched = True, dict[str, tuple[float, ...]]()
-        self._steps, self._left = whole_steps(period, float(bench.step)), 0
+        self._steps, self._left = whole_steps(period, float(bench.tick)), 0
         self._way = np.zeros(len(specs))
         self.bind(bench.model, bench.data)
         q = self.read().q

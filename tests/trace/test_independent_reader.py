@@ -22,6 +22,7 @@ TYPES = {
     "/scene": "foxglove.SceneUpdate",
     "/events": "handeye.Event",
     "/hand": "handeye.Hand",
+    "/channels": "handeye.Channels",
     "/camera/annotations": "foxglove.ImageAnnotations",
 }
 
