@@ -63,10 +63,9 @@ class Bench(Clock, Mechanism[BenchTime]):
         self.after_period: list[Callable[[], None]] = []
         self.handlers: dict[str, Callable[[], None]] = {}
         """What is done about events that are due, by their names."""
-        self.tick: Final = Fraction(model.opt.timestep).limit_denominator(_FINEST)
-        """s of a physics step."""
+        self._tick = Fraction(model.opt.timestep).limit_denominator(_FINEST)
         self._parts: list[Mechanism[Any]] = []
-        self._steps, self._stretch = 0, max(1, int(_STRETCH / self.tick))
+        self._steps, self._stretch = 0, max(1, int(_STRETCH / self._tick))
         self._due: list[Due] = []
         mujoco.mj_forward(self.model, self.data)
 
@@ -91,6 +90,11 @@ class Bench(Clock, Mechanism[BenchTime]):
             part.bind(self.model, self.data)
 
     # -- time -----------------------------------------------------------------------------------------
+
+    @property
+    def tick(self) -> Fraction:
+        """Physics step, s."""
+        return self._tick
 
     @property
     def now(self) -> float:
