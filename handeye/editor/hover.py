@@ -21,7 +21,6 @@ from handeye.editor.checking import arm
 from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO, PART, POSITION, Occurrence, same
 from handeye.editor.places import OperandToken, instruction, places
-from handeye.program.program import Position
 from handeye.program.world_model import WorldModel
 
 SI: Final = {
@@ -137,9 +136,11 @@ def _position(document: Document, name: str) -> list[str]:
         return [f"relative to part `{position.of}`, which is not known"]
     world = WorldModel(parts=document.taught.parts, positions={name: position})
     X_WT = world.planned_position(name)
-    out = [f"hand at {_hand(X_WT)}" + (", as planned" if position.of else "")]
+    out = [
+        f"hand at {_six(X_WT[:3, 3].tolist(), hand_angles(X_WT))}" + (", as planned" if position.of else "")
+    ]
     if position.of is not None:
-        out.append(f"relative to part `{position.of}`: {_written(position)}")
+        out.append(f"relative to part `{position.of}`: {_six(position.at[:3], position.at[3:])}")
     return [*out, joints(arm(), X_WT)]
 
 
@@ -153,14 +154,6 @@ def joints(arm: ArmModel, X_WT: Pose) -> str:
         for joint, q in zip(arm.joints, result.q, strict=True)
     ]
     return "joints: " + ", ".join(shown)
-
-
-def _hand(X_WT: Pose) -> str:
-    return _six(X_WT[:3, 3].tolist(), hand_angles(X_WT))
-
-
-def _written(position: Position) -> str:
-    return _six(position.at[:3], position.at[3:])
 
 
 def _six(p: "list[float] | tuple[float, ...]", angles: tuple[float, ...]) -> str:

@@ -64,7 +64,7 @@ def renamable(document: Document, offset: int) -> Occurrence:
     if any(place.fixed for place in places) or (name.kind, name.name) == (POSITION, PARK):
         raise Refused(f"{quoted(name.name)} is a word of the language")
     if not any(place.makes for place in places):
-        where = "in the taught file" if _is_taught(document, name) else "anywhere"
+        where = "in the taught file" if name.name in document.taught_of(name.kind) else "anywhere"
         raise Refused(f"the definition of {name.kind} {quoted(name.name)} is not found {where}")
     return name
 
@@ -108,10 +108,6 @@ def _hidden(others: Iterable[Occurrence], name: Occurrence, new: str) -> str | N
         if other.name == new and other.macro in used and PARAMETER in (other.kind, name.kind):
             return other.macro
     return None
-
-
-def _is_taught(document: Document, name: Occurrence) -> bool:
-    return name.name in document.taught_of(name.kind)
 
 
 def _all(document: Document, name: Occurrence) -> list[tuple[Occurrence, Place]]:

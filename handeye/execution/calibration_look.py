@@ -1,4 +1,4 @@
-"""One setting of the television camera, at which the arm shows its lamp to it."""
+"""A camera setting at which the arm shows its lamp."""
 
 from dataclasses import dataclass
 
@@ -7,14 +7,11 @@ from handeye.core.record import Vector3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CalibrationLook:
-    """A camera setting and the places the lamp is shown at; W, m."""
+    """A camera setting, and the places the lamp is shown at; W, m."""
 
-    lens: float
-    """Focal length, m."""
-    at: Vector3
-    """Point the camera is aimed at."""
+    lens: float  # focal length, m
+    at: Vector3  # aim
     sharp: Vector3
-    """Where the focus is set; one for neighbouring looks, since refocusing takes three times as long as aiming."""
+    """Point in focus, shared by neighbouring looks, since refocusing takes three times as long as aiming."""
     places: tuple[Vector3, ...]
-    hand_angle: float
-    """O of the hand while it shows its lamp, rad; it points down."""
+    hand_angle: float  # angle O of the hand, pointing down, rad

@@ -1,7 +1,7 @@
 """Camera-arm calibration by observation: the arm carries its lamp through the camera's view.
 
-Done once when the camera is set up, before pumps are made: its time is not in the table of 1973. What the
-arm believes of its own place enters here, and the same arm grasps later, so what is common to both cancels.
+Done once when the camera is set up, before pumps are made: its time is not in the table of 1973. The arm's belief of
+its own place enters here, and the same arm grasps later, so what is common to both cancels.
 """
 
 import math
@@ -30,8 +30,7 @@ from handeye.vision.camera_model import CameraModel
 from handeye.vision.lamp import find_spot
 from handeye.vision.live import repeated
 
-FEWEST: Final = 8
-"""Sightings with each lens below which the set-up is called a failure."""
+MIN_SIGHTINGS: Final = 8  # for each lens
 
 
 def calibrate_camera(
@@ -43,18 +42,16 @@ def calibrate_camera(
     halt: Callable[[], bool] = lambda: False,
     viewed: Callable[[int, int], None] = lambda *_: None,
 ) -> Calibration:
-    """Show the lamp to the camera, and fit the camera to where the arm says the lamp was.
+    """Show the lamp to the camera, and fit the camera model to the arm's positions.
+
+    Raises CalibrationFailed if the lamp is seen too few times or the picture does not change, Halted on panic.
 
     Args:
-        state: of the drive; what the arm has measured of itself helps it to carry the lamp.
-        drawing: the camera as the program knows it so far.
+        state: of the drive, with the arm's measurements of itself.
+        drawing: the camera as known so far.
         looks: where the lamp is shown, in order.
         halt: the panic button.
-        viewed: told of each view that the lamp is carried to: its number, of how many.
-
-    Raises:
-        CalibrationFailed: the lamp was seen too few times, or the camera's picture does not change.
-        Halted: the panic button was hit.
+        viewed: called with number and count of each view.
     """
     drive = ArmDrive(cell=cell, arm=arm, state=state, halt=halt)
     home = drive.state.q.copy()
@@ -68,9 +65,9 @@ def calibrate_camera(
             sightings += _sightings(drive, look, place, ready)
     for lens in {look.lens for look in looks}:
         seen = sum(s.lens == lens for s in sightings)
-        if seen < FEWEST:
+        if seen < MIN_SIGHTINGS:
             raise CalibrationFailed(f"the lamp was seen {seen} times with the {lens * 1000:.0f} mm lens; "
-                                    f"{FEWEST} are needed to calibrate the camera")  # fmt: skip
+                                    f"{MIN_SIGHTINGS} are needed to calibrate the camera")  # fmt: skip
     back = move(arm, drive.state.q, forward(arm, home), departure=3 * INCH, approach=3 * INCH, speed=1.0)
     if not isinstance(back, IKResult):
         _go(drive, back)
@@ -91,7 +88,7 @@ def _camera(drive: ArmDrive) -> TvCamera:
 
 
 def _set_up(camera: TvCamera, drawing: CameraModel, look: CalibrationLook) -> float:
-    """Turn the lens in, aim and focus; seconds that it takes, in which the arm may move."""
+    """Select the lens, aim and focus; returns the seconds this takes, during which the arm may move."""
     turning = camera.lens(look.lens)
     slewing = camera.aim(*drawing.aim(look.at, look.lens))
     return turning + slewing + camera.focus(math.dist(look.sharp, drawing.mount))
@@ -100,7 +97,7 @@ def _set_up(camera: TvCamera, drawing: CameraModel, look: CalibrationLook) -> fl
 def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3, ready: float) -> Iterator[Sighting]:
     """Show the lamp at a place to a camera that is ready at a time (s).
 
-    One sighting, or none where the arm cannot go or the camera does not see it.
+    Yields one sighting, or none where the arm cannot go or the camera does not see it.
     """
     camera = _camera(drive)
     assert drive.arm.hand.lamp is not None

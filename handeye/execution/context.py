@@ -1,4 +1,4 @@
-"""The surroundings of a working phase: what its operations are carried out with, and the state they live in."""
+"""The context of a working phase: plan, arm, cell, and the state that operations share."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -23,20 +23,17 @@ from handeye.vision.camera_model import CameraModel
 
 @dataclass(slots=True, kw_only=True)
 class ExecutionContext:
-    """Plan, arm and cell of one working phase; its drive and world model live in parts of its state."""
+    """Plan, arm and cell of a working phase; drive and world model live in parts of its state."""
 
     plan: Plan
     arm: ArmModel
     cell: Workcell
-    camera: CameraModel | None
-    """The calibrated camera; None in a cell without one."""
+    camera: CameraModel | None  # calibrated; None in a cell without one
     emit: Callable[[AnyEvent], None]
-    search: SearchPattern = spiral
-    """The places that a search tries."""
-    without: frozenset[Sense] = frozenset()
-    """Senses that the program does without; see `program.senses`."""
+    search: SearchPattern = spiral  # places that a search tries
+    without: frozenset[Sense] = frozenset()  # senses not used; see `program.senses`
     vision: Stopwatch = field(default_factory=Stopwatch)
-    """Processor time of vision; the working phase itself never reads a clock of the host."""
+    """Processor time of vision; the working phase itself reads no host clock."""
     state: ExecutionState = field(init=False)
     drive: ArmDrive = field(init=False)
     world: WorldModel = field(init=False)
@@ -54,30 +51,26 @@ class ExecutionContext:
 
     @property
     def felt_friction(self) -> Array:
-        """What the hand feels here of the friction measured, a joint a column, shape (6, n); see `arm.friction`."""
+        """Wrench felt here from each joint's measured friction, as columns, shape (6, n); see `arm.friction`."""
         return felt_friction(self.arm, self.drive.state.q, self.drive.state.friction)
 
     def watching(self, guards: Guards) -> Guards:
-        """Those of some guards whose senses there are."""
+        """Guards whose senses are in use."""
         return tuple(guard for guard in guards if guard.sense() not in self.without)
 
     @property
     def planned(self) -> PlannedMotion:
-        """The planned motion of the step under way, which must have one."""
+        """The planned motion of the present step, which must have one."""
         assert self.state.at is not None
         return self.plan.motions[self.state.at]
 
     def restore(self, state: ExecutionState) -> None:
-        """Go on from a copy of a state; the cell must be as it was then.
-
-        Raises:
-            InvalidInput: it is not a state of this plan.
-        """
+        """Restore a state; the cell must be as it was then. Raises BadFile if it does not fit the plan."""
         check_fits(state, self.plan, self.arm)
         put_back(self.state, state)
 
 
 Action = Callable[[ExecutionContext, Any], Fault | None]
-"""Carries an operation out, and comes back with the error that it raises."""
+"""Carries out an operation and returns the error it raises."""
 Decision = Callable[[ExecutionContext, Any], bool]
-"""True if the step leads to where its operation branches."""
+"""True if the step takes its branch."""

@@ -1,4 +1,4 @@
-"""The devices that operations need, and whether a cell has them."""
+"""Checks that a cell has the devices of a program."""
 
 from typing import Final
 
@@ -8,15 +8,11 @@ from handeye.program.operation import Device
 from handeye.program.program import Program
 
 _CALLED: Final[dict[Device, str]] = {"camera": "television camera"}
-"""Devices that people call otherwise."""
+"""Names of devices for people."""
 
 
 def check_devices(program: Program, cell: Workcell) -> None:
-    """See that a program can be carried out by the devices of a cell.
-
-    Raises:
-        InvalidInput: a step needs one that is not there.
-    """
+    """Raise Refused if a step needs a device that the cell lacks."""
     devices = {"hand": cell.hand, "screwdriver": cell.screwdriver, "camera": cell.camera}
     for step in program.steps:
         needed = step.needs

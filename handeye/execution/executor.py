@@ -1,4 +1,4 @@
-"""The executor: follows the graph of a plan, step by step, and lets the program test what went wrong."""
+"""The executor: carries out the graph of a plan, step by step, with error tests."""
 
 from dataclasses import dataclass
 from typing import Final, Literal
@@ -14,7 +14,7 @@ from handeye.execution.hand_actions import HAND_ACTIONS
 from handeye.execution.motion_actions import MOTION_ACTIONS
 from handeye.execution.state import ExecutionState, Fault, vector
 from handeye.execution.undo.done import Undoing
-from handeye.execution.undo.noting import before, noted
+from handeye.execution.undo.memory import before, noted
 from handeye.execution.undo.undoing import end, order, undo_last
 from handeye.execution.vision_actions import VISION_ACTIONS
 from handeye.program.causes import Cause, Looping
@@ -34,10 +34,9 @@ from handeye.program.operation import Operation
 from handeye.program.program import Step
 
 IDLE_LIMIT: Final = 10_000
-"""Steps without time passing after which a program is taken to run in a circle."""
+"""Steps without time passing after which the program counts as looping."""
 
 ACTIONS: Final[dict[type[Operation], Action]] = MOTION_ACTIONS | HAND_ACTIONS | VISION_ACTIONS | FLOW_ACTIONS
-"""Actions of all operations that do not branch."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -48,11 +47,11 @@ class Executor:
 
     @property
     def state(self) -> ExecutionState:
-        """All that it remembers, shared with the actions."""
+        """Its state, shared with the actions."""
         return self.run.state
 
     def step(self) -> None:
-        """Do one step, or undo one; the operator is called if it raises an error that the next one does not test."""
+        """Do one step, or reverse one; an error that the next step does not test calls the operator."""
         if self.state.undoing is not None:
             self._undo()
             return
@@ -80,7 +79,7 @@ class Executor:
         self._leave()
 
     def answer(self, choice: Choice) -> None:
-        """Go on after the operator was called, or (`proceed`) where all that was asked for is undone."""
+        """Continue after an operator call, or (`proceed`) after a reversal."""
         run, stage = self.run, self.state.stage
         assert stage is not None or choice == "proceed"
         going_on = {"proceed": self.state.onward}
@@ -99,11 +98,7 @@ class Executor:
         self._leave("skipped" if choice == "skip" else "done")
 
     def undo(self, undoing: Undoing) -> None:
-        """From now on each step undoes one, the last first, until so many executed ones are left.
-
-        Raises:
-            InvalidInput: there are no more than that.
-        """
+        """Order the reversal of executed steps, last first, until `left` remain; raises Refused if none are left."""
         if undoing.asked_by == "person":
             self.state.unwound.clear()
         order(self.state, undoing)
@@ -113,20 +108,20 @@ class Executor:
         )
 
     def _undo_stage(self, number: int) -> None:
-        """Have the stage undone by a step, and count that."""
+        """Order the reversal of the stage by a step, and count it."""
         self.state.unwound[number] = self.state.unwound.get(number, 0) + 1
         done = self.state.done
         began = next(index for index in reversed(range(len(done))) if done[index].enters)
         self.undo(Undoing(left=began, asked_by="program"))
 
     def _undo(self) -> None:
-        """Undo the step that was executed last; what stops that is told to the operator."""
+        """Reverse the last executed step; a failure calls the operator."""
         stopped = undo_last(self.run)
         if stopped is not None:
             self._stop(error=stopped.error, cause=stopped.cause)
 
     def finish(self) -> bool:
-        """Close the account of the run; True when the program came to its end."""
+        """End the run; True if the program is complete."""
         run = self.run
         if self.state.stage is not None:
             stage = run.plan.program.stages[self.state.stage]
@@ -136,7 +131,7 @@ class Executor:
         return completed
 
     def _perform(self, step: Step) -> int | None:
-        """Do the operation; the number of the step that follows."""
+        """Carry out the operation; returns the number of the next step."""
         operation = step.operation
         if operation.branch is not None:
             taken = DECISIONS[type(operation)](self.run, operation)
@@ -156,12 +151,12 @@ class Executor:
             self.run.emit(ErrorRaised(time=self.run.time, number=fault.number, cause=fault.cause))
 
     def _tests(self, number: int | None) -> bool:
-        """True if a step tests for an error."""
+        """True if a step tests an error."""
         branch = None if number is None else self.run.plan.program.steps[number].operation.branch
         return branch is not None and branch.error is not None
 
     def _finished(self, number: int) -> StepFinished:
-        """The account of a step that is done."""
+        """The event of a finished step."""
         run = self.run
         motion = run.plan.motions.get(number)
         planned = None if motion is None else vector(forward(run.arm, np.array(motion.knots[-1]))[:3, 3])
@@ -169,19 +164,19 @@ class Executor:
         return StepFinished(time=run.time, step=number, hand=hand, planned=planned, gap=gap)
 
     def _first(self, stage: int) -> int | None:
-        """The first step of a stage, or of the next that has any; None behind the last."""
+        """The first step of a stage, or of a later one; None past the last."""
         steps = self.run.plan.program.steps
         return next((number for number, step in enumerate(steps) if step.stage >= stage), None)
 
     def _enter(self, stage: int) -> None:
-        """Tell of a stage when it begins."""
+        """Report a stage as it begins."""
         if self.state.stage is None:
             run = self.run
             self.state.stage = stage
             run.emit(StageStarted(time=run.time, stage=run.plan.program.stages[stage]))
 
     def _leave(self, status: Literal["done", "skipped"] = "done") -> None:
-        """Tell of a stage when the program goes on outside it, or has ended."""
+        """Report a stage as the program leaves it or ends."""
         run = self.run
         program = run.plan.program
         if self.state.stage is None or self.state.stopped is not None:
@@ -192,7 +187,7 @@ class Executor:
             self.state.unwound.clear()
 
     def _stop(self, *, message: str = "", error: int | None = None, cause: Cause | None = None) -> None:
-        """Set the brakes and tell the operator."""
+        """Set the brakes and call the operator."""
         run = self.run
         run.drive.state.tool = 0.0
         run.drive.stop()

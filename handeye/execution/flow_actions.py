@@ -1,4 +1,4 @@
-"""Flow and memory of a program: tests, counts and searches, differences and positions kept, load and screwdriver."""
+"""Actions of flow and memory: tests, counters, searches, saved differences and positions, load and screwdriver."""
 
 from typing import Final
 
@@ -40,7 +40,7 @@ def test_error(run: ExecutionContext, operation: Test) -> bool:
 
 
 def _is_hoped_for(run: ExecutionContext, operation: Test) -> bool:
-    """True if an error that no sense can tell of leads on, and its absence to the operator or to a further try."""
+    """True if an error without its sense leads on, while its absence would lead to the operator or to a retry."""
     assert run.state.at is not None
     return not _gives_up(run, operation.raised) and _gives_up(run, run.plan.program.steps[run.state.at].next)
 
@@ -59,7 +59,7 @@ def assign(run: ExecutionContext, operation: Assign) -> None:
 
 
 def count_down(run: ExecutionContext, operation: Countdown) -> bool:
-    """Subtract one from a counter; true while it is still positive."""
+    """Decrement a counter; True while it is positive."""
     left = run.state.counters[operation.counter] = run.state.counters.get(operation.counter, 0) - 1
     return left > 0
 
@@ -70,23 +70,23 @@ def search(run: ExecutionContext, operation: Search) -> None:
 
 
 def advance(run: ExecutionContext, _: Advance) -> Fault | None:
-    """Go on to the next place of the search, to which the next searching motion will go."""
-    found = run.state.search
-    if found is None:
+    """Advance to the next place of the search, for the next searching motion."""
+    state = run.state.search
+    if state is None:
         return Fault(number=errors.SEARCH_EXHAUSTED, cause=NoSearch())
-    following = None if "search" in run.without else found.place(run.search, found.count + 1)
+    following = None if "search" in run.without else state.place(run.search, state.count + 1)
     if following is None:
         return Fault(
-            number=errors.SEARCH_EXHAUSTED, cause=PlacesTried(places=found.count + 1, around=found.around)
+            number=errors.SEARCH_EXHAUSTED, cause=PlacesTried(places=state.count + 1, around=state.around)
         )
-    found.count += 1
+    state.count += 1
     x, y = following
-    run.emit(SearchAdvanced(time=run.time, count=found.count, offset=(round(x, 6), round(y, 6))))
+    run.emit(SearchAdvanced(time=run.time, count=state.count, offset=(round(x, 6), round(y, 6))))
     return None
 
 
 def save(run: ExecutionContext, operation: Save) -> None:
-    """Keep how far the hand is from the goal of the last motion to a position."""
+    """Save the distance of the hand from the goal of the last motion to a position."""
     difference = run.drive.hand()[:3, 3] - run.state.goal
     if operation.name in run.state.restored:  # what it has added already still belongs to it
         difference = difference + run.state.restored[operation.name]
@@ -99,7 +99,7 @@ def save(run: ExecutionContext, operation: Save) -> None:
 
 
 def here(run: ExecutionContext, operation: Here) -> None:
-    """Define a position as where the hand is."""
+    """Define a position as the present hand pose."""
     name = operation.position
     seen = run.world.seen_from(run.world.positions[name].of, run.drive.hand())
     run.state.world.moved[name] = seen
@@ -107,12 +107,12 @@ def here(run: ExecutionContext, operation: Here) -> None:
 
 
 def where(run: ExecutionContext, _: Where) -> None:
-    """Tell where the hand is."""
+    """Report the hand pose."""
     run.emit(HandTold(time=run.time, at=rounded_place(run.drive.hand())))
 
 
 def load(run: ExecutionContext, operation: Load) -> None:
-    """Have the servo bear a weight."""
+    """Let the servo compensate a weight."""
     run.drive.state.load = operation.weight
 
 
@@ -122,7 +122,7 @@ def tool(run: ExecutionContext, operation: Tool) -> None:
 
 
 def nothing(_: ExecutionContext, __: Operation) -> None:
-    """Leave it to where the step leads, or to the operator it calls."""
+    """No action: only the next step, or the operator call, matters."""
 
 
 FLOW_ACTIONS: Final[dict[type[Operation], Action]] = {
@@ -139,4 +139,3 @@ FLOW_ACTIONS: Final[dict[type[Operation], Action]] = {
     Wait: nothing,
 }
 DECISIONS: Final[dict[type[Operation], Decision]] = {Test: test_error, Countdown: count_down}
-"""Operations that branch."""

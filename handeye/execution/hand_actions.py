@@ -1,4 +1,4 @@
-"""Motions of the hand: opening, closing and centring, and whether its senses tell of them what they should."""
+"""Actions of the hand: opening, closing and centring, with checks of its sensors."""
 
 from typing import Final
 
@@ -26,7 +26,7 @@ from handeye.touch.hold import at_least, at_most, least_gap
 from handeye.touch.senses import FREE_OPENING, GAP_ERROR, followed, stood_still
 
 _SHUT: Final = -0.02
-"""Set-point of the gap, m, that no thing and no hand reaches: the fingers press with all their grip."""
+"""Gap set-point, m, beyond any closed gap: the fingers press with full force."""
 
 
 def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:
@@ -53,7 +53,7 @@ def _to_gap(run: ExecutionContext, goal: float) -> None:
 
 
 def close(run: ExecutionContext, operation: Close) -> Fault | None:
-    """Close until both switches fire or the gap falls below what anything would leave, then see what is held."""
+    """Close until both switches fire or the gap is too small for any object, then check what is held."""
     fault = _begin_to_close(run)
     if fault is not None:
         return fault
@@ -71,7 +71,7 @@ def close(run: ExecutionContext, operation: Close) -> Fault | None:
 
 
 def center(run: ExecutionContext, operation: Center) -> Fault | None:
-    """Close on an object, moving the arm so that the object stays where it is."""
+    """Close on an object, moving the arm so that the object stays in place."""
     if "centring" in run.without:
         return _close_instead(run, operation)
     fault = _begin_to_close(run)
@@ -104,14 +104,14 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
 
 
 def _close_instead(run: ExecutionContext, operation: Center) -> Fault | None:
-    """Close on an object, which comes to the middle of the hand."""
+    """Close on an object, which moves to the middle of the hand."""
     fault = close(run, Close(minimum=operation.minimum))
     run.state.finger_line = forward(run.arm, run.drive.state.q)[:3, 1] if fault is None else None
     return fault
 
 
 def _touch(run: ExecutionContext) -> tuple[bool, bool]:
-    """What the finger switches tell."""
+    """The finger switches."""
     return (False, False) if "touch" in run.without else run.drive.sensed.touch
 
 
@@ -119,9 +119,9 @@ def _touch(run: ExecutionContext) -> tuple[bool, bool]:
 
 
 def _begin_to_close(run: ExecutionContext) -> Fault | None:
-    """See that no switch is closed before the fingers close on anything.
+    """Check that no switch is closed before the fingers close on anything.
 
-    A finger may stand against something: it opens a little then, and comes off.
+    A finger may stand against something: the hand then opens a little first.
     """
     drive, already = run.drive, run.state.grasping
     run.state.grasping, drive.state.in_air = True, False
@@ -134,14 +134,14 @@ def _begin_to_close(run: ExecutionContext) -> Fault | None:
 
 
 def _driven(start: float, goal: float) -> float:
-    """Way of fingers (m) that are driven from one gap to another, less, on which they are shut at the latest."""
+    """Distance (m) the fingers were driven, at most until they are shut."""
     return start - max(goal, 0.0)
 
 
 def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
-    """See that the gap has changed with fingers that were driven together by `driven` (m) from a gap of `start`.
+    """Check that the gap has changed from `start` after driving the fingers together by `driven` (m).
 
-    Blind fingers are driven on where they hold something: of them it says nothing.
+    Without touch, fingers are driven on against what they hold, so nothing can be said.
     """
     if "touch" in run.without or not stood_still(start - run.drive.sensed.gap, driven):
         return None
@@ -149,7 +149,7 @@ def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
 
 
 def _nothing_centred(run: ExecutionContext, least: float) -> Fault:
-    """The error of fingers that did not both touch anything: held apart all the same, they touch it unnoticed."""
+    """The error of fingers that did not both touch: unnoticed contact if they are held apart."""
     gap = run.drive.sensed.gap
     if at_least(gap, least + FREE_OPENING):
         return _switches_open(run)
@@ -157,12 +157,12 @@ def _nothing_centred(run: ExecutionContext, least: float) -> Fault:
 
 
 def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault | None:
-    """See that something is held, by the gap and by both switches."""
-    gap, told = run.drive.sensed.gap, all(_touch(run)) or "touch" in run.without
+    """Check that something is held, by the gap and both switches."""
+    gap, touching = run.drive.sensed.gap, all(_touch(run)) or "touch" in run.without
     thin = _thick_enough(run, least)
     if thin is not None:
         return thin
-    if not told and at_least(gap, GAP_ERROR):
+    if not touching and at_least(gap, GAP_ERROR):
         return _switches_open(run)
     if maximum is not None and not at_most(gap, maximum):
         return Fault(number=errors.WRONG_THICKNESS, cause=GapTooLarge(gap=round(gap, 6), maximum=maximum))

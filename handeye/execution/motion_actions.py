@@ -1,4 +1,4 @@
-"""Motions of the arm: what each operation does in the working phase."""
+"""Actions that move the arm."""
 
 import math
 from typing import Final
@@ -33,11 +33,11 @@ from handeye.touch.guards import monitor
 from handeye.touch.senses import STARTING_TORQUE
 
 PLAN_TOLERANCE: Final = 1e-4
-"""A goal or start nearer than this (m, rad) to its planned value is run as planned."""
+"""A goal or start within this (m, rad) of its planned value is run as planned."""
 
 
 def move(run: ExecutionContext, operation: Move) -> Fault | None:
-    """Move to a position by its measured place, shifted by what was saved and by the search."""
+    """Move to a position at its measured place, shifted by saved differences and the search."""
     X_WT = run.world.position(operation.goal)
     run.state.restored = {}
     for restore in operation.restore:
@@ -60,14 +60,14 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
     samples = trajectory.sample(run.drive.period)
     along = directions(samples, run.arm, run.drive.state.q)
     guards = run.watching(operation.guards)
-    _tell_faint(run, guards, along[0])
+    _report_faint(run, guards, along[0])
     return _finish(run, run.drive.glide(samples, monitor(guards), along), guards)
 
 
 def _trajectory(
     run: ExecutionContext, operation: Move, via: list[Pose], X_WT: Pose
 ) -> Trajectory | Unreachable:
-    """The planned trajectory if the world is where the plan thought, else one adjusted to it."""
+    """The planned trajectory if the world is as planned, else an adjusted one."""
     motion = run.planned
     knots = np.array(motion.knots)
     as_planned = np.abs(knots[0] - run.drive.state.q).max() < PLAN_TOLERANCE
@@ -83,13 +83,13 @@ def _trajectory(
 
 
 def change(run: ExecutionContext, operation: Change) -> Fault | None:
-    """Go straight from where the hand is, stopping on a force or torque, pressing if asked to."""
+    """Move straight from the present place, stopping on force or torque, pressing if asked to."""
     start = run.drive.hand()[:3, 3]
     displacement = np.array(operation.displacement)
     distance = float(np.linalg.norm(displacement))
     guards = run.watching(operation.guards)
     guard = monitor(guards)
-    _tell_faint(run, guards, displacement)
+    _report_faint(run, guards, displacement)
     if not operation.complies or "force" in run.without:
         samples = change_samples(run.arm, run.drive.state.q, operation)
         if isinstance(samples, IKResult):
@@ -119,28 +119,27 @@ def _course(run: ExecutionContext, operation: Change) -> Course:
 
 
 def _axes(wanted: Vector3 | None) -> Array:
-    """1 for each axis that is wanted, else 0."""
+    """1 for each wanted axis, else 0."""
     return np.zeros(3) if wanted is None else (np.array(wanted) != 0).astype(float)
 
 
 def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
-    """Go round the vertical through a position."""
+    """Turn about the vertical through a position."""
     samples = turn_samples(run.arm, run.drive.state.q, run.world.position(operation.centre), operation)
     if isinstance(samples, IKResult):
         return Fault(number=errors.NO_SOLUTION, cause=samples.cause(run.arm))
     along = directions(samples, run.arm, run.drive.state.q)
     guards = run.watching(operation.guards)
-    _tell_faint(run, guards, along[0])
+    _report_faint(run, guards, along[0])
     outcome = run.drive.follow(samples, monitor(guards), along)
     run.drive.state.in_air = False
     return _finish(run, outcome, guards)
 
 
-def _tell_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
-    """Tell, once a statement, that what a guard waits for is hard to tell from the friction that was measured.
+def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
+    """Report, once per statement, a guard that is hard to tell from the measured friction.
 
-    Args:
-        along: the way on which the motion begins, shape (3,), W.
+    `along` is the initial direction of the motion, shape (3,), W.
     """
     assert run.state.at is not None
     place = run.plan.program.steps[run.state.at].place
@@ -157,7 +156,7 @@ def _tell_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
 
 
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
-    """Turn a motion's outcome into the language's convention: no trip where one was expected is an error."""
+    """The error of a motion's outcome: none after a trip, and one if guards did not trip."""
     if outcome.error is not None:
         return Fault(number=outcome.error, cause=outcome.cause)
     if outcome.trip is not None:
@@ -175,7 +174,7 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
 
 
 def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
-    """See how far the last straight motion went."""
+    """Check how far the last straight motion went."""
     if operation.minimum <= run.state.travel <= operation.maximum:
         return None
     gone = round(run.state.travel, 6)
@@ -184,7 +183,7 @@ def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
 
 
 def height(run: ExecutionContext, operation: Height) -> Fault | None:
-    """See how much higher the hand stands than where a difference was saved."""
+    """Check how much higher the hand is than where a difference was saved."""
     saved = run.state.heights.get(operation.name)
     if saved is None:
         return Fault(number=errors.WRONG_HEIGHT, cause=HeightUnknown(name=operation.name))

@@ -68,9 +68,6 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         Args:
             met: tells whether what a task waits for has come about.
             pass_until: lets time pass at least until a time; when it then is.
-
-        Raises:
-            Deadlock: all wait for conditions.
         """
         while self.due:
             ready = [
@@ -119,9 +116,6 @@ def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> li
 
     Args:
         names: of the tasks, as a deadlock tells them; by default `task 1`, `task 2` and so on.
-
-    Raises:
-        Deadlock: all that are left wait for conditions.
     """
     running = dict(zip(names or [f"task {number + 1}" for number in range(len(tasks))], tasks, strict=True))
     agenda: Agenda[Fraction] = Agenda(now=Fraction(0))

@@ -159,9 +159,6 @@ class Servo:
         Args:
             feel: estimates the force on the hand by what is sensed at its end.
             periods: as many at once, for an arm that the brakes hold.
-
-        Raises:
-            Halted: behind it, if the panic button is down.
         """
         halted = self.halt()
         if halted:

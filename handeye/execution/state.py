@@ -1,7 +1,7 @@
-"""The state of a working phase: one record that executor, actions, servo loop and world model live in.
+"""The state of a working phase: one record for executor, actions, servo loop and world model.
 
-The plan, the arm and the cell are no part of it: they are given anew when a run is taken up again. A snapshot is a
-copy of the record (`handeye.core.mutable_records`).
+Plan, arm and cell are no part of it: they are given anew on resuming. A snapshot is a copy of the record
+(`handeye.core.mutable_records`).
 """
 
 from dataclasses import dataclass, fields, is_dataclass
@@ -14,7 +14,7 @@ from handeye.core.errors import BadFile, Refused
 from handeye.core.mutable_records import MutableRecord, put_back
 from handeye.core.pose import Array
 from handeye.core.record import Record
-from handeye.execution.undo.done import Done, Undoing
+from handeye.execution.undo.done import ExecutedStep, Undoing
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
 from handeye.ports.workcell import Sensed
@@ -32,36 +32,30 @@ from handeye.vision.part_match import PartMatch
 
 
 class Fault(Record, frozen=True, kw_only=True):
-    """An error number that an action raises, and what led to it this time."""
+    """An error raised by an action, with its cause."""
 
     number: int
     cause: Cause | None = None
 
 
 class SearchState(MutableRecord, kw_only=True):
-    """A search under way."""
+    """A search in progress."""
 
     step: float
     limit: Natural
     count: Natural = 0
-    around: str = ""
-    """The position to which the last motion of it went."""
-    along: float | None = None
-    """Direction of its line (rad from the table's x), if its places are on one."""
+    around: str = ""  # position of its last motion
+    along: float | None = None  # direction of its line, rad from table x; None: a pattern
 
     def offset(self, pattern: SearchPattern) -> tuple[float, float]:
-        """Horizontal offset of the present place in a pattern, m.
-
-        Raises:
-            InvalidInput: the pattern has no such place.
-        """
+        """Horizontal offset of the present place in a pattern, m."""
         found = self.place(pattern, self.count)
         if found is None:
             raise Refused(f"the search has no place {self.count}, to which it has come")
         return found
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:
-        """Horizontal offset of a place on the line or in a pattern, m; None: there are no more."""
+        """Horizontal offset of a place on the line or in a pattern, m; None past the last."""
         if number >= self.limit:
             return None
         found = pattern(number) if self.along is None else line(number, self.along)
@@ -70,25 +64,24 @@ class SearchState(MutableRecord, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shot:
-    """A picture and how it was taken."""
+    """A picture with its view."""
 
     picture: Picture
     view: View
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Found:
-    """Findings of vision in a picture."""
+class VisionResult:
+    """Results of vision in a picture."""
 
     general: GeneralLocation | None = None
     specific: SpecificLocation | None = None
-    grasp: GraspLine | None = None
-    """Of the first grasp of the part that was located."""
+    grasp: GraspLine | None = None  # first grasp of the located part
     inspection: GasketInspection | None = None
     match: PartMatch | None = None
 
     def marks(self) -> list[Mark]:
-        """The same as marks on the picture."""
+        """Marks on the picture."""
         return marks(
             general=self.general,
             specific=self.specific,
@@ -99,116 +92,84 @@ class Found:
 
 
 class DriveState(MutableRecord, kw_only=True):
-    """Set-points and senses of the servo loop."""
+    """State of the servo loop; joint arrays have shape (n,), rad and m."""
 
-    q: Array
-    """Set-point the arm holds, shape (n,), rad and m."""
-    here: Array
-    """Where the arm is by potentiometers and tachometers together, shape (n,), rad and m."""
-    friction: Array
-    """Coulomb friction of each joint as far as it is known, shape (n,), N m and N; 0: unknown."""
-    gap: float
-    """Set-point of the finger gap, m."""
-    grip: float
-    """The most force each finger may press with, N."""
-    load: float = 0.0
-    """Weight that the servo bears, N."""
+    q: Array  # set-point
+    here: Array  # position by potentiometers and tachometers
+    friction: Array  # Coulomb friction, N m and N; 0: unknown
+    gap: float  # set-point of the finger gap, m
+    grip: float  # finger force limit, N
+    load: float = 0.0  # compensated weight, N
     links: Array | None = None
-    """How heavy the links are by the arm's own weighing, over the model's, shape (n,); None: not weighed."""
-    tool: float = 0.0
-    """Speed of the screwdriver, rad/s."""
-    current: float = 0.0
-    """Greatest torque that its motor has shown since it was told that speed, N m."""
-    magnet: bool = True
-    """The magnet of its bit is on."""
+    """Link weights by the arm's own weighing over the model's, shape (n,); None: not weighed."""
+    tool: float = 0.0  # screwdriver speed, rad/s
+    current: float = 0.0  # its greatest torque since that speed was set, N m
+    magnet: bool = True  # the magnet of its bit is on
     lamp: bool = False
-    cut: bool = False
-    """The watchdog has cut the drives: the brakes are set, and nobody asked for them."""
-    met: Array | None = None
-    """Set-point of the hand in W (m) when a guard ended the motion that brought it where it is."""
+    cut: bool = False  # the watchdog has cut the drives and set the brakes
+    met: Array | None = None  # hand set-point in W (m) where a guard ended the last motion
     rest: Array | None = None
-    """What the potentiometers read when the arm came to rest under its brakes, shape (n,), rad and m; None: it moves,
-    or is driven."""
+    """Potentiometers at rest under the brakes; None while the arm moves or is driven."""
     crept: Array | None = None
-    """By how much they then changed until it was driven again, likewise; None: a motion has seen to it."""
-    in_air: bool = False
-    """A MOVE has brought the hand where it is, and met nothing."""
+    """Their change until it was driven again; None once a motion has checked it."""
+    in_air: bool = False  # the last motion was a MOVE without contact
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))
-    """External force and moment on the hand in W, less the tare."""
+    """External wrench on the hand in W, less the tare."""
 
     @classmethod
     def holding(cls, sensed: Sensed, arm: ArmModel) -> "DriveState":
-        """Hold the arm and the fingers where they are, with all the grip its hand has."""
+        """The state that holds arm and fingers in place with full grip."""
         q = sensed.q
         return cls(q=q.copy(), here=q.copy(), friction=np.zeros(len(q)), gap=sensed.gap, grip=arm.hand.grip)
 
     def hold_anew(self, sensed: Sensed, arm: ArmModel) -> None:
-        """Be as one that begins to hold the arm; what it has measured of itself stays known."""
+        """Reset to hold the arm, keeping its measurements of itself."""
         anew = DriveState.holding(sensed, arm)
         anew.friction, anew.links = self.friction, self.links
         put_back(self, anew)
 
 
 class ExecutionState(SystemState, kw_only=True):
-    """All that a working phase remembers from step to step."""
+    """Everything a working phase remembers from step to step."""
 
-    pending: Fault | None = None
-    """An error raised, which the next step tests."""
-    idle: int = 0
-    """Steps since time last passed."""
-    clock: float = -1.0
-    """When the last step ended, s."""
+    pending: Fault | None = None  # an error that the next step may test
+    idle: int = 0  # steps since time last passed
+    clock: float = -1.0  # end of the last step, s
     saved: dict[str, Array] = msgspec.field(default_factory=dict)
-    heights: dict[str, float] = msgspec.field(default_factory=dict)
-    """Height in W (m) at which each difference was saved."""
+    heights: dict[str, float] = msgspec.field(default_factory=dict)  # height in W (m) of each SAVE
     counters: dict[str, int] = msgspec.field(default_factory=dict)
     search: SearchState | None = None
-    restored: dict[str, Array] = msgspec.field(default_factory=dict)
-    """Differences that RESTOREs added to the goal of the last Move."""
+    restored: dict[str, Array] = msgspec.field(default_factory=dict)  # added to the goal of the last Move
     goal: Array = msgspec.field(default_factory=lambda: np.zeros(3))
-    """Goal of the last Move without its search offset, in W (m)."""
-    travel: float = 0.0
-    """How far the last straight motion went (m)."""
-    finger_line: Array | None = None
-    """Unit vector of the finger line when the last action was a Center."""
-    grasping: bool = False
-    """The fingers were last told to close."""
-    calibration: Calibration | None = None
-    """Of the camera, if the plan takes pictures."""
-    unable: str | None = None
-    """Why the camera could not be calibrated."""
+    """Goal of the last Move without search offset, W, m."""
+    travel: float = 0.0  # m, of the last straight motion
+    finger_line: Array | None = None  # unit vector, if the last action was a Center
+    grasping: bool = False  # the fingers were last closed
+    calibration: Calibration | None = None  # of the camera, if the plan takes pictures
+    unable: str | None = None  # why calibration failed
     lens: float = FIRST_LENS
-    camera_ready: float = 0.0
-    """When the camera's mechanism is, or was, ready for a picture, s by the cell's clock."""
+    camera_ready: float = 0.0  # when the camera is ready, s by the cell's clock
     shots: dict[str, Shot] = msgspec.field(default_factory=dict)
     general: dict[str, GeneralLocation] = msgspec.field(default_factory=dict)
-    found: dict[str, Found] = msgspec.field(default_factory=dict)
-    """Findings of vision in each picture."""
+    found: dict[str, VisionResult] = msgspec.field(default_factory=dict)  # by picture
     world: WorldState = msgspec.field(default_factory=WorldState)
     faint: list[str] = msgspec.field(default_factory=list)
-    """Places of the statements whose guards were told to be hard to tell from friction."""
-    done: list[Done] = msgspec.field(default_factory=list)
-    """Steps that were executed and not undone by the arm, in order."""
-    undoing: Undoing | None = None
-    """The arm undoes what it did; None: the program goes on."""
+    """Statements whose guards were reported as faint."""
+    done: list[ExecutedStep] = msgspec.field(default_factory=list)
+    """Executed steps that are not reversed, in order."""
+    undoing: Undoing | None = None  # the reversal in progress
     lets_go: Natural | None = None
-    """The index of the executed step that took the screw which the arm has turned out: undone, it leaves it there."""
+    """Index of the step that took the screw which has been turned out: reversed, it leaves the screw there."""
     held: float | None = None
-    """Finger gap with which the arm, undoing, took what it holds or held it when it began to undo, m; None: it holds
-    nothing, or the program has gone on since."""
+    """Gap at which the arm, reversing, holds something, m; None if it holds nothing, or the program has continued."""
     unwound: dict[int, int] = msgspec.field(default_factory=dict)
-    """How often each step of the stage under way has had it undone; undoing does not take that back."""
+    """Reversals of the present stage by each of its steps; a reversal does not reduce them."""
     drive: DriveState
 
 
 def check_fits(state: ExecutionState, plan: Plan, arm: ArmModel) -> None:
-    """See that a state can be that of a plan, before anything in it is used.
-
-    Raises:
-        InvalidInput: it tells of steps, stages, parts, pictures or positions that the plan does not have, or its
-            vectors and pictures are of another size, or a number in it is not finite.
-    """
+    """Raise BadFile unless all references, sizes and numbers of a state fit the plan and arm."""
     if not _finite(state):
         raise BadFile("the state of the run holds a value that is not a finite number")
     if not (_fits_program(state, plan) and _fits_sizes(state, arm)):
@@ -253,7 +214,7 @@ def _measured(state: ExecutionState) -> list[Array]:
 
 
 def _finite(value: object) -> bool:
-    """True if every number in a state, or in a part of one, is finite."""
+    """True if all numbers in a value are finite."""
     match value:
         case float() | np.ndarray():
             return bool(np.isfinite(value).all())
@@ -267,6 +228,6 @@ def _finite(value: object) -> bool:
 
 
 def vector(p: Array) -> tuple[float, float, float]:
-    """A vector for an event, to the micrometre."""
+    """A vector for an event, rounded to the micrometre."""
     x, y, z = (round(float(c), 6) + 0.0 for c in p)
     return x, y, z

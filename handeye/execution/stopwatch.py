@@ -1,4 +1,4 @@
-"""Processor time: how long this computer thought, which is no part of what happens in a run."""
+"""Processor time, which is no part of a run's results."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(slots=True)
 class Stopwatch:
-    """Adds up the seconds for which it runs, by a clock that it is given; without one it stands at zero."""
+    """Adds up seconds while running, by a given clock; without one it stays at zero."""
 
     clock: Callable[[], float] = lambda: 0.0
     seconds: float = 0.0

@@ -1,4 +1,4 @@
-"""Looking: the slow camera, and what vision makes of its pictures."""
+"""Actions of the camera, and of vision on its pictures."""
 
 import math
 from typing import Final
@@ -8,7 +8,7 @@ import numpy as np
 from handeye.core import errors
 from handeye.core.pose import Array, Pose, planar, yaw
 from handeye.execution.context import Action, ExecutionContext
-from handeye.execution.state import Fault, Found, Shot
+from handeye.execution.state import Fault, Shot, VisionResult
 from handeye.planning.grasp_state import first_grasp
 from handeye.ports.camera import DIGITISE, Picture, TvCamera
 from handeye.program.causes import NoGeneral, NoPicture, PictureBlank, PictureRepeated
@@ -31,26 +31,26 @@ from handeye.vision.marks import Mark
 
 
 def _tv(run: ExecutionContext) -> TvCamera:
-    """The camera of the cell; a plan that looks is not begun in a cell without one."""
+    """The cell's camera, which every plan that looks requires."""
     assert run.cell.camera is not None
     return run.cell.camera
 
 
 def _known(run: ExecutionContext) -> CameraModel:
-    """The camera as it was calibrated."""
+    """The calibrated camera model."""
     assert run.camera is not None
     return run.camera
 
 
 def lens(run: ExecutionContext, operation: Lens) -> Fault | None:
-    """Let the lens turret turn."""
+    """Turn the lens turret."""
     _start(run, "lens", _tv(run).lens(operation.focal_length))
     run.state.lens = operation.focal_length
     return None
 
 
 def aim(run: ExecutionContext, operation: Aim) -> Fault | None:
-    """Let the camera turn to a part's face or to a hand position, and focus there."""
+    """Point the camera at a part's face or a hand position, and focus there."""
     p_W = _target(run, operation.target)
     pan, tilt = _known(run).aim(p_W, run.state.lens)
     _start(run, "aim", _tv(run).aim(pan, tilt))
@@ -92,7 +92,7 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
 
 
 def _dead(run: ExecutionContext, name: str, picture: Picture) -> PictureBlank | PictureRepeated | None:
-    """Why a picture is none of a live camera, whose noise makes every picture another."""
+    """Why a picture is not a live camera's, or None."""
     if blank(picture):
         return PictureBlank(picture=name)
     for earlier, shot in run.state.shots.items():
@@ -102,7 +102,7 @@ def _dead(run: ExecutionContext, name: str, picture: Picture) -> PictureBlank | 
 
 
 def _start(run: ExecutionContext, action: str, seconds: float) -> None:
-    """Note when the camera's mechanism will be ready, which does one thing after another while the arm goes on."""
+    """Extend the time at which the camera is ready; its mechanism does one action after another."""
     if seconds <= 0:
         return
     run.state.camera_ready = max(run.state.camera_ready, run.time) + seconds
@@ -110,7 +110,7 @@ def _start(run: ExecutionContext, action: str, seconds: float) -> None:
 
 
 def _wait(run: ExecutionContext, action: str, seconds: float) -> None:
-    """Brakes on while the arm waits for the camera, in whole servo periods and not less."""
+    """Wait for the camera under the brakes, in whole servo periods."""
     period = run.drive.period
     periods = math.ceil(round(seconds / period, 6))
     if periods <= 0:
@@ -125,7 +125,7 @@ def _no_picture(number: int, picture: str) -> Fault:
 
 
 def general(run: ExecutionContext, operation: General) -> Fault | None:
-    """Find the outline of a part; its measured place becomes the middle of what was found."""
+    """Locate a part roughly; its measured place becomes the result."""
     if "vision" in run.without:
         return None
     part = run.world.parts[operation.part]
@@ -137,14 +137,14 @@ def general(run: ExecutionContext, operation: General) -> Fault | None:
     if isinstance(found, Failure):
         return Fault(number=errors.PART_NOT_SEEN, cause=found.cause)
     run.state.general[operation.part] = found
-    run.state.found[operation.picture] = Found(general=found)
+    run.state.found[operation.picture] = VisionResult(general=found)
     run.world.measure(operation.part, planar(found.x, found.y, part.at[2], part.at[3]))
     run.emit(PartSeen(time=run.time, part=operation.part, x=round(found.x, 6), y=round(found.y, 6), yaw=None))
     return None
 
 
 def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
-    """Find the holes of a part; its pose is measured by them."""
+    """Locate a part by its holes, which measures its pose."""
     if "vision" in run.without:
         return None
     part = run.world.parts[operation.part]
@@ -160,7 +160,7 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
         return Fault(number=errors.FEATURES_NOT_SEEN, cause=found.cause)
     x, y, angle = (round(value, 9) for value in found.pose)
     run.world.measure(operation.part, planar(x, y, part.at[2], angle))
-    run.state.found[operation.picture] = Found(
+    run.state.found[operation.picture] = VisionResult(
         specific=found, grasp=_grasp_line(run, shot.view, operation.part)
     )
     run.emit(PartSeen(time=run.time, part=operation.part, x=x, y=y, yaw=angle))
@@ -168,7 +168,7 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
 
 
 def _grasp_line(run: ExecutionContext, view: View, name: str) -> GraspLine | None:
-    """The line of the first grasp of a part that was located, on its upper face."""
+    """The line of the first grasp of a located part, on its upper face."""
     assert run.state.at is not None
     grasp, part = first_grasp(run.plan.program, run.arm.hand, run.state.at, name), run.world.parts[name]
     if grasp is None:
@@ -177,7 +177,7 @@ def _grasp_line(run: ExecutionContext, view: View, name: str) -> GraspLine | Non
 
 
 def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
-    """Difference two pictures and see whether a part lies where it should."""
+    """Inspect a gasket by the difference of two pictures."""
     if "vision" in run.without:
         return None
     shots = _compared(run, operation, errors.GASKET_WRONG)
@@ -187,13 +187,13 @@ def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
     part = run.world.parts[operation.part]
     with run.vision.running():
         seen = inspect_gasket(before.picture, after.picture, after.view, part, _pose(run, operation.part))
-    run.state.found[operation.after] = Found(inspection=seen)
+    run.state.found[operation.after] = VisionResult(inspection=seen)
     run.emit(PartInspected(time=run.time, part=operation.part, ok=seen.ok, cause=seen.cause))
     return None if seen.ok else Fault(number=errors.GASKET_WRONG, cause=seen.cause)
 
 
 def match(run: ExecutionContext, operation: Match) -> Fault | None:
-    """See by two pictures whether a part still stands as it stood."""
+    """Check by two pictures that a part has not moved."""
     if "vision" in run.without:
         return None
     shots = _compared(run, operation, errors.PART_ASTRAY)
@@ -207,7 +207,7 @@ def match(run: ExecutionContext, operation: Match) -> Fault | None:
         seen = match_part(before.picture, after.picture, after.view, part, _pose(run, operation.part))
     if isinstance(seen, Failure):
         return Fault(number=errors.PART_ASTRAY, cause=seen.cause)
-    run.state.found[operation.after] = Found(match=seen)
+    run.state.found[operation.after] = VisionResult(match=seen)
     run.emit(
         PartMatched(
             time=run.time,
@@ -221,7 +221,7 @@ def match(run: ExecutionContext, operation: Match) -> Fault | None:
 
 
 def _compared(run: ExecutionContext, operation: Comparison, number: int) -> tuple[Shot, Shot] | Fault:
-    """The pictures that are to be compared, the earlier first; an error of that number if one was not taken."""
+    """The pictures to compare, earlier first, or an error with that number."""
     before, after = run.state.shots.get(operation.before), run.state.shots.get(operation.after)
     if before is None or after is None:
         return _no_picture(number, operation.after if before else operation.before)
@@ -229,13 +229,13 @@ def _compared(run: ExecutionContext, operation: Comparison, number: int) -> tupl
 
 
 def _pose(run: ExecutionContext, part: str) -> tuple[float, float, float]:
-    """Where a part is believed to be: x, y (m) and yaw (rad)."""
+    """Believed pose of a part: x, y (m) and yaw (rad)."""
     X_WP = run.world.part(part)
     return float(X_WP[0, 3]), float(X_WP[1, 3]), yaw(X_WP)
 
 
 def just_found(run: ExecutionContext) -> tuple[str, list[Mark]]:
-    """Name of the picture in which the step under way has found something, and the marks of that on it."""
+    """The picture examined by the present step, and its marks."""
     assert run.state.at is not None
     name = run.plan.program.steps[run.state.at].operation.examines
     assert name is not None

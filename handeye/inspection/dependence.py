@@ -48,11 +48,6 @@ def _dependence(program: Program, key: Key, level: bool, steps: frozenset[int]) 
     return Dependence(kind=key[0], name=key[1], level=level, steps=tuple(sorted(steps)), lines=lines)
 
 
-def _measures(operation: Operation) -> list[Key]:
-    """Everything that an operation measures."""
-    return [(kind, use.name) for use in operation.writes for kind in _MEASURED if kind == use.kind]
-
-
 def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
     """What a motion or look depends on, and whether only horizontally; `kept` are positions that a HERE defines."""
     found: list[tuple[Key, bool]] = []
@@ -73,7 +68,10 @@ def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[
 def _newest(program: Program) -> list[Newest]:
     """The newest measurements before each step."""
     graph = Graph(program.steps)
-    measured = [_measures(step.operation) for step in program.steps]
+    measured = [
+        [(kind, use.name) for use in step.operation.writes for kind in _MEASURED if kind == use.kind]
+        for step in program.steps
+    ]
     before: list[Newest] = [{} for _ in program.steps]
     waiting = list(range(len(program.steps)))[::-1]
     while waiting:

@@ -193,7 +193,10 @@ def _change(
 
 def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
     """Differences of two steps apart from their targets: what, before, after."""
-    texts, guards = [one_line(s.text) for s in (one, other)], [_guards(s) for s in (one, other)]
+    texts, guards = (
+        [one_line(s.text) for s in (one, other)],
+        [("; ".join(conditions(s.operation)) or "none") for s in (one, other)],
+    )
     if texts[0] != texts[1]:
         yield "statement", texts[0], texts[1]
     if guards[0] != guards[1]:
@@ -201,10 +204,6 @@ def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
     if texts[0] == texts[1] and guards[0] == guards[1]:
         was, now = does(one), does(other)
         yield from ((key, f"{was.get(key)}", f"{now[key]}") for key in now if was.get(key) != now[key])
-
-
-def _guards(step: Step) -> str:
-    return "; ".join(conditions(step.operation)) or "none"
 
 
 def _when(branch: Branch) -> str:

@@ -22,7 +22,7 @@ from handeye.debugger.live import Ear
 from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper, interact
-from handeye.execution.state import Found, Shot
+from handeye.execution.state import Shot, VisionResult
 from handeye.program.events import (
     AnyEvent,
     ExperimentMade,
@@ -501,7 +501,7 @@ def test_findings_that_no_picture_can_hold_are_refused_in_a_sentence(runner: Run
     )
     box = BoundingBox(10**9, 0, 10**9, 1)
     far = GeneralLocation(box=box, x=0.0, y=0.0, corners=(), beams=0, points=0)
-    runner.context.state.found["WIDE"] = Found(general=far)
+    runner.context.state.found["WIDE"] = VisionResult(general=far)
     runner.events.append(PictureTaken(time=0.0, picture="WIDE", lens=0.025))
     refused = Stepper(runner).do(f"picture {tmp_path / 'wide.png'}")
     assert refused.error == "the findings in picture WIDE cannot be drawn"

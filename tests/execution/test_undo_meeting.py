@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from handeye.execution.undo.meeting import Meeting
+from handeye.execution.undo.resistance import EarlyContact
 from handeye.program.causes import MetEarly
 from handeye.touch.guards import Reading
 from handeye.touch.hold import OFF_MIDDLE
@@ -12,8 +12,8 @@ KEPT = 0.03
 """m"""
 
 
-def meeting(gap: float, *, holding: bool = True) -> Meeting:
-    return Meeting(gap=lambda: gap, kept=KEPT, holding=holding)
+def meeting(gap: float, *, holding: bool = True) -> EarlyContact:
+    return EarlyContact(gap=lambda: gap, kept=KEPT, holding=holding)
 
 
 def reading(*touch: bool) -> Reading:

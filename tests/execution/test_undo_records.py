@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
-from handeye.execution.undo.done import Done
+from handeye.execution.undo.done import ExecutedStep
 from handeye.execution.undo.loops import loop_entry, touch_entry
 from handeye.execution.undo.retracing import retracing
-from handeye.execution.undo.way import GRAIN, Track, Way, packed, unpacked
+from handeye.execution.undo.way import GRAIN, RecordedPath, Track, packed, unpacked
 from handeye.planning.motions import GUARDED_SPEED
 from handeye.program.guards import GuardKind
 from handeye.tasks.water_pump.world.nominal import PARK
@@ -18,32 +18,32 @@ from handeye.tasks.water_pump.world.nominal import PARK
 JOINTS = len(STANFORD.joints)
 
 
-def way(rows: int, step: float = 1e-3) -> Way:
+def way(rows: int, step: float = 1e-3) -> RecordedPath:
     """A way of joint 3, whose fingers close."""
     q = np.tile(PARK, (rows, 1))
     q[:, 2] += step * np.arange(rows)
-    return Way(q=q, gap=np.linspace(0.05, 0.01, rows))
+    return RecordedPath(q=q, gap=np.linspace(0.05, 0.01, rows))
 
 
-def executed(step: int, **fields: object) -> Done:
-    return Done(**{"step": step, "gap": (0.01, 0.01), "fingers": 0.01, **fields})  # type: ignore[arg-type] # by name
+def executed(step: int, **fields: object) -> ExecutedStep:
+    return ExecutedStep(**{"step": step, "gap": (0.01, 0.01), "fingers": 0.01, **fields})  # type: ignore[arg-type] # by name
 
 
 @given(st.integers(1, 50), st.integers(0, 2**32 - 1))
 def test_a_way_is_read_back_to_its_grain(rows: int, seed: int) -> None:
     drawn = np.random.default_rng(seed).uniform(-3, 3, (rows, JOINTS + 1))
-    again = unpacked(packed(Way(q=drawn[:, :-1], gap=drawn[:, -1])), JOINTS)
+    again = unpacked(packed(RecordedPath(q=drawn[:, :-1], gap=drawn[:, -1])), JOINTS)
     assert np.abs(np.column_stack([again.q, again.gap]) - drawn).max() <= GRAIN / 2 + 1e-12
 
 
 def test_a_second_of_a_smooth_motion_takes_less_than_two_kilobytes() -> None:
     t = np.linspace(0, 1, 60)[:, None]
     q = PARK + 0.5 * t**3 * (10 - 15 * t + 6 * t**2) * np.linspace(0.2, 1, JOINTS)
-    assert len(packed(Way(q=q, gap=np.zeros(60)))) < 2000
+    assert len(packed(RecordedPath(q=q, gap=np.zeros(60)))) < 2000
 
 
 @pytest.mark.parametrize(
-    "data", [b"", b"no way", packed(way(9))[:-3], packed(Way(q=np.ones((3, 4)), gap=np.ones(3)))]
+    "data", [b"", b"no way", packed(way(9))[:-3], packed(RecordedPath(q=np.ones((3, 4)), gap=np.ones(3)))]
 )
 def test_bytes_that_are_no_way_of_the_arm_are_refused(data: bytes) -> None:
     with pytest.raises(ValueError, match=r"^it does not hold a way"):
@@ -102,7 +102,7 @@ WENT = {"way": b"way"}
 PLACES = {0: (0.0, 0.0, 0.0), 1: (0.0, 0.0, 0.1), 2: (0.1, 0.0, 0.1)}
 
 
-def entry(*done: Done, hands: dict[int, int] | None = None) -> int | None:
+def entry(*done: ExecutedStep, hands: dict[int, int] | None = None) -> int | None:
     """The step behind which the rounds begin, the hand after each step at one of the places."""
     return loop_entry(done, lambda index: np.array(PLACES[(hands or {}).get(index, 0)]))
 
@@ -204,7 +204,7 @@ def test_a_touch_is_undone_with_the_motion_that_left_it() -> None:
         (3, executed(6)),  # nothing has left it
     ],
 )
-def test_what_is_no_touch_is_undone_step_by_step(index: int, other: Done) -> None:
+def test_what_is_no_touch_is_undone_step_by_step(index: int, other: ExecutedStep) -> None:
     assert touch_entry((*TOUCH[:index], other, *TOUCH[index + 1 :]), grasping=False) is None
 
 

@@ -18,7 +18,7 @@ from handeye.core.units import INCH, OUNCE_INCH
 from handeye.execution.state import ExecutionState
 from handeye.execution.undo.done import Undoing
 from handeye.execution.undo.resistance import Resistance
-from handeye.execution.undo.way import Way, packed, unpacked
+from handeye.execution.undo.way import RecordedPath, packed, unpacked
 from handeye.program.causes import ScrewFast, ScrewLost, UndoResisted
 from handeye.program.guards import GuardKind
 from handeye.tasks.water_pump.world.dimensions import dimensions
@@ -119,7 +119,7 @@ def came_from_above(run: Bench, height: float) -> None:
     end = unpacked(took.way, len(arm.joints)).q[-1]
     above = solve(arm, translated(forward(arm, end), np.array((0.0, 0.0, height))), end).q
     assert above is not None
-    way = Way(q=np.linspace(above, end, HALF_OUT), gap=np.full(HALF_OUT, run.run.drive.state.gap))
+    way = RecordedPath(q=np.linspace(above, end, HALF_OUT), gap=np.full(HALF_OUT, run.run.drive.state.gap))
     state.done[state.lets_go] = replace(took, way=packed(way))
 
 

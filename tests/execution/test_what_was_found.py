@@ -6,7 +6,7 @@ from short_runs import plan_of
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.execution.context import ExecutionContext
-from handeye.execution.state import Found
+from handeye.execution.state import VisionResult
 from handeye.execution.vision_actions import just_found
 from handeye.program.causes import NoGasket, PartAstray
 from handeye.tasks.water_pump.world.nominal import PARK
@@ -56,19 +56,19 @@ def matched(*, right: bool) -> PartMatch:
 @pytest.mark.parametrize(
     ("step", "picture", "found"),
     [
-        (3, "BEFORE", Found(general=BOX)),
-        (4, "BEFORE", Found(specific=HOLES)),
-        (6, "AFTER", Found(inspection=gasket(right=True))),
-        (7, "AFTER", Found(match=matched(right=True))),
+        (3, "BEFORE", VisionResult(general=BOX)),
+        (4, "BEFORE", VisionResult(specific=HOLES)),
+        (6, "AFTER", VisionResult(inspection=gasket(right=True))),
+        (7, "AFTER", VisionResult(match=matched(right=True))),
     ],
 )
 def test_the_marks_are_those_of_the_picture_that_the_step_looks_at(
-    step: int, picture: str, found: Found
+    step: int, picture: str, found: VisionResult
 ) -> None:
     run = ExecutionContext(
         plan=plan_of(SCRIPT), arm=STANFORD, cell=FakeCell(PARK).devices, camera=None, emit=lambda _: None
     )
-    run.state.at, run.state.found = step, {"OTHER": Found(), picture: found}
+    run.state.at, run.state.found = step, {"OTHER": VisionResult(), picture: found}
     assert just_found(run) == (picture, found.marks())
 
 

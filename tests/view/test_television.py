@@ -10,7 +10,7 @@ from fake_runs import FakeRun, fake_run
 from looked_runs import PART, SCRIPT, looked
 from toy_system import begin_toy
 
-from handeye.execution.state import Found
+from handeye.execution.state import VisionResult
 from handeye.program.events import ErrorRaised, PartSeen
 from handeye.report.facts.seen import SeenPicture
 from handeye.runs.runner import Runner
@@ -21,7 +21,9 @@ from handeye.view.moment import Newest, Television, shown
 def seen(run: FakeRun) -> SeenPicture | None:
     """The picture that is shown of a run."""
     state = run.executor.state
-    system = SimpleNamespace(shots=state.shots, marks=lambda name: state.found.get(name, Found()).marks())
+    system = SimpleNamespace(
+        shots=state.shots, marks=lambda name: state.found.get(name, VisionResult()).marks()
+    )
     return shown(run.events, run.executor.run.plan.program, cast("RunningSystem", system)).picture
 
 

@@ -1,1 +1,1 @@
-"""Undo: the arm takes back what it did, step by step, by the set-points that each step has left, under guards."""
+"""Reversal: the arm takes back its steps one by one along their recorded set-points, under guards."""

@@ -1,4 +1,4 @@
-"""Record of an executed step: what it takes to undo it by motion."""
+"""Record of an executed step, with what its reversal needs."""
 
 from typing import Annotated
 
@@ -11,41 +11,29 @@ from handeye.program.guards import GuardKind
 Natural = Annotated[int, msgspec.Meta(ge=0)]
 
 
-class Done(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """An executed step. `before` and `after` are the moments at which it began and ended."""
+class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
+    """An executed step; `before` and `after` refer to its start and end."""
 
     step: Natural
-    way: bytes = b""
-    """Set-points of joints and fingers, see `undo.way`; empty: nothing moved."""
-    gap: tuple[float, float]
-    """Finger gap as sensed before and after, m."""
-    fingers: float
-    """Set-point of the finger gap before, m."""
-    grasping: bool = False
-    """The fingers had been told to close before."""
-    load: float = 0.0
-    """Weight that the servo bore before, N."""
-    tool: float = 0.0
-    """Speed of the screwdriver before, rad/s."""
-    force: float = 0.0
-    """Greatest force that the hand has felt, N; 0: it felt for none."""
-    ended: GuardKind | None = None
-    """The guard that it ended on."""
+    way: bytes = b""  # set-points, see `undo.way`; empty: nothing moved
+    gap: tuple[float, float]  # sensed before and after, m
+    fingers: float  # gap set-point before, m
+    grasping: bool = False  # fingers closed before
+    load: float = 0.0  # compensated weight before, N
+    tool: float = 0.0  # screwdriver speed before, rad/s
+    force: float = 0.0  # greatest force felt, N; 0: none was estimated
+    ended: GuardKind | None = None  # the guard that ended it
     risen: float = 0.0
-    """By how much the hand has risen while the screw that it drove in was turned out, m, if that was broken off."""
+    """Rise of the hand, m, while its screw was being turned out, if that was interrupted."""
     remembered: dict[str, bytes] = msgspec.field(default_factory=dict)
-    """What the program remembered before, as far as that has changed, see `undo.memory`."""
-    enters: bool = False
-    """Its stage began with it."""
-    called: bool = False
-    """It called the operator."""
+    """Memory before it, where it has changed; see `undo.memory`."""
+    enters: bool = False  # first of its stage
+    called: bool = False  # called the operator
 
 
 class Undoing(Record, frozen=True, kw_only=True):
-    """How far the arm is to undo what it did."""
+    """An order to reverse executed steps until `left` remain."""
 
     left: Natural
-    """Executed steps that are to be left."""
-    halts: bool = False
-    """The run ends there; otherwise the program can go on."""
+    halts: bool = False  # the run ends there
     asked_by: AskedBy = "person"

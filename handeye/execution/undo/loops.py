@@ -1,12 +1,12 @@
-"""Steps that changed nothing but what the program remembers: they are undone as one lift, and not one by one.
+"""Finds steps that only changed the program's memory, which are reversed by one lift instead of one by one.
 
-These are rounds of a loop, and touches. Where a program has jumped back to a step at which it was before, it takes the
-world for what it was then. That is so if in between no stage began and nobody was called, the hand holds what it held,
-whatever it put down it has taken up again at the same place (or the other way round), and whatever the driver drove in,
-it has backed out. Rounds that carry things from one place to another are no such loop, and are undone one by one.
+These are rounds of a loop, and touches. Where a program has jumped back to an earlier step, the world is taken to be as
+it was then, provided that in between no stage began and the operator was not called, the hand holds what it held, every
+object put down was taken up at the same place (or the other way round), and every screw driven in was backed out.
+Rounds that carry objects elsewhere are no such loop, and are reversed one by one.
 
-A touch is a motion of an empty hand that ended on something, and the one that left it. The way back would end on the
-thing a second time, and a finger that came to its side comes down on its edge if it has been pushed since.
+A touch is a motion of an empty hand that ended on something, and the motion that left it. The way back would end on the
+object a second time, and a finger that moved to its side would descend on its edge if the object has been pushed since.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -15,26 +15,25 @@ from typing import Final
 import numpy as np
 
 from handeye.core.pose import Array
-from handeye.execution.undo.done import Done
+from handeye.execution.undo.done import ExecutedStep
 from handeye.program.guards import GuardKind
 
-SAME_GAP: Final = 5e-4
-"""m: the hand holds what it held."""
+SAME_GAP: Final = 5e-4  # m, of an unchanged hold
 SAME_PLACE: Final = (0.005, 0.02)
-"""m sideways and in height within which a thing is taken up where it was put down: fingers slide on it."""
+"""m, sideways and in height, between putting down and taking up: fingers slide on an object."""
 
 
 def loop_entry(
-    done: Sequence[Done], hand: Callable[[int], Array | None], *, grasping: bool | None = None
+    done: Sequence[ExecutedStep], hand: Callable[[int], Array | None], *, grasping: bool | None = None
 ) -> int | None:
-    """The index of the step behind which a jump back, the last there was, found the world as that step had left it.
+    """Index of the step after which the last jump back found the world as that step had left it.
 
-    That counts as long as the hand has only gone through free air since: the way back of a MOVE to the next place of a
-    search would end on what was met at the place before.
+    It counts while the hand has only moved through free air since: the way back of a MOVE to the next place of a search
+    would end on what was met at the place before.
 
     Args:
-        hand: where the hand was when a step, given by its index, had been done, shape (3,), W; None: it never moved.
-        grasping: the fingers were last told to close; None: as before the last step.
+        hand: position of the hand after a step given by index, shape (3,), W; None: it never moved.
+        grasping: the fingers were last closed; None: as before the last step.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
@@ -50,17 +49,17 @@ def loop_entry(
     return None
 
 
-def _in_air(done: Sequence[Done], index: int, grasping: bool | None) -> bool:
-    """A step felt nothing, called nobody, and changed nothing of what the hand and the driver do."""
+def _in_air(done: Sequence[ExecutedStep], index: int, grasping: bool | None) -> bool:
+    """True if a step felt nothing, called nobody, and left hand and driver unchanged."""
     here = done[index]
     nothing = here.force == 0.0 and not here.tool and not here.called and not here.enters
     return nothing and _keeps_hold(done, index, grasping)
 
 
-def _keeps_hold(done: Sequence[Done], index: int, grasping: bool | None) -> bool:
-    """The hand holds behind a step what it held before.
+def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None) -> bool:
+    """True if the hand holds the same after a step as before.
 
-    A grasp that a loop begins with is none such: what it took the first time is not what it takes the last time.
+    A grasp that starts a loop does not count: its first object is not its last.
     """
     here, (before, behind) = done[index], done[index].gap
     after = (
@@ -69,14 +68,13 @@ def _keeps_hold(done: Sequence[Done], index: int, grasping: bool | None) -> bool
     return here.grasping == after and abs(behind - before) < SAME_GAP
 
 
-def touch_entry(done: Sequence[Done], *, grasping: bool) -> int | None:
-    """The index of the step behind which an empty hand set out to touch what the last one left; -1: before the first.
+def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
+    """Index of the step after which an empty hand went to touch what the last step left; -1: before the first.
 
     Args:
-        grasping: the fingers were last told to close.
-
+        grasping: the fingers were last closed.
     Returns:
-        None: the last one left no touch.
+        None if the last step left no touch.
     """
     last = len(done) - 1
     if grasping or last < 1 or not _goes_empty(done[last]):
@@ -90,14 +88,14 @@ def touch_entry(done: Sequence[Done], *, grasping: bool) -> int | None:
     return None
 
 
-def _goes_empty(done: Done) -> bool:
-    """It moved an empty hand, and not its fingers."""
+def _goes_empty(done: ExecutedStep) -> bool:
+    """True if it moved an empty hand, and not its fingers."""
     before, after = done.gap
     return bool(done.way) and not done.grasping and not done.tool and abs(after - before) < SAME_GAP
 
 
-def without_rounds(done: Sequence[Done], hand: Callable[[int], Array | None]) -> Iterator[int]:
-    """Indices of the steps as they are undone, the last first, without those of rounds that are left out."""
+def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | None]) -> Iterator[int]:
+    """Indices of steps in order of reversal, without skipped rounds."""
     index = len(done) - 1
     while index >= 0:
         yield index
@@ -106,15 +104,15 @@ def without_rounds(done: Sequence[Done], hand: Callable[[int], Array | None]) ->
         index = index - 1 if entry is None else entry
 
 
-def _alike(one: Done, other: Done) -> bool:
-    """The same step, begun and ended with the same in the hand, and the driver off."""
+def _alike(one: ExecutedStep, other: ExecutedStep) -> bool:
+    """True for the same step, with the same hold before and after, and the driver off."""
     same = (one.step, one.load, one.grasping) == (other.step, other.load, other.grasping)
     gaps = zip(one.gap, other.gap, strict=True)
     return same and one.tool == other.tool == 0.0 and all(abs(a - b) < SAME_GAP for a, b in gaps)
 
 
-def _undone_itself(done: Sequence[Done], entry: int, hand: Callable[[int], Array | None]) -> bool:
-    """Nothing but memory is another now than when a step was first executed."""
+def _undone_itself(done: Sequence[ExecutedStep], entry: int, hand: Callable[[int], Array | None]) -> bool:
+    """True if only memory has changed since a step was first executed."""
     rounds = range(entry, len(done) - 1)
     if any(done[index].called or done[index + 1].enters for index in rounds):
         return False

@@ -1,9 +1,10 @@
-"""What the program remembers from step to step, kept with each step as far as the step has changed it.
+"""The program's memory, stored with each step as far as the step changed it.
 
-Pictures stay: a program that goes on takes them anew before it looks at them. So does what the camera is: its lens and
-its aim are where they are, and undoing moves only the arm.
+Pictures stay: a program that goes on takes them anew before it examines them. So do the camera's lens and aim, as
+reversal moves only the arm.
 """
 
+from dataclasses import dataclass
 from typing import Any, Final, get_type_hints
 
 from msgspec.structs import replace
@@ -13,35 +14,31 @@ from handeye.core.mutable_records import MutableRecord, put_back
 from handeye.core.packed import decoded, encoded
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import ExecutionState, check_fits
+from handeye.execution.undo.done import ExecutedStep
+from handeye.execution.undo.way import packed
 
 REMEMBERED: Final = (
     "pending", "saved", "heights", "counters", "search", "restored", "goal", "travel", "finger_line", "grasping",
     "general", "world",
 )  # fmt: skip
-"""Fields of the state."""
-Memory = dict[str, Any]
-"""Values of fields of the state."""
+Memory = dict[str, Any]  # by field of the state
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}
-"""What no step remembers is sound already, and large."""
+"""Fields that steps do not store, replaced for the check as they are large and sound already."""
 _TYPES: Final[dict[str, Any]] = get_type_hints(ExecutionState)
 
 
 def memory(state: ExecutionState) -> dict[str, bytes]:
-    """What is remembered now."""
+    """The present memory."""
     return {name: encoded(getattr(state, name)) for name in REMEMBERED}
 
 
 def changed(before: dict[str, bytes], after: dict[str, bytes]) -> dict[str, bytes]:
-    """What of it is another now, as it was before."""
+    """Old values of what has changed."""
     return {name: old for name, old in before.items() if after[name] != old}
 
 
 def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
-    """What a program remembered, by the names of fields of its state.
-
-    Raises:
-        ValueError: it is no memory of the program that runs.
-    """
+    """Memory by field of the state; raises ValueError if it does not fit the running program."""
     if not before.keys() <= set(REMEMBERED):
         raise ValueError("it remembers what no program does")
     found = {name: decoded(data, _TYPES[name]) for name, data in before.items()}
@@ -53,10 +50,57 @@ def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
 
 
 def remember(state: ExecutionState, found: Memory) -> None:
-    """Let a state remember again what it did."""
+    """Restore memory into a state."""
     for name, value in found.items():
         here = getattr(state, name)
         if isinstance(here, MutableRecord) and type(here) is type(value):
             put_back(here, value)  # whoever holds it sees this
         else:
             setattr(state, name, value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StateBefore:
+    """What a step may change, as it was before."""
+
+    gap: float
+    fingers: float
+    grasping: bool
+    load: float
+    tool: float
+    memory: dict[str, bytes]
+
+
+def before(run: ExecutionContext) -> StateBefore:
+    """Record the state before a step."""
+    state, drive = run.state, run.drive.state
+    run.drive.track.begin(drive.q, drive.gap)
+    return StateBefore(
+        gap=round(run.drive.sensed.gap, 6),
+        fingers=drive.gap,
+        grasping=state.grasping,
+        load=drive.load,
+        tool=drive.tool,
+        memory=memory(state),
+    )
+
+
+def noted(run: ExecutionContext, found: StateBefore, *, step: int, enters: bool) -> ExecutedStep:
+    """The record of a finished step; `enters` marks the first of its stage."""
+    drive, state = run.drive, run.state
+    way = drive.track.way(drive.state.q, drive.state.gap)
+    operation = run.plan.program.steps[step].operation
+    guards = run.watching(operation.guards) if state.pending is None else ()
+    return ExecutedStep(
+        step=step,
+        way=b"" if way is None else packed(way),
+        gap=(found.gap, round(drive.sensed.gap, 6)),
+        fingers=found.fingers,
+        grasping=found.grasping,
+        load=found.load,
+        tool=found.tool,
+        force=round(drive.track.force, 3),
+        ended=guards[0].kind if guards else None,
+        remembered=changed(found.memory, memory(state)),
+        enters=enters,
+    )

@@ -1,4 +1,4 @@
-"""Set-points of the way back: the way of a step from its end to its beginning, begun and ended gently."""
+"""Set-points of the path back: a step's path from end to beginning, with gentle ends."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -9,32 +9,26 @@ from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
 from handeye.core.pose import Array
-from handeye.execution.undo.way import Way
+from handeye.execution.undo.way import RecordedPath
 from handeye.planning.motions import GUARDED_SPEED
 
 RAMP: Final = 8
-"""Servo periods over which it sets off, and slows down. Chosen: what stopped on a force ended at full speed."""
+"""Servo periods of acceleration and braking. Chosen: what stopped on a force ended at full speed."""
 JOIN: Final = 5e-4
-"""rad or m that a joint goes in a servo period to where the way ends: brakes and guards have left the arm beside it."""
+"""rad or m per servo period of a joint to where the path ends: brakes and guards have left the arm beside it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Retracing:
-    """A way back."""
+    """A path back."""
 
     samples: Samples
-    gap: Array
-    """Set-points of the fingers with them, shape (N,), m."""
-    left: Array
-    """Set-points of the way that are still to be gone behind each of them, shape (N,)."""
+    gap: Array  # finger set-points, (N,), m
+    left: Array  # path set-points left after each, (N,)
 
 
-def retracing(arm: ArmModel, q: Array, gap: float, way: Way, *, slowly: bool) -> Retracing:
-    """The way back from where the arm and its fingers are.
-
-    Args:
-        slowly: the hand goes at no more than the speed of guarded motions.
-    """
+def retracing(arm: ArmModel, q: Array, gap: float, way: RecordedPath, *, slowly: bool) -> Retracing:
+    """The path back from where the arm and its fingers are; `slowly`: at the speed of guarded motions at most."""
     rows = np.column_stack([way.q, way.gap])[::-1]
     path = np.vstack([_joined(np.append(q, gap), rows[0]), rows])
     last, period = len(path) - 1, arm.servo.period
@@ -49,19 +43,19 @@ def retracing(arm: ArmModel, q: Array, gap: float, way: Way, *, slowly: bool) ->
 
 
 def _joined(here: Array, there: Array) -> Array:
-    """Set-points from where the arm is to where a way ends, that one left out; shape (N, n + 1)."""
+    """Set-points from the arm's position to the path's end, exclusive; shape (N, n + 1)."""
     periods = max(1, int(np.ceil(np.abs(there - here)[:-1].max() / JOIN)))
     return np.asarray(here + np.linspace(0.0, 1.0, periods, endpoint=False)[:, None] * (there - here))
 
 
 def _periods(arm: ArmModel, q: Array) -> Array:
-    """Servo periods, one at least, from each set-point to the next, for a hand that goes as slowly as guarded ones."""
+    """Servo periods, one at least, between set-points, for a hand no faster than guarded motions."""
     went = np.linalg.norm(np.diff(forward(arm, q)[:, :3, 3], axis=0), axis=1)
     return np.asarray(np.maximum(1.0, went / (GUARDED_SPEED * arm.servo.period)))
 
 
 def _clock(periods: float) -> Array:
-    """The time that has passed on a way of so many servo periods, setting off and slowing down, one after another."""
+    """Elapsed time, in periods, on a path with smooth start and end."""
     rise = (np.arange(RAMP) + 1) / (RAMP + 1)
     rate = np.concatenate([rise, np.ones(int(np.ceil(periods))), rise[::-1]])
     gone = np.cumsum(rate)

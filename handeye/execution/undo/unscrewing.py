@@ -1,4 +1,4 @@
-"""Turning a screw out: left, with the hand following it as it rises, until the torque is gone."""
+"""Turns a screw out: left, the hand following it up, until the torque is gone."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
@@ -11,45 +11,39 @@ from handeye.core.pose import Array
 from handeye.execution.compliance import Course
 from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_loop import Outcome
-from handeye.execution.undo.done import Done
+from handeye.execution.undo.done import ExecutedStep
 from handeye.execution.undo.resistance import Resistance, allowed
-from handeye.execution.undo.way import Way
+from handeye.execution.undo.way import RecordedPath
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard, FirstOf, Reading, Trip
 
 SPEED: Final = 1.5
-"""Times as fast as the screw was driven in: a motor that stalls at its speed's torque has to give the loosening one."""
+"""Over the speed of driving in: a motor that stalls at its speed's torque must give the loosening one."""
 PRESS: Final = 6.0
-"""N on the screw, so that the bit stays in its slot: what it was driven in with."""
+"""N on the screw to keep the bit in its slot, as for driving in."""
 TURN: Final = 0.00127 * 1.5
-"""m: a turn and a half of the thread. By so much less may the hand rise than it went down: its start is not felt."""
+"""m: a turn and a half of the thread, by which the rise may be less than the descent: its start is not felt."""
 QUIET: Final = 20
-"""Servo periods in which the hand must not have risen any more: in as many a thread lifts a screw by 3 mm."""
-RISING: Final = 2e-4
-"""m of height that count as risen."""
+"""Servo periods without rising that show the end; a thread lifts a screw by 3 mm in as many."""
+RISING: Final = 2e-4  # m that count as risen
 PATIENCE: Final = 120
-"""Servo periods in which a screw must have begun to rise."""
+"""Servo periods within which a screw must begin to rise."""
 
 
 LOWER: Final = 0.002
-"""m that the hand goes down at most, in a second, to see whether a screw stands under the bit. Half the height of its
-head: without it, the bit meets nothing there."""
+"""m, at most, and in one second, to check for a screw under the bit: half the height of its head."""
 
 
 @dataclass(slots=True, kw_only=True)
-class Loosened:
-    """Trips when the screw is out, or does not come: the hand rises no more."""
+class ScrewMonitor:
+    """Trips when the screw is out, or does not rise."""
 
-    height: Callable[[], float]
-    """Of the hand, m."""
-    rise: float
-    """By how much it rises at least when the screw is out, m."""
-    before: float
-    """By how much it had risen before turning was broken off, m."""
+    height: Callable[[], float]  # of the hand, m
+    rise: float  # least rise of a screw that is out, m
+    before: float  # rise before an interruption, m
     highest: float = field(init=False)
     started: float = field(init=False)
-    torque: float = 0.0
-    """Greatest that the driver has shown, N m."""
+    torque: float = 0.0  # greatest so far, N m
     _quiet: int = 0
     _periods: int = 0
 
@@ -59,20 +53,18 @@ class Loosened:
 
     @property
     def risen(self) -> float:
-        """By how much the hand has risen, m."""
+        """Rise of the hand, m."""
         return self.highest - self.started
 
     @property
     def out(self) -> bool:
-        """The screw is out."""
+        """True if the screw is out."""
         return self.risen >= self.rise
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        """Its guard."""
         return (ActiveGuard(guard=GuardKind.TORQUE, limit=0.0),)
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip, or None."""
         height, self._periods = self.height(), self._periods + 1
         self.torque = max(self.torque, abs(reading.tool_torque))
         rising = height > self.highest + RISING
@@ -82,16 +74,15 @@ class Loosened:
         return Trip(guard=GuardKind.TORQUE, value=abs(reading.tool_torque), limit=0.0) if over else None
 
 
-def unscrew(run: ExecutionContext, done: Done, way: Way) -> tuple[Outcome, Loosened]:
-    """Turn left on the screw that a step has driven in, until it is out or does not come.
+def unscrew(run: ExecutionContext, done: ExecutedStep, way: RecordedPath) -> tuple[Outcome, ScrewMonitor]:
+    """Turn out the screw that a step drove in, until it is out or does not come.
 
-    Returns:
-        What else ended it, if anything did, and how far the screw came.
+    Returns the outcome of the motion, and the monitor of the screw.
     """
     drive = run.drive
     begin, end = forward(run.arm, way.q[[0, -1]])[:, 2, 3]
     rise = max(float(begin - end) - TURN, RISING)
-    loosened = Loosened(height=lambda: float(drive.hand()[2, 3]), rise=rise, before=done.risen)
+    loosened = ScrewMonitor(height=lambda: float(drive.hand()[2, 3]), rise=rise, before=done.risen)
     drive.state.tool, drive.state.current = -SPEED * done.tool, 0.0
     guards = FirstOf(monitors=(Resistance(limit=allowed(done.force)), loosened))
     outcome = drive.comply(_course(run), guards)
@@ -101,13 +92,13 @@ def unscrew(run: ExecutionContext, done: Done, way: Way) -> tuple[Outcome, Loose
 
 
 def lower(run: ExecutionContext, force: float) -> Outcome:
-    """Go down a little, until a force (N) bears the hand, giving way to the side; no trip: nothing does."""
+    """Descend a little until a force (N) supports the hand, complying sideways; no trip if nothing does."""
     course = replace(_course(run), distance=LOWER, speed=LOWER, force=None)
     return run.drive.comply(course, Resistance(limit=force))
 
 
 def _course(run: ExecutionContext) -> Course:
-    """Pressing on the screw, and giving way to it upwards and to the side."""
+    """Press on the screw, complying upwards and sideways."""
     return Course(
         compliance=run.arm.compliance,
         direction=np.array((0.0, 0.0, -1.0)),
@@ -120,13 +111,10 @@ def _course(run: ExecutionContext) -> Course:
 
 
 def taken_by(run: ExecutionContext, backwards: Iterable[int]) -> int | None:
-    """The index of the step that took the screw which a step drives in: it ended on its head, before the hand moved.
+    """Index of the step that took the screw which a step drives in: it ended on the screw's head, before the hand
+    moved.
 
-    Args:
-        backwards: indices of the steps from the driving one on, the last first.
-
-    Returns:
-        None: there is none.
+    `backwards` are indices of steps from the driving one on, last first.
     """
     done, moved = run.state.done, False
     for index in backwards:

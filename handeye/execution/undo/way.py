@@ -1,6 +1,6 @@
-"""The way of a step: set-points of joints and fingers, a servo period apart, noted as they are put out.
+"""The path of a step: set-points of joints and fingers, one per servo period.
 
-On disk they are whole millionths of a radian or a metre, of which second differences compress to less than a byte each.
+On disk they are whole millionths of a radian or metre, whose second differences compress to less than a byte each.
 """
 
 import zlib
@@ -11,20 +11,16 @@ import numpy as np
 
 from handeye.core.pose import Array
 
-GRAIN: Final = 1e-6
-"""rad or m. At the hand a tenth of what the potentiometers tell."""
-_LONGEST: Final = 1 << 22
-"""Numbers of a way, decompressed: days."""
+GRAIN: Final = 1e-6  # rad or m; at the hand a tenth of the potentiometers' resolution
+_LONGEST: Final = 1 << 22  # decompressed bytes: days
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Way:
+class RecordedPath:
     """Set-points from before a step to after it."""
 
-    q: Array
-    """Shape (N, n), rad and m."""
-    gap: Array
-    """Shape (N,), m."""
+    q: Array  # (N, n), rad and m
+    gap: Array  # (N,), m
 
     def __len__(self) -> int:
         return len(self.gap)
@@ -32,49 +28,44 @@ class Way:
 
 @dataclass(slots=True)
 class Track:
-    """Notes the set-points of a step, and the force that the hand feels in it."""
+    """Records the set-points of a step, and the greatest force in it."""
 
-    force: float = 0.0
-    """Greatest so far, N."""
+    force: float = 0.0  # greatest so far, N
     _q: list[Array] = field(default_factory=list)
     _gap: list[float] = field(default_factory=list)
 
     def begin(self, q: Array, gap: float) -> None:
-        """Begin anew, from the set-points there are."""
+        """Start recording from the present set-points."""
         self.force, self._q, self._gap = 0.0, [q], [gap]
 
     def note(self, q: Array, gap: float) -> None:
-        """Note the set-points that are put out for a servo period."""
+        """Record the set-points of a servo period."""
         self._q.append(q)
         self._gap.append(gap)
 
     def felt(self, wrench: Array) -> None:
-        """Note what the hand feels, shape (6,)."""
+        """Record the wrench on the hand, shape (6,)."""
         self.force = max(self.force, float(np.linalg.norm(wrench[:3])))
 
-    def way(self, q: Array, gap: float) -> Way | None:
-        """The way that was noted, up to the last set-points; None: none of them differs from another."""
-        way = Way(q=np.array([*self._q, q]), gap=np.array([*self._gap, gap]))
+    def way(self, q: Array, gap: float) -> RecordedPath | None:
+        """The recorded path up to the last set-points; None if nothing moved."""
+        way = RecordedPath(q=np.array([*self._q, q]), gap=np.array([*self._gap, gap]))
         rows = _rows(way)
         moved = np.flatnonzero((rows[1:] != rows[:-1]).any(axis=1))
         if not len(moved):
             return None
         part = slice(int(moved[0]), int(moved[-1]) + 2)  # without what it held still before and after
-        return Way(q=way.q[part], gap=way.gap[part])
+        return RecordedPath(q=way.q[part], gap=way.gap[part])
 
 
-def packed(way: Way) -> bytes:
-    """A way as bytes, to the grain."""
+def packed(way: RecordedPath) -> bytes:
+    """A path as bytes, rounded to the grain."""
     first = np.diff(_rows(way), axis=0, prepend=np.int32(0))
     return zlib.compress(np.diff(first, axis=0, prepend=np.int32(0)).T.tobytes(), 6)
 
 
-def unpacked(data: bytes, joints: int) -> Way:
-    """The way that `packed` made bytes of.
-
-    Raises:
-        ValueError: it is none of an arm of so many joints.
-    """
+def unpacked(data: bytes, joints: int) -> RecordedPath:
+    """The path from `packed` bytes; raises ValueError if it is not of an arm with that many joints."""
     inflater = zlib.decompressobj()
     try:
         inflated = inflater.decompress(data, _LONGEST)
@@ -86,9 +77,9 @@ def unpacked(data: bytes, joints: int) -> Way:
     second = numbers.reshape(joints + 1, -1).T
     whole = np.cumsum(np.cumsum(second.astype(np.int64), axis=0), axis=0)
     rows: Array = np.asarray(whole * GRAIN, dtype=np.float64)
-    return Way(q=rows[:, :-1], gap=rows[:, -1])
+    return RecordedPath(q=rows[:, :-1], gap=rows[:, -1])
 
 
-def _rows(way: Way) -> np.ndarray[tuple[int, ...], np.dtype[np.int32]]:
+def _rows(way: RecordedPath) -> np.ndarray[tuple[int, ...], np.dtype[np.int32]]:
     """Joints and gap in grains, shape (N, n + 1)."""
     return np.rint(np.column_stack([way.q, way.gap]) / GRAIN).astype("<i4")

@@ -27,8 +27,8 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.devices import check_devices
 from handeye.execution.executor import Executor
 from handeye.execution.friction_measurement import measure_joints
-from handeye.execution.state import ExecutionState, Found, Shot
-from handeye.execution.undo.done import Done, Undoing
+from handeye.execution.state import ExecutionState, Shot, VisionResult
+from handeye.execution.undo.done import ExecutedStep, Undoing
 from handeye.execution.undo.undoing import order
 from handeye.execution.vision_actions import just_found
 from handeye.planfile.plan import Plan
@@ -102,7 +102,7 @@ class RunningPlan(RunningSystem):
         return self.state.shots
 
     def marks(self, picture: str) -> list[Mark]:
-        return self.state.found.get(picture, Found()).marks()
+        return self.state.found.get(picture, VisionResult()).marks()
 
     @property
     def just_found(self) -> tuple[str, list[Mark]]:
@@ -198,7 +198,7 @@ class RunningPlan(RunningSystem):
         self.executor.answer(choice)
 
     @property
-    def executed(self) -> Sequence[Done]:
+    def executed(self) -> Sequence[ExecutedStep]:
         return self.state.done
 
     def reverse(self, undoing: Undoing) -> None:
@@ -348,7 +348,7 @@ class PlanSystem(System):
                 f"the program has {counted(stages, 'stage')}"
             )
 
-    def executed(self, plan: Plan, state: ExecutionState) -> Sequence[Done]:
+    def executed(self, plan: Plan, state: ExecutionState) -> Sequence[ExecutedStep]:
         return state.done
 
     def order(self, plan: Plan, state: ExecutionState, undoing: Undoing) -> None:
