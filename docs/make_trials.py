@@ -19,18 +19,17 @@ from pathlib import Path
 from statistics import median
 from typing import Final
 
-from msgspec import convert
-
 ROOT: Final = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
 from handeye.core.files import Kind, write_over  # noqa: E402
 from handeye.report.facts.again import sense_words, world_words  # noqa: E402
-from handeye.trials.batch.comparing import Outcome, beside  # noqa: E402
-from handeye.trials.batch.folder import Head, read_batch  # noqa: E402
-from handeye.trials.batch.rates import rate  # noqa: E402
-from handeye.trials.batch.row import Row, Verdict  # noqa: E402
-from handeye.trials.batch.trial import SIMULATED_LIMIT_S  # noqa: E402
+from handeye.trials.comparing import PairedTrial, beside  # noqa: E402
+from handeye.trials.folder import Head, read_batch  # noqa: E402
+from handeye.trials.plans.row import OUTCOMES, Row  # noqa: E402
+from handeye.trials.plans.trial import SIMULATED_LIMIT_S  # noqa: E402
+from handeye.trials.rates import rate  # noqa: E402
+from handeye.trials.sweep import FAILED  # noqa: E402
 
 PAGE: Final = ROOT / "docs" / "figures.md"
 FOLDER: Final = ROOT / "docs" / "trials"
@@ -71,12 +70,14 @@ class Batch:
         return self.facts["worlds"] == self.level and "--plan" not in self.facts["command"]
 
     @property
-    def outcomes(self) -> Mapping[int, Outcome]:
-        return {int(trial["seed"]): _outcome(trial) for trial in self.trials}
+    def outcomes(self) -> Mapping[tuple[str, int, int], PairedTrial]:
+        return {("", int(trial["seed"]), 0): _outcome(trial) for trial in self.trials}
 
 
-def _outcome(trial: Mapping[str, str]) -> Outcome:
-    return Outcome(convert(trial["verdict"], Verdict), float(trial["arm_s"]) if trial["arm_s"] else None)
+def _outcome(trial: Mapping[str, str]) -> PairedTrial:
+    verdict = trial["verdict"]
+    arm = {"arm": float(trial["arm_s"])} if trial["arm_s"] else {}
+    return PairedTrial(OUTCOMES.get(verdict, "wrong"), verdict == FAILED, arm)
 
 
 # -- files -----------------------------------------------------------------------------------------------
@@ -84,8 +85,8 @@ def _outcome(trial: Mapping[str, str]) -> Outcome:
 
 def file_of(head: Head, rows: Sequence[Row], commit: str) -> bytes:
     """A batch as a file."""
-    if head.work:
-        raise SystemExit(f"these are no trials of assembling, but of this: {head.work}")
+    if head.kind != "assembly":
+        raise SystemExit(f"these are no trials of assembling, but of this: {head.kind}")
     facts = (_command(head, len(rows)), commit, head.code, head.plan, worlds(head), _versions(head.versions))
     out = io.StringIO()
     for name, value in zip(FACTS, facts, strict=True):
@@ -103,13 +104,13 @@ def worlds(head: Head) -> str:
 
 def _options(head: Head) -> list[str]:
     """Words of the command that carries out a batch, but for seed, level and number."""
-    _, _, *words = world_words(head.world)
+    _, _, *words = world_words(head.world, PROGRAM)
     words = words if head.world.level == "nominal" else words[2:]
     words += sense_words(head.without)
     words += [] if head.camera == "auto" else ["--camera", head.camera]
     words += [] if head.on_stop == "abort" else ["--on-stop", head.on_stop]
     limit = head.simulated_limit_s
-    return words + ([] if limit == SIMULATED_LIMIT_S else ["--simulated-limit", f"{limit:g}"])
+    return words + ([] if limit in (None, SIMULATED_LIMIT_S) else ["--simulated-limit", f"{limit:g}"])
 
 
 def _command(head: Head, n: int) -> str:
@@ -197,12 +198,13 @@ def _alike(first: Batch, other: Batch) -> bool:
 def _pair(first: Batch, other: Batch) -> str:
     found = beside(other.name, first.outcomes, other.outcomes)
     counts = (
-        *(f"{found.assembled} of {found.pairs}", found.first_assembled, found.only_this, found.only_first),
-        *(f"{found.p:.2g}", found.told, found.silent, found.failed),
+        *(f"{found.right} of {found.pairs}", found.first_right, found.only_this, found.only_first),
+        *(f"{found.p:.2g}", found.noticed, found.silent, found.failed),
     )
     times = ("", "")
-    if found.longer_s is not None and found.p_longer is not None:
-        times = (f"{found.longer_s:+.1f} s in {found.both}", f"{found.p_longer:.2g}")
+    if "arm" in found.measures:
+        longer = found.measures["arm"]
+        times = (f"{longer.more:+.1f} s in {longer.pairs}", f"{longer.p:.2g}")
     return f"| {' | '.join(map(str, (other.name, first.name, *counts, *times)))} |"
 
 

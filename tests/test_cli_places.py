@@ -8,8 +8,8 @@ import pytest
 from conftest import Command
 
 from handeye.core.files import Kind, check_place, write_over
-from handeye.trials import faults as fault_trials
-from handeye.trials.faults import FaultTrial
+from handeye.trials.faults import FaultRow, FaultTrial, FaultWork
+from handeye.trials.sweep import Case
 
 Planned = Callable[[str], str]
 
@@ -19,7 +19,6 @@ WRITERS = {
     "JSON schema": ("schema", "-o", "kept.al"),
     "graph": ("inspect", "job.plan.json", "--graph", "dot", "-o", "kept.al"),
     "checkpoint": ("do", "OPEN 1", "--keep", "kept.al"),
-    "list of outcomes": ("faults", "--out", "kept.jsonl"),
     "SVG drawing": ("inspect", "job.plan.json", "--graph", "svg", "-o", "kept.svg"),
     "PNG picture": ("render", "-o", "kept.png"),
     "PNG picture of a run": ("trace", "photograph", "run", "--at", "1", "-o", "kept.png"),
@@ -39,7 +38,7 @@ def test_a_file_of_another_kind_is_left_alone(command: Command, planned: Planned
     assert kept.read_text(encoding="utf-8") == OURS
 
 
-@pytest.mark.parametrize("what", ["checkpoint", "PNG picture", "PNG picture of a run", "list of outcomes"])
+@pytest.mark.parametrize("what", ["checkpoint", "PNG picture", "PNG picture of a run"])
 def test_a_place_that_cannot_be_written_is_told_before_anything_is_done(command: Command, what: str) -> None:
     *words, name = WRITERS[what]
     code, out, err = command(*words, f"absent/{name}")
@@ -47,27 +46,32 @@ def test_a_place_that_cannot_be_written_is_told_before_anything_is_done(command:
     assert err == f"handeye: absent/{name} cannot be written: No such file or directory\n"
 
 
-@pytest.mark.parametrize("what", ["checkpoint", "PNG picture", "PNG picture of a run", "list of outcomes"])
+@pytest.mark.parametrize("what", ["checkpoint", "PNG picture", "PNG picture of a run"])
 def test_a_folder_in_the_place_of_a_file_is_told_before_anything_is_done(command: Command, what: str) -> None:
     *words, name = WRITERS[what]
     Path(name).mkdir()
     assert command(*words, name) == (2, "", f"handeye: {name} cannot be written: it is not a file\n")
 
 
-def test_outcomes_of_faults_are_replaced_only_where_that_is_asked_for(
+def test_trials_of_faults_are_dropped_only_where_that_is_asked_for(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    tried = FaultTrial(
-        name="lamp.dead", outcome="stopped", stage=None, message="", error=None, line=None, exit_code=1
+    def work(self: FaultWork, case: Case) -> list[FaultRow]:
+        tried = FaultTrial(
+            name=case.condition, outcome="stopped", stage=None, message="", error=None, line=None, exit_code=1
+        )
+        return [FaultRow(trial=0, seed=case.seed, condition=case.condition, tried=tried)]
+
+    monkeypatch.setattr(FaultWork, "__call__", work)
+    words = ("faults", "--only", "lamp.dead", "--out", "kept")
+    assert command(*words)[0] == 0
+    sentence = (
+        "handeye: kept holds 1 trial of another batch, which differs in worlds; choose another folder\n"
     )
-    monkeypatch.setattr(fault_trials, "try_faults", lambda *_, **__: iter([tried]))
-    before, kept = '{"name":"mine"}\n', Path("kept.jsonl")
-    kept.write_text(before, encoding="utf-8")
-    words = ("faults", "--only", "lamp.dead", "--out", "kept.jsonl")
-    sentence = "handeye: kept.jsonl holds a list of outcomes already; --overwrite replaces it\n"
-    assert (command(*words), kept.read_text("utf-8")) == ((2, "", sentence), before)
-    assert command(*words, "--overwrite")[0] == 0
-    assert json.loads(kept.read_bytes())["name"] == "lamp.dead"
+    assert command(*words, "--seed", "3") == (2, "", sentence)
+    assert command(*words, "--seed", "3", "--overwrite")[0] == 0
+    head, row = map(json.loads, Path("kept/trials.jsonl").read_text("utf-8").splitlines())
+    assert (head["world"]["seed"], row["seed"], row["tried"]["name"]) == (3, 3, "lamp.dead")
 
 
 @pytest.mark.parametrize(

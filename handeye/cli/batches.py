@@ -1,39 +1,38 @@
-"""The command that assembles in many worlds and counts."""
+"""Commands that carry plans out in many worlds, and that compare batches of trials."""
 
 import re
 import shlex
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, note, positive, put_json, screen
+from handeye.cli.common import Camera, Json, WholeNumber, positive, put_json, screen
 from handeye.cli.programs import plan_or_own
+from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
 from handeye.core.errors import BadArgument
-from handeye.core.files import check_place, write_over
-from handeye.core.host_time import HostTimer
-from handeye.core.plain_text import counted
 from handeye.runs.operator import parse_policy
 from handeye.tasks import DEFAULT, option, planned
 
 if TYPE_CHECKING:
     from handeye.core.variation import WorldSpec
     from handeye.program.senses import Sense
-    from handeye.trace.table_files import Format
-    from handeye.trials.batch.engines import Engine
-    from handeye.trials.batch.figures import Figures
-    from handeye.trials.batch.folder import BatchFolder
-    from handeye.trials.batch.row import Row, Verdict
-    from handeye.trials.batch.trial import Trial
+    from handeye.trials.plans.dismantling import DismantlingTrial
+    from handeye.trials.plans.row import Row
+    from handeye.trials.sweep import Engine
 
 COUNT: Final = 20
 """Trials, if nobody says how many."""
-PICTURED, TABLES = "figures.html", "tables"
-"""What a batch leaves in its folder."""
+PlanOption = Annotated[
+    Path | None,
+    Parameter(
+        name="--plan",
+        help="A plan made by `handeye plan`, or the name of a program; by default that of the task.",
+    ),
+]
 
 
 def assembly_trials(
@@ -49,14 +48,8 @@ def assembly_trials(
     ] = None,
     errors: ErrorOptions = ANY_ERRORS,
     fault: Faults = None,
-    plan: Annotated[
-        Path | None,
-        Parameter(
-            help="A plan made by `handeye plan`, or the name of a program; by default that of the task."
-        ),
-    ] = None,
+    plan: PlanOption = None,
     only: Annotated[WholeNumber | None, Parameter(help="Carry out trial K alone, from 0.")] = None,
-    workers: Annotated[WholeNumber, Parameter(name=["--workers", "--jobs"], help="Trials at a time.")] = 2,
     engine: Annotated[
         Literal["process", "dask"],
         Parameter(help="What carries trials out: processes of this computer, or workers of dask."),
@@ -79,39 +72,27 @@ def assembly_trials(
     wall_limit: Annotated[
         float, Parameter(help="Seconds of this computer after which a trial counts as failed.")
     ] = 1800.0,
-    out: Annotated[
-        Path | None,
-        Parameter(
-            help="Folder of the batch: a line is written to it as each trial ends, and the same command goes on where "
-            "it was broken off."
-        ),
-    ] = None,
-    tables: Annotated[
-        Literal["csv", "parquet"] | None,
-        Parameter(help="With --out: the figures as tables, in the folder `tables` there."),
-    ] = None,
-    json: Json = False,
+    options: SweepOptions = ANY,
 ) -> int:
     """Assemble in many worlds and count: how often, how sure that is, and what failed where.
 
     The figures are the same for any number of workers. A trial whose process is killed is tried once more; an
     exception counts as a failure. With --out the figures are drawn on a page, too: figures.html in the folder.
 
-    Exit code 0: no silent failure; 1: every trial was broken off; 3: in some world the program said done and the
-    referee disagreed; 2: bad input; 130: interrupted.
+    Exit code 0: no silent failure; 1: every trial broke off; 3: in some world the program said done and the referee
+    disagreed; 2: bad input; 130: interrupted.
     """
-    from handeye.trials.batch.batch import carry_out, jobs_of
-    from handeye.trials.batch.figures import figures
-    from handeye.trials.batch.trial import Trial
+    from handeye.trials.plans.assembly import ASSEMBLY
+    from handeye.trials.plans.trial import Trial
+    from handeye.trials.sweep import cases
 
-    if tables and out is None:
+    if options.tables is not None and options.folder is None:
         raise BadArgument("--tables needs --out, the folder that they are left in")
     if scheduler is not None and engine != "dask":
         raise BadArgument("--scheduler goes with --engine dask")
-    timer = HostTimer()
     chosen = _chosen(n, seed, seeds)
     numbers = _numbers(len(chosen), only)
-    positive(workers, "worker")
+    positive(options.jobs, "worker")
     _limits(simulated_limit, wall_limit)
     senses, errors = errors.senses, errors.errors()
     record = plan_or_own(plan, errors.task)
@@ -125,70 +106,87 @@ def assembly_trials(
         )
     trial = Trial(
         plan=record,
+        world=world,
         camera=camera,
         without=senses,
         on_stop=on_stop,
         simulated_limit_s=simulated_limit,
         wall_limit_s=wall_limit,
     )
-    fresh: list[Row] = []
-    with kept_batch(out, trial, world) as folder:
-        if out is not None:
-            _check_leaving(out, tables)
-        tell = progress(len(numbers), 0 if folder is None else len({*folder.rows} & {*numbers}), timer, fresh)
-        rows = carry_out(
-            trial, jobs_of(world, numbers), _engine(engine, workers, scheduler), folder=folder, told=tell
-        )
+    lacking = f", without {', '.join(senses)}" if senses else ""
+    answered = "" if on_stop == "abort" else f", with {on_stop} where the operator is called"
     again = command_of(world, plan, record.task, camera, senses, on_stop)
-    found = figures(rows, lambda row: again(row.seed), fresh=fresh, wall_s=timer.wall_s)
-    if out is not None:
-        _leave(out, rows, found, tables, _title(trial, world))
-    if json:
-        put_json(found)
-    else:
-        from handeye.cli.batch_text import page
+    return carry_out_sweep(
+        ASSEMBLY,
+        trial,
+        cases(world.seed, numbers),
+        trial.head(ASSEMBLY),
+        options,
+        title=f"{record.program.name} in worlds from {world} on{lacking}{answered}",
+        plan=record,
+        again=lambda row: again(row.seed),
+        engine=_engine(engine, options.jobs, scheduler, wall_limit),
+    )
 
-        screen.print(page(found), soft_wrap=True)
-    return 3 if found.silent_failures else 1 if found.n == found.failed else 0
 
-
-def _engine(name: str, workers: int, scheduler: str | None) -> "Engine":
+def _engine(name: str, jobs: int, scheduler: str | None, wall_limit_s: float) -> "Engine":
     """What carries trials out."""
-    from handeye.trials.batch.engines import processes
+    from handeye.trials.sweep import processes
 
     if name == "process":
-        return processes(workers)
-    from handeye.trials.batch.dask_engine import dask_workers
+        return processes(jobs, wall_limit_s)
+    from handeye.trials.dask_engine import dask_workers
 
-    return dask_workers(workers, scheduler)
-
-
-def _check_leaving(out: Path, tables: "Format | None") -> None:
-    """Raises InvalidInput if page or tables of a batch cannot be left in its folder when the trials have ended."""
-    from handeye.trace.table_files import check_tables
-    from handeye.trials.batch.page import PAGE
-
-    check_place(out / PICTURED, PAGE)
-    if tables is not None:
-        check_tables(out / TABLES, tables)
+    return dask_workers(jobs, scheduler)
 
 
-def _leave(out: Path, rows: "Sequence[Row]", found: "Figures", tables: "Format | None", title: str) -> None:
-    """Leave the page of a batch in its folder, and its tables."""
-    from handeye.trace.table_files import write_tables
-    from handeye.trials.batch.page import PAGE, batch_page
-    from handeye.trials.batch.tables import tables as tables_of
+def dismantling_trials(
+    *,
+    n: Annotated[WholeNumber, Parameter(help="How many trials.")] = COUNT,
+    seed: Annotated[
+        WholeNumber, Parameter(group=WORLD, help="World of trial 0; trial K has a number greater by K.")
+    ] = 0,
+    errors: ErrorOptions = ANY_ERRORS,
+    fault: Faults = None,
+    plan: PlanOption = None,
+    to: Annotated[
+        str | None, Parameter(help="Build as far as the end of this stage, and take that apart.")
+    ] = None,
+    camera: Camera = "auto",
+    options: SweepOptions = ANY,
+) -> int:
+    """Assemble in many worlds, have the arm take each apart again, and count how often everything is where it was.
 
-    write_over(out / PICTURED, batch_page(title, rows, found), PAGE)
-    if tables is not None:
-        units = "Figures are in the unit of their column"
-        write_tables(out / TABLES, tables_of(rows, found), tables, units)
+    Trials in which nothing was built are told, and do not count.
 
+    Exit code 0: no silent failure; 1: every trial broke off; 3: in some world all was undone and the referee disagreed;
+    2: bad input; 130: interrupted.
+    """
+    from handeye.debugger.breakpoints import stage_number
+    from handeye.trials.plans.dismantling import DISMANTLING, DismantlingTrial
+    from handeye.trials.sweep import cases, processes
 
-def _title(trial: "Trial", world: "WorldSpec") -> str:
-    lacking = f", without {', '.join(trial.without)}" if trial.without else ""
-    answered = "" if trial.on_stop == "abort" else f", with {trial.on_stop} where the operator is called"
-    return f"{trial.plan.program.name} in worlds from {world} on{lacking}{answered}"
+    positive(n, "trial")
+    positive(options.jobs, "worker")
+    senses, errors = errors.senses, errors.errors()
+    record = plan_or_own(plan, errors.task)
+    errors = errors.of(record.task)
+    errors.spec(seed + n - 1)
+    world = broken(errors.spec(seed), fault, errors.work, record.program)
+    stage = "" if to is None else record.program.stages[stage_number(to, record.program)]
+    trial = DismantlingTrial(plan=record, world=world, camera=camera, without=senses, to=stage)
+    built = f"up to {stage}" if stage else "wholly"
+    return carry_out_sweep(
+        DISMANTLING,
+        trial,
+        cases(world.seed, range(n)),
+        trial.head(DISMANTLING),
+        options,
+        title=f"{record.program.name} carried out {built} and undone, in worlds from {world} on",
+        plan=record,
+        again=_dismantled_again(trial, plan),
+        engine=processes(options.jobs, trial.wall_limit_s),
+    )
 
 
 def compare_trials(
@@ -201,11 +199,11 @@ def compare_trials(
 ) -> int:
     """Compare batches with a first one, world by world: what a sense, or an error of the world, makes of the rate.
 
-    Only seeds that both have count. `p` is of McNemar's exact test: how likely pairs that differ fall so unevenly if
-    neither batch is better.
+    Any batches of one kind can be compared. Only trials that both have count. `p` is of McNemar's exact test: how
+    likely pairs that differ fall so unevenly if neither batch is better.
     """
-    from handeye.trials.batch.comparing import paired
-    from handeye.trials.batch.folder import read_batch
+    from handeye.trials.comparing import paired
+    from handeye.trials.folder import read_batch
 
     if not others:
         raise BadArgument("at least two batches are compared; name another folder")
@@ -214,7 +212,7 @@ def compare_trials(
     if json:
         put_json(found)
     else:
-        from handeye.cli.batch_text import comparison
+        from handeye.trials.text import comparison
 
         screen.print(comparison(names[0], found), soft_wrap=True)
     return 0
@@ -251,52 +249,6 @@ def _limits(*seconds: float) -> None:
             raise BadArgument(f"a limit of time is a number of seconds above 0; {limit:g} is not")
 
 
-@contextmanager
-def kept_batch(out: Path | None, trial: "Trial", world: "WorldSpec") -> "Iterator[BatchFolder | None]":
-    """The folder of the batch, if one is wanted; what is in it is told also where trials are broken off."""
-    from handeye.trials.batch.batch import head_of
-    from handeye.trials.batch.folder import BatchFolder
-
-    if out is None:
-        yield None
-        return
-    folder = BatchFolder(out, head_of(trial, world), trial.plan)
-    try:
-        yield folder
-    except BaseException:
-        note(f"{counted(len(folder.rows), 'trial')} kept in {out}; the same command goes on from there")
-        raise
-    finally:
-        folder.close()
-
-
-def progress(
-    count: int, kept: int, timer: HostTimer, rows: "list[Row]", right: "Verdict" = "assembled"
-) -> "Callable[[Row], None]":
-    """What tells of each trial as it ends: how it ended, the rate until now with its interval, and the time left."""
-    from handeye.cli.batch_text import percent
-    from handeye.trials.batch.rates import rate
-
-    if kept:
-        note(f"{kept} of {counted(count, 'trial')} are kept from before")
-
-    def tell(row: "Row") -> None:
-        rows.append(row)
-        sure = rate(sum(each.verdict == right for each in rows), len(rows))
-        assert sure.wilson95 is not None
-        left = timer.wall_s / len(rows) * (count - kept - len(rows))
-        note(
-            f"{kept + len(rows):4} of {count}  seed {row.seed:4}  {row.verdict:9}  {sure.successes} of {sure.trials} "
-            f"{right} ({percent(*sure.wilson95)}), {_left(left)} left{row.detail and '  '}{row.detail}"
-        )
-
-    return tell
-
-
-def _left(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
-
-
 def command_of(
     world: "WorldSpec",
     plan: Path | None,
@@ -317,5 +269,23 @@ def command_of(
 
     def command(seed: int) -> str:
         return shlex.join(["handeye", *words, *world_words(replace(world, seed=seed), task), *made])
+
+    return command
+
+
+def _dismantled_again(trial: "DismantlingTrial", plan: Path | None) -> "Callable[[Row], str]":
+    """What tells the command that carries a trial out again."""
+    from msgspec.structs import replace
+
+    from handeye.report.facts.again import sense_words, world_words
+
+    made = sense_words(trial.without) + ([] if trial.camera == "auto" else ["--camera", trial.camera])
+    made += ([] if plan is None else ["--plan", str(plan)]) + (["--to", trial.to] if trial.to else [])
+    task = trial.plan.task
+    made += option(task) or (["--task", task] if plan is None and task != DEFAULT else [])
+
+    def command(row: "Row") -> str:
+        words = world_words(replace(trial.world, seed=row.seed), task)
+        return shlex.join(["handeye", "trials", "dismantling", "--n", "1", *words, *made])
 
     return command

@@ -45,15 +45,15 @@ render = worlds:render: Render a picture of the work cell.
 faults = fault_matrix:faults: Assemble once with each fault of a matrix, at its usual size, and tell what that comes to.
 trials: Try in many worlds and count.
 trials assembly = batches:assembly_trials: Assemble in many worlds and count: how often, how sure that is, and what failed where.
-trials dismantling = dismantling:dismantling_trials: Assemble in many worlds, have the arm take each apart again, and count how often everything is where it was.
-trials disturbed = disturbing:disturbed_trials: Build a pump, change something behind the arm's back, and have the arm undo it: is it stopped before harm?
+trials dismantling = batches:dismantling_trials: Assemble in many worlds, have the arm take each apart again, and count how often everything is where it was.
+trials disturbed = trials:disturbed_trials: Build a pump, change something behind the arm's back, and have the arm undo it: is it stopped before harm?
 trials compare = batches:compare_trials: Compare batches with a first one, world by world: what a sense, or an error of the world, makes of the rate.
 trials base = trials:base_vision_trials: Find the base on the belt at many poses: how often, how exactly, and how often wrongly.
 trials gasket = trials:gasket_vision_trials: Check gaskets of every kind by eye: on properly, shifted by .3 in, absent, and one on another.
-trials chaos = chaos:chaos_trials: Draw faults, times, worlds, kills, panics, retries and skips together, and check what must always hold.
+trials chaos = trials:chaos_trials: Draw faults, times, worlds, kills, panics, retries and skips together, and check what must always hold.
 bench: Measure how long things take.
 bench timing = benches:timing: Assemble once and print the timing table beside that of 1973.
-bench insertion = insertion:insertion: Put one pin into one hole, many times: success, peak force, and time from the first contact to seated.
+bench insertion = benches:insertion: Put one pin into one hole, many times: success, peak force, and time from the first contact to seated.
 """  # noqa: E501
 """`NAME = MODULE:FUNCTION: SENTENCE` of each command, with the sentence that lists say of it, which is the first one of
 its docstring; a group of commands has no function. Modules are those of this folder, or have their full name."""

@@ -1,27 +1,18 @@
 """Commands that have the arm undo what it did: dismantle, and its trials."""
 
-import shlex
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.batches import kept_batch, progress
-from handeye.cli.common import Camera, Json, Out, TaskWords, WholeNumber, note, positive, put_json, screen
-from handeye.cli.programs import check_task, made_known, plan_or_own
+from handeye.cli.common import Json, Out, TaskWords, note
+from handeye.cli.programs import check_task, made_known
 from handeye.cli.runs import Overwrite
-from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
 from handeye.core.errors import CannotWrite, InvalidInput
-from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
-from handeye.tasks import DEFAULT, option
 
 if TYPE_CHECKING:
-    from handeye.core.variation import WorldSpec
     from handeye.runs.snapshot import Checkpoint
-    from handeye.trials.batch.dismantling import DismantlingTrial
-    from handeye.trials.batch.row import Row
 
 COUNT: Final = 20
 """Trials, if nobody says how many."""
@@ -103,85 +94,3 @@ def _newest(path: Path) -> "Checkpoint":
     elif more:
         note(f"carrying out again {counted(more, 'step')} that no checkpoint of {path} holds")
     return caught_up(start, events, str(path))
-
-
-def dismantling_trials(
-    *,
-    n: Annotated[WholeNumber, Parameter(help="How many trials.")] = COUNT,
-    seed: Annotated[
-        WholeNumber, Parameter(group=WORLD, help="World of trial 0; trial K has a number greater by K.")
-    ] = 0,
-    errors: ErrorOptions = ANY_ERRORS,
-    fault: Faults = None,
-    plan: Annotated[
-        Path | None,
-        Parameter(
-            help="A plan made by `handeye plan`, or the name of a program; by default that of the task."
-        ),
-    ] = None,
-    to: Annotated[
-        str | None, Parameter(help="Build as far as the end of this stage, and take that apart.")
-    ] = None,
-    workers: Annotated[WholeNumber, Parameter(name=["--workers", "--jobs"], help="Trials at a time.")] = 2,
-    camera: Camera = "auto",
-    out: Annotated[
-        Path | None,
-        Parameter(
-            help="Folder of the batch: a line is written to it as each trial ends, and the same command goes on where "
-            "it was broken off."
-        ),
-    ] = None,
-    json: Json = False,
-) -> int:
-    """Assemble in many worlds, have the arm take each apart again, and count how often everything is where it was.
-
-    Trials in which nothing was built are told, and do not count.
-
-    Exit code 0: no silent failure; 3: in some world all was undone and the referee disagreed; 2: bad input; 130:
-    interrupted.
-    """
-    from handeye.cli.batch_text import dismantling_page
-    from handeye.debugger.breakpoints import stage_number
-    from handeye.trials.batch.batch import carry_out, jobs_of
-    from handeye.trials.batch.dismantling import DismantlingTrial, dismantling_figures
-    from handeye.trials.batch.engines import processes
-
-    timer = HostTimer()
-    positive(n, "trial")
-    positive(workers, "worker")
-    senses, errors = errors.senses, errors.errors()
-    record = plan_or_own(plan, errors.task)
-    errors = errors.of(record.task)
-    errors.spec(seed + n - 1)
-    world = broken(errors.spec(seed), fault, errors.work, record.program)
-    stage = "" if to is None else record.program.stages[stage_number(to, record.program)]
-    trial = DismantlingTrial(plan=record, camera=camera, without=senses, to=stage)
-    fresh: list[Row] = []
-    with kept_batch(out, trial, world) as folder:
-        kept = 0 if folder is None else len({*folder.rows} & {*range(n)})
-        tell = progress(n, kept, timer, fresh, "apart")
-        rows = carry_out(trial, jobs_of(world, range(n)), processes(workers), folder=folder, told=tell)
-    found = dismantling_figures(rows, _again(trial, world, plan), wall_s=timer.wall_s)
-    if json:
-        put_json(found)
-    else:
-        screen.print(dismantling_page(found), soft_wrap=True)
-    return 3 if found.silent_failures else 0
-
-
-def _again(trial: "DismantlingTrial", world: "WorldSpec", plan: Path | None) -> "Callable[[Row], str]":
-    """What tells the command that carries a trial out again."""
-    from msgspec.structs import replace
-
-    from handeye.report.facts.again import sense_words, world_words
-
-    made = sense_words(trial.without) + ([] if trial.camera == "auto" else ["--camera", trial.camera])
-    made += ([] if plan is None else ["--plan", str(plan)]) + (["--to", trial.to] if trial.to else [])
-    task = trial.plan.task
-    made += option(task) or (["--task", task] if plan is None and task != DEFAULT else [])
-
-    def command(row: "Row") -> str:
-        words = world_words(replace(world, seed=row.seed), task)
-        return shlex.join(["handeye", "trials", "dismantling", "--n", "1", *words, *made])
-
-    return command

@@ -26,14 +26,19 @@ class Tally:
         what: str,
         console: Console = notes,
         clock: Callable[[], float] = time.monotonic,
+        *,
+        silent: bool = False,
+        kept: int = 0,
     ) -> None:
+        """Count trials of which some are `kept` from before; `silent`: something else tells of each."""
+        self._silent, self._kept = silent, kept
         self._total, self._what, self._console, self._clock = total, what, console, clock
-        self._ended, self._began = 0, clock()
+        self._ended, self._began = kept, clock()
         self._bar = Progress(
             TextColumn("{task.description}"), BarColumn(bar_width=20), console=console, transient=True,
             disable=not console.is_terminal,
         )  # fmt: skip
-        self._task = self._bar.add_task(self._told(), total=total)
+        self._task = self._bar.add_task(self._told(), total=total, completed=kept)
 
     def __enter__(self) -> Self:
         self._bar.start()
@@ -50,19 +55,19 @@ class Tally:
             for trial in trials:
                 yield trial
                 if tell is not None:
-                    with self._aside():
+                    with self.aside():
                         tell(trial)
-                self._one_more()
+                self.one_more()
 
-    def _one_more(self) -> None:
+    def one_more(self) -> None:
         """Count a trial that has ended."""
         self._ended += 1
         self._bar.update(self._task, completed=self._ended, description=self._told())
-        if not self._console.is_terminal and self._due():
+        if not self._silent and not self._console.is_terminal and self._due():
             say(self._told(), self._console)
 
     @contextmanager
-    def _aside(self) -> Iterator[None]:
+    def aside(self) -> Iterator[None]:
         """While something else is printed: a bar that is there is out of the way."""
         self._bar.stop()
         try:
@@ -72,14 +77,14 @@ class Tally:
 
     def _due(self) -> bool:
         share = self._ended * LINES // self._total
-        return self._ended == 1 or share > (self._ended - 1) * LINES // self._total
+        return self._ended == self._kept + 1 or share > (self._ended - 1) * LINES // self._total
 
     def _told(self) -> str:
         left = self._total - self._ended
         said = f"{self._ended} of {self._total} {self._what}"
-        if not left or not self._ended:
+        if not left or self._ended == self._kept:
             return said
-        return f"{said}, {duration((self._clock() - self._began) / self._ended * left)} to go"
+        return f"{said}, {duration((self._clock() - self._began) / (self._ended - self._kept) * left)} to go"
 
 
 def duration(seconds: float) -> str:

@@ -38,7 +38,7 @@ def trace_file(path: Path) -> Path:
 
 def check_no_batch(folder: Path) -> None:
     """Raises InvalidInput if a folder is not a run's, but that of a batch of trials."""
-    from handeye.trials.batch.folder import TRIALS
+    from handeye.trials.folder import TRIALS
 
     if (folder / TRIALS).is_file():
         raise BadFile(f"{folder} is the folder of a batch of trials, not of a run")

@@ -1,18 +1,29 @@
 """Commands that try things in many worlds and count."""
 
-from typing import Annotated
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, note, positive, put_json, say
-from handeye.cli.world_options import (
-    ANY_WORLD,
-    WorldOptions,
-)
-from handeye.core.diagnostics import quoted
-from handeye.core.errors import NoSuchName
+from handeye.cli.common import Camera, TaskWords, WholeNumber, positive, say
+from handeye.cli.programs import plan_or_own
+from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
+from handeye.cli.tally import Tally
+from handeye.cli.world_options import ANY_WORLD, WorldOptions
+from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.errors import BadArgument, NoSuchName
+from handeye.core.variation import WorldSpec, checked_seed
 from handeye.tasks import planned
+from handeye.tasks import task as known_task
 from handeye.tasks.trial import Known
+
+if TYPE_CHECKING:
+    from handeye.planfile.plan import Plan
+    from handeye.tasks.interface import Disturbance
+    from handeye.trials.chaos.schedule import Schedule
 
 Eye = Annotated[
     Known,
@@ -24,19 +35,20 @@ Eye = Annotated[
 Worlds = Annotated[
     WholeNumber | None, Parameter(help="Worlds to try in, from --seed on; by default as many as COUNT.")
 ]
-Jobs = Annotated[WholeNumber, Parameter(help="Processes at a time.")]
+Worldly = Annotated[WholeNumber, Parameter(name="--n", help="Worlds, from --seed on; each is tried in each.")]
+Count = Annotated[WholeNumber | None, Parameter(help="The same as COUNT.")]
 
 
 def base_vision_trials(
-    count: WholeNumber = 100,
+    count: WholeNumber | None = None,
     /,
     *,
+    n: Count = None,
     world: WorldOptions = ANY_WORLD,
     worlds: Worlds = None,
     eye: Eye = "lamp",
     camera: Camera = "auto",
-    jobs: Jobs = 2,
-    json: Json = False,
+    options: SweepOptions = ANY,
 ) -> int:
     """Find the base on the belt at many poses: how often, how exactly, and how often wrongly.
 
@@ -48,21 +60,21 @@ def base_vision_trials(
     Parameters
     ----------
     count
-        Poses to try: the one that a world has, then fresh ones.
+        Poses to try, by default 100: the one that a world has, then fresh ones.
     """
-    return _vision_trial("base", count, world, worlds, eye, camera, jobs, json)
+    return _vision_trial("base", _counted(count, n, 100), world, worlds, eye, camera, options)
 
 
 def gasket_vision_trials(
-    count: WholeNumber = 50,
+    count: WholeNumber | None = None,
     /,
     *,
+    n: Count = None,
     world: WorldOptions = ANY_WORLD,
     worlds: Worlds = None,
     eye: Eye = "lamp",
     camera: Camera = "auto",
-    jobs: Jobs = 2,
-    json: Json = False,
+    options: SweepOptions = ANY,
 ) -> int:
     """Check gaskets of every kind by eye: on properly, shifted by .3 in, absent, and one on another.
 
@@ -73,9 +85,16 @@ def gasket_vision_trials(
     Parameters
     ----------
     count
-        Gaskets of each kind.
+        Gaskets of each kind, by default 50.
     """
-    return _vision_trial("gasket", count, world, worlds, eye, camera, jobs, json)
+    return _vision_trial("gasket", _counted(count, n, 50), world, worlds, eye, camera, options)
+
+
+def _counted(count: int | None, n: int | None, usual: int) -> int:
+    """How many attempts; raises BadArgument if COUNT and --n both say."""
+    if None not in (count, n):
+        raise BadArgument("COUNT says the same as --n: leave one of them out")
+    return next((each for each in (count, n) if each is not None), usual)
 
 
 def _vision_trial(
@@ -85,31 +104,165 @@ def _vision_trial(
     worlds: int | None,
     eye: Known,
     camera: str,
-    jobs: int,
-    json: bool,
+    options: SweepOptions,
 ) -> int:
-    from msgspec.structs import replace
-
-    from handeye.trials.eye import try_in
+    from handeye.trials.eye import EyeWork, eye_cases, eye_sweep
+    from handeye.trials.folder import head_of
 
     worlds = count if worlds is None else worlds
-    for each, what in ((count, "world"), (worlds, "world"), (jobs, "process")):
+    for each, what in ((count, "world"), (worlds, "world"), (options.jobs, "process")):
         positive(each, what)
-    number, first, work = min(count, worlds), world.spec, planned(world.work)
+    options.check()
+    first, work, number = world.spec, planned(world.work), min(count, worlds)
     if name not in work.trials:
         raise NoSuchName(f"the task {quoted(work.name)} has no trial {quoted(name)}")
-    specs = [replace(first, seed=seed) for seed in range(first.seed, first.seed + number)]
-    trial, tell, tried = work.trials[name], note if json else say, []
-    for its in try_in(work.name, name, specs, count, camera=camera, known=eye, jobs=jobs):
-        tried.append(its)
-        for attempt in its.attempts:
-            tell(f"seed {attempt.seed:4}  {trial.sentence(attempt)}")
-    attempts = sorted((a for its in tried for a in its.attempts), key=lambda a: (a.seed, a.number))
-    counted, cpu_s = trial.count(attempts), sum(its.cpu_s for its in tried) / count
-    if json:
-        put_json({"trial": name, "worlds": number, "eye": eye, **counted.figures, "cpu_s_each": cpu_s,
-                  "attempts": attempts})  # fmt: skip
-    else:
-        for line in (*counted.lines, f"{cpu_s:.1f} s of processor time each"):
-            say(line)
-    return 3 if counted.wrong else 0
+    sweep = eye_sweep(name, work.trials[name])
+    settings = {"eye": eye, "number of worlds": str(number), "task": work.name}
+    return carry_out_sweep(
+        sweep,
+        EyeWork(task=work.name, trial=name, world=first, camera=camera, known=eye),
+        eye_cases(first.seed, count, number),
+        head_of(sweep, first, settings=settings, camera=camera),
+        options,
+        title=f"{name} in worlds from {first} on, the camera known by {eye}",
+        more={"worlds": number, "eye": eye},
+    )
+
+
+def disturbed_trials(
+    *,
+    only: Annotated[
+        list[str] | None, Parameter(help="This disturbance alone. May be repeated.", consume_multiple=False)
+    ] = None,
+    listed: Annotated[
+        bool, Parameter(name="--list", help="List the disturbances; nothing is carried out.")
+    ] = False,
+    n: Worldly = 1,
+    world: WorldOptions = ANY_WORLD,
+    camera: Camera = "auto",
+    options: SweepOptions = ANY,
+) -> int:
+    """Build a pump, change something behind the arm's back, and have the arm undo it: is it stopped before harm?
+
+    In time is: a guard stops the arm, no part has moved by more than 2 mm in a step that the hand did not hold, and
+    the hand has felt no more than 60 N. Each builds the pump first, which takes a minute of a processor.
+
+    Exit code 0: every one was stopped in time; 3: one was not; 2: bad input; 130: interrupted.
+    """
+    from handeye.trials.disturbing import DISTURBED, DisturbedWork
+    from handeye.trials.folder import head_of
+    from handeye.trials.sweep import cases
+
+    chosen = _chosen(planned(world.work).disturbances(), only)
+    positive(n, "world")
+    options.check()
+    if listed:
+        for each in chosen:
+            say(f"{each.name:16} {each.meaning}")
+        return 0
+    plan, spec = plan_or_own(None, world.task), world.spec
+    return carry_out_sweep(
+        DISTURBED,
+        DisturbedWork(plan=plan, world=spec, camera=camera),
+        cases(spec.seed, range(n), [each.name for each in chosen]),
+        head_of(DISTURBED, spec, plan, camera=camera),
+        options,
+        title=f"what {plan.program.name} builds, disturbed and undone, in worlds from {spec} on",
+        plan=plan,
+    )
+
+
+def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[Disturbance]":
+    """The disturbances of some names; all, if there are none."""
+    names = [each.name for each in known]
+    for name in only or ():
+        if name not in names:
+            near = suggestion(name, names) or "--list lists them"
+            raise NoSuchName(f"there is no disturbance {quoted(name)}; {near}")
+    return [each for each in known if not only or each.name in only]
+
+
+def chaos_trials(
+    *,
+    count: Annotated[WholeNumber, Parameter(name="--n", help="Schedules to draw.")] = 100,
+    seed: Annotated[
+        WholeNumber, Parameter(help="Number from which schedules are drawn, and the first world of theirs.")
+    ] = 0,
+    worlds: Annotated[WholeNumber, Parameter(help="Worlds to draw from: nominal, low and high in turn.")] = 3,
+    schedule: Annotated[
+        list[str] | None,
+        Parameter(
+            help="Try this one, as it was printed; draw none. May be repeated.", consume_multiple=False
+        ),
+    ] = None,
+    checkpoints: Annotated[
+        Path | None,
+        Parameter(
+            help="Folder for the sound runs that schedules begin in: made where they are not there, and kept."
+        ),
+    ] = None,
+    task: TaskWords = None,
+    camera: Camera = "auto",
+    options: SweepOptions = ANY,
+) -> int:
+    """Draw faults, times, worlds, kills, panics, retries and skips together, and check what must always hold.
+
+    A schedule begins somewhere in a sound run and goes on for a few steps, or to the end of the stage: with up to two
+    faults that set in there, up to two interruptions (the panic button, a pause, a way back, a process that is killed),
+    each of which is taken up again from disk, and an operator who retries, skips, proceeds and aborts. It is carried
+    out once more without its interruptions.
+
+    Checked are: no pump is wrong that the program takes for right (`silent`); trace, events and state are the same to
+    the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read
+    and tells what happened (`trace`); nothing is lost on disk (`disk`); and nothing is raised (`error`). A schedule
+    that fails is shrunk to the fewest things with which it still does, and printed as a command.
+
+    Each world is carried out once in whole before, which takes a minute of a processor; a schedule takes some seconds.
+
+    Exit code 0: all held; 3: something did not; 2: bad input; 130: interrupted.
+    """
+    from handeye.trials.chaos.schedule import parse_schedule
+    from handeye.trials.chaos.trials import CHAOS, ChaosWork
+    from handeye.trials.folder import head_of
+    from handeye.trials.sweep import Case
+
+    for number, what in ((count, "schedule"), (worlds, "world"), (options.jobs, "worker")):
+        positive(number, what)
+    checked_seed(seed + worlds)
+    options.check()
+    given = [parse_schedule(text) for text in schedule or ()]
+    plan = plan_or_own(None, task)
+    with _folder(checkpoints) as folder:
+        drawn = given or _drawn(plan, folder, seed, count, worlds, camera, options.jobs)
+        return carry_out_sweep(
+            CHAOS,
+            ChaosWork(plan=plan, folder=folder, camera=camera),
+            [Case(trials=(k,), seed=seed + k, condition=str(each)) for k, each in enumerate(drawn)],
+            head_of(CHAOS, WorldSpec(seed=seed), plan, {"worlds drawn from": str(worlds)}, camera=camera),
+            options,
+            title=f"schedules of faults and interruptions of {plan.program.name}, drawn from seed {seed}",
+            plan=plan,
+        )
+
+
+@contextmanager
+def _folder(named: Path | None) -> Iterator[Path]:
+    """The folder of the sound runs; one for now, if nobody names any."""
+    if named is not None:
+        yield named
+        return
+    with tempfile.TemporaryDirectory(prefix="handeye-") as name:
+        yield Path(name)
+
+
+def _drawn(
+    plan: "Plan", folder: Path, seed: int, count: int, worlds: int, camera: str, jobs: int
+) -> "list[Schedule]":
+    """Schedules, when the worlds that they begin in have been carried out."""
+    from handeye.trials.chaos import trials
+
+    specs = trials.worlds(seed, worlds)
+    ended = trials.sound_runs(plan, folder, specs, camera, jobs)
+    tally = Tally(len(specs), "worlds carried out")
+    runs = sorted(tally.counting(ended), key=lambda run: run.world.seed)
+    return list(trials.schedules(seed, count, runs, known_task(plan.task)))

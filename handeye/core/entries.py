@@ -58,6 +58,8 @@ class Entry(Record, frozen=True, kw_only=True):
     """Commands that it adds, a line each: `NAME = MODULE:FUNCTION: SENTENCE`, as in `handeye/cli/commands.py`."""
     tasks: dict[str, str] = field(default_factory=dict)
     """`module:NAME` of each of its tasks."""
+    sweeps: dict[str, str] = field(default_factory=dict)
+    """`module:NAME` of the `handeye.trials.sweep.Sweep` of each kind of trials that it offers."""
     events: str = ""
     """`module:NAME` of a tuple of the kinds of events that it adds to those of all systems."""
     languages: dict[str, str] = field(default_factory=dict)

@@ -40,6 +40,9 @@ class Count:
 class Trial(ABC, Generic[A]):
     """One thing to try."""
 
+    attempt: type[A]
+    """The class of its attempts."""
+
     @abstractmethod
     def attempts(self, world: WorldSpec, number: int, *, camera: str, known: Known) -> Iterator[A]:
         """So many attempts in a world, its camera calibrated once; pictures made by `auto`, `gl` or `ray`.
@@ -55,3 +58,7 @@ class Trial(ABC, Generic[A]):
     @abstractmethod
     def count(self, attempts: Sequence[A]) -> Count:
         """All attempts counted; there is at least one."""
+
+    def outcome(self, attempt: A) -> Literal["right", "missed", "wrong"]:
+        """How an attempt counts: by default as right, unless something wrong was taken for right."""
+        return "wrong" if self.count([attempt]).wrong else "right"

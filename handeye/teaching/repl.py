@@ -33,9 +33,9 @@ class Repl:
 
     workplace: Workplace
     folder: Path
-    """Folder of the programs for `DO NAME`."""
+    """Where programs are looked for by name."""
     called: str = _ANSWERS
-    """Advice when the operator was called."""
+    """Words that are said when the operator was called."""
     functions: list[str] = field(default_factory=list)
     """The lines collected."""
     over: bool = False
@@ -76,11 +76,11 @@ class Repl:
         return sewn(Source(name=TYPED, text=text), lambda key: read_source(self.folder / key).text)
 
     def carry_out(self, source: Source, *, alone: bool = False) -> Answer:
-        """Plan a text and carry it out; the answer to a stop has advice."""
+        """Plan a text and carry it out; what there is to say to a stop is told."""
         return self._advised(carry_out(self.workplace, source, alone=alone))
 
     def go_on(self, choice: Choice) -> Answer:
-        """Answer a call of the operator; raises InvalidInput if there is none."""
+        """Answer for the operator, who was called; raises InvalidInput if nobody has called."""
         happened = len(self.workplace.runner.events)
         said = done(self.workplace, self.workplace.answer(choice), happened)
         return self._advised(Answer(time=self.workplace.elapsed, said=said))
@@ -194,3 +194,4 @@ _TABLE: Final[tuple[Command[Callable[[Repl, str], Answer]], ...]] = (
     Command(usage="EXIT", act=_quit, help="leave, too"),
 )
 COMMANDS: Final = {command.name: command for command in _TABLE}
+"""By their words."""

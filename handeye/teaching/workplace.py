@@ -101,7 +101,7 @@ class Workplace:
 
     @property
     def run(self) -> ExecutionContext:
-        """The executor's present context."""
+        """What the executor of programs works with, now."""
         return self.runner.context
 
     @property
@@ -117,7 +117,7 @@ class Workplace:
 
     @property
     def q(self) -> Array:
-        """Joint positions at which the arm is held, shape (n,), rad and m."""
+        """Where the arm is held, shape (n,), rad and m."""
         return self.run.drive.state.q
 
     def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
@@ -143,7 +143,7 @@ class Workplace:
     # -- doing ----------------------------------------------------------------------------------------
 
     def carry_out(self, plan: Plan) -> Pause:
-        """Carry out a plan; raises Refused if it takes pictures, and the camera was not set up."""
+        """Carry out a plan; raises InvalidInput if it looks, and the camera was not set up."""
         if self.run.state.calibration is None and plan.program.written("picture"):
             raise Refused("the camera is not set up; begin with --look for a plan that takes pictures")
         self.mark()
@@ -159,6 +159,7 @@ class Workplace:
         return self._go()
 
     def _runner(self, start: Checkpoint) -> Runner:
+        """What takes the place of the present runner."""
         return Runner(start, halt=self.halt, observers=self.observers)
 
     def _started(self, plan: Plan) -> RunStarted:
@@ -170,7 +171,7 @@ class Workplace:
         )  # fmt: skip
 
     def answer(self, choice: Choice) -> Pause:
-        """Continue after a call of the operator; raises Refused if there is none."""
+        """Go on after the operator was called; raises InvalidInput if nobody has called."""
         if self.runner.call is None:
             raise Refused(f"`{choice}` answers a call of the operator, and there is none")
         self.runner.answer(choice)
@@ -187,7 +188,7 @@ class Workplace:
         self.before = [*self.before, self.checkpoint()][-MAX_STATES:]
 
     def back(self) -> None:
-        """Return to before the last plan was carried out; raises Refused if there was none."""
+        """Be again where the last plan had not been carried out; raises InvalidInput if none has been."""
         if not self.before:
             raise Refused("there is nothing to undo")
         self.runner = self._runner(self.before.pop())

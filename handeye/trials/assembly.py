@@ -3,6 +3,8 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from handeye.cell.arm import ArmState
+from handeye.cell.simulated import SimulatedCell
 from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.program.senses import Sense
@@ -81,3 +83,10 @@ def run_plan(
     check_limits(runner)
     result = finished(runner, attend(runner, operator), metered, judged=referee, referee=umpire)
     return Finished(result=result, runner=runner)
+
+
+def brakes_hold(cell: SimulatedCell) -> bool:
+    """True if the brakes were on in the last moment and are told to stay, and no motor of the arm has a torque."""
+    state = cell.truth.states[cell.arm.name]
+    assert isinstance(state, ArmState)
+    return state.braked and state.command is None and not cell.truth.data.ctrl[cell.arm.motors].any()

@@ -1,10 +1,11 @@
 """Undoing what somebody has disturbed: does a guard stop the arm before anything comes to harm?"""
 
-from collections.abc import Iterator, Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from msgspec.structs import replace
 
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
@@ -20,9 +21,9 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
 from handeye.tasks import task
-from handeye.tasks.interface import Disturbance, Task
-from handeye.trials.brakes import brakes_hold
-from handeye.trials.seeds import in_processes
+from handeye.tasks.interface import Disturbance
+from handeye.trials.assembly import brakes_hold
+from handeye.trials.sweep import Case, Sweep, TrialRow
 
 MOVED: Final = 2.0
 """mm by which no part may be moved that the hand does not hold."""
@@ -56,32 +57,43 @@ class Disturbed(Record, frozen=True, kw_only=True):
         return self.stopped and self.moved <= MOVED and self.felt <= FORCE
 
 
-class Disturbances(Record, frozen=True, kw_only=True):
-    """What undoing came to with each of some disturbances."""
+class DisturbedRow(TrialRow, frozen=True, kw_only=True):
+    """One disturbance, which is the condition, tried once."""
 
-    n: int
-    """Of those that could be tried."""
-    harmless: int
-    disturbances: tuple[Disturbed, ...]
+    tried: Disturbed | None = None
+    """None: it broke off."""
+
+    @property
+    def outcome(self) -> str:
+        if self.tried is None or not self.tried.built:
+            return "not built"
+        return "stopped in time" if self.tried.harmless else "not in time"
+
+    @property
+    def detail(self) -> str:
+        return super().detail if self.tried is None else self.tried.message
+
+    @property
+    def measures(self) -> Mapping[str, float]:
+        if self.tried is None or not self.tried.built:
+            return {}
+        return {"felt, N": self.tried.felt, "moved, mm": self.tried.moved}
 
 
-def disturbances_of(tried: Sequence[Disturbed], work: Task) -> Disturbances:
-    """Trials in the order of the task."""
-    names = [each.name for each in work.disturbances()]
-    found = tuple(sorted(tried, key=lambda each: names.index(each.name)))
-    built = [each for each in found if each.built]
-    return Disturbances(n=len(built), harmless=sum(each.harmless for each in built), disturbances=found)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DisturbedWork:
+    """Has what a plan builds disturbed and undone, once for each case."""
 
+    plan: Plan
+    world: WorldSpec
+    """What the worlds are but for their seeds."""
+    camera: str
 
-def try_disturbances(
-    plan: Plan, world: WorldSpec, names: Sequence[str], *, camera: str, workers: int
-) -> Iterator[Disturbed]:
-    """Build what a plan builds in a world, disturb it, and have the arm undo it: once for each, as they end.
-
-    Args:
-        names: of disturbances of the task.
-    """
-    yield from in_processes(partial(disturbed, plan, world, camera), names, workers)
+    def __call__(self, case: Case) -> list[DisturbedRow]:
+        """Try one."""
+        world = replace(self.world, seed=case.seed)
+        tried = disturbed(self.plan, world, self.camera, case.condition)
+        return [DisturbedRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
 
 def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturbed:
@@ -144,3 +156,32 @@ def _moved(runner: Runner) -> tuple[float, str]:
         for part in before.keys() & after.keys()
     ]
     return max(ways, default=(0.0, ""))
+
+
+def _sentence(row: DisturbedRow) -> str:
+    found = row.tried
+    if found is None:
+        return f"{row.condition:16} {row.verdict}: {row.detail}"
+    if not found.built:
+        return f"{found.name:16} not tried: the pump was not built"
+    how = "stopped in time" if found.harmless else "stopped" if found.stopped else "NOT STOPPED"
+    where = f", line {found.line}, {' '.join(found.at.split())}" if found.stopped else ""
+    met = f"felt {found.felt:.1f} N, moved {found.moved:.2f} mm"
+    return f"{found.name:16} {how}{where}: {found.message}; {met}"
+
+
+def _more(rows: Sequence[DisturbedRow]) -> dict[str, object]:
+    tried = [row.tried for row in rows if row.tried]
+    return {"harmless": sum(each.harmless for each in tried if each.built), "disturbances": tried}
+
+
+DISTURBED: Final = Sweep(
+    kind="disturbed",
+    row=DisturbedRow,
+    outcomes={"stopped in time": "right", "not in time": "silent", "not built": "uncounted"},
+    success="stopped in time",
+    noun="disturbance",
+    sentence=_sentence,
+    more=_more,
+)
+"""What is built is disturbed behind the arm's back, and undone."""

@@ -1,39 +1,92 @@
-"""Trials that carry out no program, spread over worlds and processes."""
+"""Trials of a task that carry out no program, such as those of its eye: several in each world."""
 
-import time
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from functools import partial
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+import msgspec
 
 from handeye.core.variation import WorldSpec
 from handeye.tasks import task
-from handeye.tasks.trial import Attempt, Known
-from handeye.trials.seeds import in_processes
+from handeye.tasks.trial import Attempt, Known, Trial
+from handeye.trials.sweep import Case, Sweep, TrialRow
+
+
+class EyeRow(TrialRow, frozen=True, kw_only=True):
+    """One attempt."""
+
+    attempt: dict[str, Any] = msgspec.field(default_factory=dict)
+    """The record of the attempt, whose class is the trial's own."""
+    came: str = "missed"
+    told: str = ""
+
+    @property
+    def outcome(self) -> str:
+        return self.came
+
+    @property
+    def detail(self) -> str:
+        return super().detail if self.broken_off else self.told
+
+
+EYE: Final = Sweep(
+    kind="eye",
+    row=EyeRow,
+    outcomes={"right": "right", "missed": "wrong", "wrong": "silent"},
+    success="right",
+    noun="attempt",
+    sentence=lambda row: f"seed {row.seed:4}  {row.detail}",
+    shared_worlds=True,
+)
+"""Attempts at something in many worlds; `eye_sweep` counts those of one trial of a task."""
+
+
+def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
+    """The sweep of a trial of a task, by its name."""
+
+    def attempts(rows: Sequence[EyeRow]) -> list[Attempt]:
+        found = [msgspec.convert(row.attempt, trial.attempt) for row in rows if row.attempt]
+        return sorted(found, key=lambda each: (each.seed, each.number))
+
+    def more(rows: Sequence[EyeRow]) -> dict[str, object]:
+        known = attempts(rows)
+        figures = trial.count(known).figures if known else {}
+        cpu_s = sum(row.cpu_s for row in rows) / len(rows) if rows else 0.0
+        return {"trial": name, **figures, "cpu_s_each": cpu_s, "attempts": known}
+
+    def summary(rows: Sequence[EyeRow]) -> list[str]:
+        known = attempts(rows)
+        lines = trial.count(known).lines if known else ()
+        return [*lines, f"{sum(row.cpu_s for row in rows) / max(1, len(rows)):.1f} s of processor time each"]
+
+    return replace(EYE, kind=f"eye {name}", more=more, summary=summary)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Tried:
-    """Attempts in one world."""
+class EyeWork:
+    """Attempts at a trial of a task, by their names; the attempts of a case share a world and its calibration."""
 
-    attempts: tuple[Attempt, ...]
-    cpu_s: float
-    """Of this process and its threads, calibration and scene included."""
+    task: str
+    trial: str
+    world: WorldSpec
+    """What the worlds are but for their seeds."""
+    camera: str
+    known: Known
+
+    def __call__(self, case: Case) -> list[EyeRow]:
+        """Make the attempts of a case."""
+        trial: Any = task(self.task).trials[self.trial]
+        world = msgspec.structs.replace(self.world, seed=case.seed)
+        attempts = trial.attempts(world, len(case.trials), camera=self.camera, known=self.known)
+        return [
+            EyeRow(
+                trial=number, seed=case.seed, attempt=msgspec.to_builtins(attempt), came=trial.outcome(attempt),
+                told=trial.sentence(attempt),
+            )
+            for number, attempt in zip(case.trials, attempts, strict=True)
+        ]  # fmt: skip
 
 
-def try_in(
-    of: str, name: str, worlds: Sequence[WorldSpec], number: int, *, camera: str, known: Known, jobs: int
-) -> Iterator[Tried]:
-    """`number` attempts at a trial of a task, spread evenly over worlds; in the order they end."""
-    share, rest = divmod(number, len(worlds))
-    shares = [(world, share + (n < rest)) for n, world in enumerate(worlds)]
-    work = partial(_tried, of, name, camera, known)
-    yield from map(work, shares) if min(jobs, len(shares)) == 1 else in_processes(work, shares, jobs)
-
-
-def _tried(of: str, name: str, camera: str, known: Known, share: tuple[WorldSpec, int]) -> Tried:
-    trial: Any = task(of).trials[name]
-    world, number = share
-    start = time.process_time()
-    attempts = tuple(trial.attempts(world, number, camera=camera, known=known))
-    return Tried(attempts=attempts, cpu_s=time.process_time() - start)
+def eye_cases(seed: int, number: int, worlds: int) -> list[Case]:
+    """Attempts spread over worlds as evenly as can be: attempt k in the world of `seed` + k % `worlds`."""
+    return [Case(trials=tuple(range(k, number, worlds)), seed=seed + k) for k in range(min(number, worlds))]

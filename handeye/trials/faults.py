@@ -1,23 +1,25 @@
 """Runs with one fault each: where it is noticed, by which error, and whether that is its right name."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Annotated, Final, Literal
 
 import msgspec
 
 from handeye.core.faults import Catalogue, Expected, Fault, FaultKind
+from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
+from handeye.execution.servo_period import ServoPeriod
 from handeye.planfile.plan import Plan
-from handeye.program.events import AnyEvent, StepStarted
+from handeye.program.events import AnyEvent, StageStarted, StepStarted
 from handeye.results.result import Result
+from handeye.runs.observer import Observer
+from handeye.runs.runner import Runner
 from handeye.tasks import task
-from handeye.trials.assembly import run_plan
-from handeye.trials.brakes import brakes_hold
-from handeye.trials.panic import PanicInStage
-from handeye.trials.seeds import in_processes
+from handeye.trials.assembly import brakes_hold, run_plan
+from handeye.trials.sweep import Case, Sweep, TrialRow
 
 Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "silent"]
 """How a run with a fault ended: with a right pump, as it may; stopped, with brakes on, by an error that names the
@@ -43,6 +45,38 @@ def with_panic(catalogue: Catalogue) -> Catalogue:
     return Catalogue(*catalogue.kinds.values(), PANIC, matrix=(*catalogue.matrix, PANIC.name))
 
 
+SOON: Final = 120
+"""Servo periods of a stage, two seconds, after which the button is hit."""
+
+
+class PanicInStage(Observer):
+    """Hits the button once, when so many servo periods of a stage have passed."""
+
+    def __init__(self, stage: int, periods: int = SOON) -> None:
+        """Wait for a stage, by its index."""
+        self._stage, self._left = stage, periods
+        self._runner: Runner | None = None
+        self._under_way = self._hit = False
+
+    def watching(self, runner: Runner) -> Sequence[Observer]:
+        """Look at a run; it is the only one who does."""
+        self._runner = runner
+        return [self]
+
+    def down(self) -> bool:
+        """True from when the button is hit until somebody has asked."""
+        hit = self._under_way and self._left <= 0 and not self._hit
+        self._hit = self._hit or hit
+        return hit
+
+    def event(self, event: AnyEvent) -> None:
+        if isinstance(event, StageStarted) and self._runner is not None:
+            self._under_way = self._runner.stages.index(event.stage) == self._stage
+
+    def tick(self, period: ServoPeriod) -> None:
+        self._left -= self._under_way
+
+
 class FaultTrial(Record, frozen=True, kw_only=True):
     """What a run with one fault came to."""
 
@@ -59,19 +93,28 @@ class FaultTrial(Record, frozen=True, kw_only=True):
     exit_code: Annotated[int, msgspec.Meta(ge=0)]
 
 
-class FaultMatrix(Record, frozen=True, kw_only=True):
-    """What runs with one fault each came to."""
+class FaultRow(TrialRow, frozen=True, kw_only=True):
+    """One trial with a fault, which is its condition."""
 
-    n: int
-    undetected: int
-    faults: tuple[FaultTrial, ...]
+    tried: FaultTrial | None = None
+    """None: it broke off."""
 
+    @property
+    def outcome(self) -> str:
+        assert self.tried is not None
+        return self.tried.outcome
 
-def matrix_of(trials: Sequence[FaultTrial]) -> FaultMatrix:
-    """Trials in the order of their names."""
-    found = tuple(sorted(trials, key=lambda trial: trial.name))
-    undetected = sum(trial.outcome in UNDETECTED for trial in found)
-    return FaultMatrix(n=len(found), undetected=undetected, faults=found)
+    @property
+    def stage(self) -> str:
+        return "" if self.tried is None else self.tried.stage or ""
+
+    @property
+    def line(self) -> str | None:
+        return None if self.tried is None else self.tried.line
+
+    @property
+    def detail(self) -> str:
+        return super().detail if self.tried is None else self.tried.message
 
 
 def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
@@ -84,31 +127,42 @@ def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
     return list({kind.name: kind for kind in found}.values())
 
 
-def try_faults(
-    plan: Plan, world: WorldSpec, kinds: Sequence[FaultKind], *, stage: int | None, camera: str, workers: int
-) -> Iterator[FaultTrial]:
-    """Carry a plan out once with each fault at its usual size, in the order that runs end.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FaultWork:
+    """Carries a plan out once with each of some faults; the condition of a case is the fault, as it would be typed."""
+
+    plan: Plan
+    world: WorldSpec
+    """What the worlds are but for their seeds."""
+    faults: Mapping[str, Fault]
+    camera: str
+
+    def __call__(self, case: Case) -> list[FaultRow]:
+        """Carry one out, or have somebody hit the panic button in it."""
+        fault, catalogue = self.faults[case.condition], with_panic(task(self.plan.task).faults(case.seed))
+        world = msgspec.structs.replace(self.world, seed=case.seed, faults=(fault,))
+        if fault.name == PANIC.name:
+            button = PanicInStage((fault.stage or 1) - 1)
+            sound = msgspec.structs.replace(world, faults=())
+            done = run_plan(
+                self.plan, world=sound, camera=self.camera, halt=button.down, observers=button.watching
+            )
+        else:
+            done = run_plan(self.plan, world=world, camera=self.camera)
+        braked = brakes_hold(done.runner.arm_cell)
+        tried = trial_of(fault, catalogue, done.result, done.runner.events, braked=braked)
+        return [FaultRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
+
+
+def usual(catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None) -> dict[str, Fault]:
+    """Faults of some kinds at their usual sizes, by how they would be typed.
 
     Args:
-        stage: number of the stage with which the faults set in, but for those that must be there from the beginning;
-            None: all are.
+        stage: number of the stage with which they set in, but for those that must be there from the beginning; None:
+            all are, unless their kind has a usual stage.
     """
-    given = [kind.usual(None if kind.from_start else stage) for kind in kinds]
-    worlds = [msgspec.structs.replace(world, faults=(fault,)) for fault in given]
-    yield from in_processes(partial(_tried, plan, camera), worlds, workers)
-
-
-def _tried(plan: Plan, camera: str, world: WorldSpec) -> FaultTrial:
-    """What a run in a world with one fault comes to, or one in which somebody hits the panic button."""
-    (fault,), catalogue = world.faults, with_panic(task(plan.task).faults(world.seed))
-    if fault.name == PANIC.name:
-        button = PanicInStage((fault.stage or 1) - 1)
-        sound = msgspec.structs.replace(world, faults=())
-        done = run_plan(plan, world=sound, camera=camera, halt=button.down, observers=button.watching)
-    else:
-        done = run_plan(plan, world=world, camera=camera)
-    braked = brakes_hold(done.runner.arm_cell)
-    return trial_of(fault, catalogue, done.result, done.runner.events, braked=braked)
+    found = [kind.usual(None if kind.from_start else stage) for kind in kinds]
+    return {catalogue.written(fault): fault for fault in found}
 
 
 def trial_of(
@@ -158,7 +212,38 @@ def _placed(expected: Expected, result: Result) -> bool:
     return not expected.stages or result.stopped_at is None or result.stopped_at in expected.stages
 
 
-def counted_outcomes(trials: Sequence[FaultTrial]) -> str:
-    """How many runs ended how, as a sentence."""
-    counts = Counter(trial.outcome for trial in trials)
-    return ", ".join(f"{count} {outcome}" for outcome, count in counts.most_common())
+def _sentence(row: FaultRow) -> str:
+    tried = row.tried
+    if tried is None:
+        return f"{row.condition:32}  {row.verdict:9}  {row.detail}"
+    where = "" if tried.line is None else f"“{tried.stage}”, line {tried.line}: "
+    number = "" if tried.error is None else f"error {tried.error}: "
+    return f"{row.condition:32}  {tried.outcome:9}  {where}{number}{tried.message}".rstrip()
+
+
+def _summary(rows: Sequence[FaultRow]) -> list[str]:
+    counts = Counter(row.verdict for row in rows)
+    undetected = sum(counts[each] for each in UNDETECTED)
+    told = ", ".join(f"{count} {outcome}" for outcome, count in counts.most_common())
+    return [f"{counted(len(rows), 'fault')}: {told}; {undetected} undetected"]
+
+
+def _more(rows: Sequence[FaultRow]) -> dict[str, object]:
+    tried = sorted((row.tried for row in rows if row.tried), key=lambda each: each.name)
+    return {"undetected": sum(each.outcome in UNDETECTED for each in tried), "faults": tried}
+
+
+FAULTS: Final = Sweep(
+    kind="faults",
+    row=FaultRow,
+    outcomes={
+        "recovered": "right", "stopped": "right", "misnamed": "wrong",
+        "unnoticed": "silent", "unbraked": "silent", "silent": "silent",
+    },
+    success="recovered from or stopped by their names",
+    noun="fault",
+    sentence=_sentence,
+    summary=_summary,
+    more=_more,
+)  # fmt: skip
+"""A plan carried out with one fault each."""

@@ -5,8 +5,9 @@ check. What is fetched in one world is the beginning of several trials, each wit
 """
 
 import math
-from collections.abc import Iterator, Sequence
-from functools import cache, partial
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
 from typing import Final, Literal
 
 import numpy as np
@@ -33,7 +34,7 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.tasks import task
 from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD, Inserting
-from handeye.trials.seeds import in_processes
+from handeye.trials.sweep import Case, Details, Sweep, TrialRow
 
 Search = Literal["gentle", "1973"]
 TASK: Final = "insertion"
@@ -65,6 +66,12 @@ class Condition(Record, frozen=True, kw_only=True):
     search: Search = "gentle"
 
     @property
+    def name(self) -> str:
+        """What it is called."""
+        search = "" if self.search == "gentle" else f", {self.search}"
+        return f"{self.clearance:g} mm, chamfer {self.chamfer:g}, sd {self.sd:g}{search}"
+
+    @property
     def step(self) -> float:
         """Step of the search, in: by the rule that the worst place between four of them is still caught."""
         caught = bench().caught(self.clearance * MILLIMETRE, self.chamfer * MILLIMETRE)
@@ -94,12 +101,10 @@ def grid(search: Search) -> list[Condition]:
 class InsertionTrial(Record, frozen=True, kw_only=True):
     """One trial, with what came of it."""
 
-    condition: int
-    """Its number among those that were tried."""
     seed: int
-    """Of its world."""
+    """World seed."""
     number: int
-    """Of the trial in that world, from 0."""
+    """Number of the trial in that world, from 0."""
     error: tuple[float, float] = (0.0, 0.0)
     """Where the hole was, x and y against the pin's end, mm."""
     outcome: Literal["seated", "told", "silent"] = "told"
@@ -129,28 +134,78 @@ class _Feeling(Observer):
             self.most = max(self.most, float(np.linalg.norm(period.wrench[:3])))
 
 
-def trials(conditions: Sequence[Condition], n: int, *, seed: int, workers: int) -> Iterator[InsertionTrial]:
-    """So many trials of each condition, in the order they come; equal seeds give equal trials, however many workers.
+class InsertionRow(TrialRow, frozen=True, kw_only=True):
+    """One trial under a condition; ten share a world, in which the pin is fetched once."""
 
-    Raises:
-        InvalidInput: there is no such hole, or no such world.
-    """
+    tried: InsertionTrial | None = None
+    """None: it broke off."""
+    step_in: float = 0.0
+    """Step of the search."""
+
+    @property
+    def outcome(self) -> str:
+        assert self.tried is not None
+        return self.tried.outcome
+
+    @property
+    def detail(self) -> str:
+        return super().detail if self.tried is None else self.tried.told
+
+    @property
+    def measures(self) -> Mapping[str, float]:
+        each = self.tried
+        if each is None:
+            return {}
+        seated = each.outcome == "seated" and each.seconds is not None
+        times = {"contact to seated, s": each.seconds, "places": float(each.places)} if seated else {}
+        return {"peak, N": each.peak, "felt, N": each.felt, "whole, s": each.whole, **times}  # type: ignore[dict-item]
+
+    @property
+    def facts(self) -> Mapping[str, float]:
+        each = self.tried
+        return {} if each is None else {"error_x, mm": each.error[0], "error_y, mm": each.error[1]}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InsertionWork:
+    """Tries conditions, by their names."""
+
+    conditions: Mapping[str, Condition]
+
+    def __call__(self, case: Case) -> list[InsertionRow]:
+        """Fetch the pin once, and carry out the trials of the case from there."""
+        condition = self.conditions[case.condition]
+        last = InsertionTrial(seed=case.seed, number=len(case.trials) - 1)
+        found = zip(case.trials, trials_in_world(condition, last), strict=True)
+        return [
+            InsertionRow(
+                trial=number,
+                seed=case.seed,
+                condition=case.condition,
+                tried=tried,
+                step_in=round(condition.step, 3),
+            )
+            for number, tried in found
+        ]
+
+
+def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[Case]:
+    """Trials of each condition, ten in each world from a seed on; raises InvalidInput if one cannot be tried."""
     for condition in conditions:
         bench().variation(seed).check(WorldSpec(seed=seed, overrides=Overrides(set=condition.hole)))
-    lasts = [
-        InsertionTrial(condition=index, seed=seed + world, number=min(TRIALS_A_WORLD, n - first) - 1)
-        for index in range(len(conditions))
-        for world, first in enumerate(range(0, n, TRIALS_A_WORLD))
+    return [
+        Case(
+            trials=tuple(range(first, min(first + TRIALS_A_WORLD, n))),
+            seed=seed + first // TRIALS_A_WORLD,
+            condition=condition.name,
+        )
+        for condition in conditions
+        for first in range(0, n, TRIALS_A_WORLD)
     ]
-    work = partial(trials_in_world, tuple(conditions))
-    found = map(work, lasts) if workers == 1 or len(lasts) == 1 else in_processes(work, lasts, workers)
-    for share in found:
-        yield from share
 
 
-def trials_in_world(conditions: Sequence[Condition], last: InsertionTrial) -> list[InsertionTrial]:
+def trials_in_world(condition: Condition, last: InsertionTrial) -> list[InsertionTrial]:
     """The trials of a condition in a world, up to the last one."""
-    condition = conditions[last.condition]
     begun = fetched(condition.plan, last.seed)
     return [tried(condition, begun, replace(last, number=number)) for number in range(last.number + 1)]
 
@@ -233,3 +288,49 @@ def _plan(search: Search, step: float) -> Plan:
     made = plan_source(source, taught_beside(file), bench().arm, AL, task=TASK)
     assert made.plan is not None, made.diagnostics
     return made.plan
+
+
+GENTLE: Final = 20.0
+"""N that a peak is held against."""
+
+
+class Setting(Record, frozen=True, kw_only=True):
+    """A condition, and how gently its pins went in."""
+
+    condition: str
+    step_in: float | None
+    """Step of the search."""
+    n: int
+    gentle: int
+    """Trials in which the peak was at most 20 N."""
+
+
+def _settings(rows: Sequence[InsertionRow]) -> list[Setting]:
+    found = []
+    for name in dict.fromkeys(row.condition for row in rows):
+        mine = [(row.step_in, row.tried.peak) for row in rows if row.condition == name and row.tried]
+        gentle = sum(peak <= GENTLE for _, peak in mine)
+        step_in = max((step for step, _ in mine), default=None)
+        found.append(Setting(condition=name, step_in=step_in, n=len(mine), gentle=gentle))
+    return found
+
+
+def _details(rows: Sequence[InsertionRow]) -> tuple[Details, ...]:
+    heads = ("hole, mm", "step, in", "trials", "peak at most 20 N")
+    return (Details(name="settings", title="Settings of the hole", rows=_settings(rows), heads=heads),)
+
+
+INSERTION: Final = Sweep(
+    kind="insertion",
+    row=InsertionRow,
+    outcomes={"seated": "right", "silent": "silent", "told": "wrong"},
+    success="seated",
+    noun="insertion",
+    details=_details,
+    summary=lambda _: [
+        "Holes: clearance in diameter, chamfer, sigma of the place along each axis. Peak: force between pin and plate, "
+        "true at each physics step; felt: by the hand. Times are simulated."
+    ],
+    shared_worlds=True,
+)
+"""One pin into one hole."""

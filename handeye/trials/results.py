@@ -14,13 +14,14 @@ from handeye.core.arguments import given_count
 from handeye.core.errors import BadArgument
 from handeye.core.notebook import heading, inked, page, table
 from handeye.core.variation import WorldSpec, checked_seed
+from handeye.planfile.plan import Plan
 from handeye.results.judging import Limits, Referee
 from handeye.results.result import Check, Result
 from handeye.runs.scripts import default_script
 from handeye.touch.spiral import SearchPattern
 from handeye.trace.table import Column, Table
 from handeye.trials.assembly import run_plan
-from handeye.trials.seeds import assemble_many
+from handeye.trials.workers import in_processes
 
 _VERDICTS: Final = {0: ("assembled", "good"), 1: ("stopped", "doubtful"), 3: ("not right", "bad")}
 """Of a result by its exit code, and their colours."""
@@ -102,8 +103,12 @@ def assemble_in(
         return Results(tuple(trial(world=spec).result for spec in specs))
     if search is not None or umpire is not None:
         raise BadArgument("code in the place of a part takes one process: leave jobs=... out")
-    found = list(assemble_many(record, specs, camera=camera, jobs=jobs, limits=limits))
+    found = list(in_processes(partial(_result, record, camera, limits), specs, jobs))
     return Results(tuple(sorted(found, key=lambda result: specs.index(result.world))))
+
+
+def _result(record: Plan, camera: str, limits: Limits | None, world: WorldSpec) -> Result:
+    return run_plan(record, world=world, camera=camera, limits=limits).result
 
 
 def why(result: Result) -> str:

@@ -1,17 +1,18 @@
 """Processes that are kept from trial to trial, and that may be lost: each then costs the trial it was at."""
 
 import os
+import signal
 import threading
 from collections import deque
-from collections.abc import Callable, Generator, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
-from multiprocessing import connection, get_context, parent_process
+from multiprocessing import connection, get_context, parent_process, resource_tracker
 from multiprocessing.connection import Connection
 from typing import Any, Final, Generic, TypeVar
 
+from handeye.core.errors import HandeyeError
 from handeye.core.host_time import HostTimer
-from handeye.trials.interrupts import deaf_to_interrupts
 
 Item = TypeVar("Item")
 T = TypeVar("T")
@@ -20,6 +21,10 @@ TRIES: Final = 2
 """Times that a trial is begun whose process is killed."""
 LONGEST_WAIT_S: Final = 86400.0
 """Of one wait: the system takes no more than 24 days."""
+
+
+class WorkerLost(HandeyeError):
+    """The process of a trial was killed, and again when the trial was tried once more."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,6 +120,59 @@ def answers(
     finally:  # Ctrl-C first of all: a trial under way may take minutes
         for worker in workers:
             worker.end()
+
+
+def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) -> Iterator[T]:
+    """What a trial comes to in many worlds, in the order they come.
+
+    Who stops asking for them ends the processes too.
+
+    Raises:
+        WorkerLost: the process of one was killed twice.
+        Exception: what a trial raises.
+    """
+    for answer in answers(trial, worlds, jobs):
+        if answer.error is not None:
+            raise answer.error
+        if answer.value is None:
+            raise WorkerLost(
+                f"the process of a trial was killed {answer.killed} times, as it is where memory is short: try fewer "
+                "at a time"
+            )
+        yield answer.value
+
+
+@contextmanager
+def deaf_to_interrupts() -> Iterator[None]:
+    """While processes are begun that shall not hear Ctrl-C at the terminal: we do, and end them without their words.
+
+    Threads that begin here, and the processes that those begin, are deaf for good. We ourselves are interrupted, or
+    told to end, when all have begun: half begun, one would not be known, and complain.
+
+    Raises:
+        KeyboardInterrupt: behind it, if we were interrupted or told to end meanwhile.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # as on Windows
+        yield
+        return
+    resource_tracker.ensure_running()  # where it begins by itself, it takes the mask away
+    masked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    told: list[int] = []
+    handles = threading.current_thread() is threading.main_thread()  # no other thread may, or is interrupted
+    # A thread of a library may be there that is not masked: it takes Ctrl-C to our handler all the same.
+    before = {
+        each: signal.signal(each, lambda number, _: told.append(number))
+        for each in (signal.SIGINT, signal.SIGTERM)
+        if handles
+    }
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, masked)
+        for each, handler in before.items():
+            signal.signal(each, handler)
+    if told:
+        raise KeyboardInterrupt
 
 
 def _heard(workers: list[Worker], limit_s: float | None) -> list[Worker]:

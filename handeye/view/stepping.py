@@ -61,7 +61,14 @@ def _controls() -> Markup:
 
 
 def drive(stepper: Stepper, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> Pause:
-    """Carry out lines until the run is left; return why it pauses. `aside` is entered while a line is waited for."""
+    """Carry out what is said until somebody leaves the run.
+
+    Args:
+        aside: entered while a line is waited for.
+
+    Returns:
+        Why the run pauses.
+    """
     hands = stepper.hands
     hands.face = LiveJson(hands.runner, link.tell)
     hands.ear = Ear(link.come, lambda line: link.tell(told(stepper, stepper.meanwhile(line))))

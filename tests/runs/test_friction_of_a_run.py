@@ -11,7 +11,7 @@ from handeye.runs.host_seconds import HostSeconds
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.trials.brakes import brakes_hold
+from handeye.trials.assembly import brakes_hold
 
 pytestmark = pytest.mark.slow
 

@@ -3,7 +3,8 @@
 import json
 import resource
 import signal
-from collections.abc import Generator, Sequence
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import msgspec
@@ -21,22 +22,25 @@ from handeye.program.taught import load_taught
 from handeye.results.result import Check
 from handeye.tasks import task
 from handeye.trace.table_files import check_tables, csv_bytes, write_tables
-from handeye.trials.batch.batch import carry_out, head_of, jobs_of
-from handeye.trials.batch.comparing import paired
-from handeye.trials.batch.contacts import Contact, SearchEnd, contacts, searches
-from handeye.trials.batch.distributions import margins
-from handeye.trials.batch.engines import processes
-from handeye.trials.batch.figures import figures
-from handeye.trials.batch.folder import BatchFolder, Head, read_batch
-from handeye.trials.batch.page import batch_page
-from handeye.trials.batch.rates import mcnemar, rate
-from handeye.trials.batch.row import Row
-from handeye.trials.batch.tables import tables
-from handeye.trials.batch.trial import Job, Trial, row_of
+from handeye.trials.comparing import paired
+from handeye.trials.figures import Figures
+from handeye.trials.figures import figures as figures_of
+from handeye.trials.folder import BatchFolder, Head, read_batch
+from handeye.trials.page import sweep_page
+from handeye.trials.plans.assembly import ASSEMBLY, answered
+from handeye.trials.plans.contacts import Contact, SearchEnd, contacts, searches
+from handeye.trials.plans.dismantling import DISMANTLING
+from handeye.trials.plans.distributions import margins
+from handeye.trials.plans.row import Row
+from handeye.trials.plans.trial import Trial
+from handeye.trials.rates import mcnemar, rate
+from handeye.trials.sweep import Case, Engine, Guarded, cases, processes, rows_of
+from handeye.trials.sweep import carry_out as carry_out_sweep
+from handeye.trials.tables import tables as tables_of
 from handeye.trials.workers import Answer
 
 WORLD = WorldSpec(seed=5)
-TRIAL = Trial(plan=plan_of(FEEL), camera="ray")
+TRIAL = Trial(plan=plan_of(FEEL), world=WORLD, camera="ray")
 RIGHT = result(completed=True, assembled=True)
 FAR = Check(
     ok=False, subject="pin", value=4, relation="at most", limit=3, unit="mm", sentence="pin (at most 3 mm)"
@@ -45,43 +49,55 @@ WRONG = result(completed=True, assembled=False, checks={"pins": FAR})
 STOPPED = result(completed=False, assembled=None, message="no gasket lies on the base")
 
 
-def row(job: Job) -> Row:
+def row(case: Case) -> Row:
     """What nobody has tried: trial 1 is stopped, trial 2 silently wrong."""
-    found = {1: STOPPED, 2: WRONG}.get(job.trial, RIGHT)
-    return Row(trial=job.trial, seed=job.world.seed, ended="ended", result=found)
+    (number,) = case.trials
+    return Row(trial=number, seed=case.seed, result={1: STOPPED, 2: WRONG}.get(number, RIGHT))
 
 
-class Engine:
+class Canned:
     """Answers in reverse order, and breaks down after some answers."""
 
     def __init__(self, breaks_after: int = 99) -> None:
-        self.breaks_after, self.tried = breaks_after, []
+        self.breaks_after, self.tried = breaks_after, list[int]()
 
-    def __call__(self, trial: Trial, jobs: Sequence[Job]) -> Generator[Answer[Job, Row], None, None]:
-        for number, job in enumerate(reversed(jobs)):
+    def __call__(
+        self, work: Guarded[Row], cases: Sequence[Case]
+    ) -> Generator[Answer[Case, list[Row]], None, None]:
+        for number, case in enumerate(reversed(cases)):
             if number == self.breaks_after:
                 raise KeyboardInterrupt
-            self.tried.append(job.trial)
-            yield Answer(item=job, value=row(job))
+            self.tried += case.trials
+            yield Answer(item=case, value=[row(case)])
 
 
-def opened(path: Path, trial: Trial = TRIAL, world: WorldSpec = WORLD) -> BatchFolder:
-    return BatchFolder(path, head_of(trial, world), trial.plan)
+def carry_out(
+    cases: Sequence[Case], engine: Engine, *, trial: Trial = TRIAL, folder: BatchFolder[Row] | None = None
+) -> tuple[Row, ...]:
+    return carry_out_sweep(ASSEMBLY, trial, cases, engine, folder=folder)
+
+
+def figures(rows: Sequence[Row], command: Callable[[Row], str] = lambda _: "") -> Figures:
+    return figures_of(ASSEMBLY, rows, command)
+
+
+def opened(path: Path, trial: Trial = TRIAL) -> BatchFolder[Row]:
+    return BatchFolder(path, ASSEMBLY, trial.head(ASSEMBLY), trial.plan)
 
 
 def test_a_batch_goes_on_where_it_was_broken_off(tmp_path: Path) -> None:
-    jobs, folder = jobs_of(WORLD, range(5)), opened(tmp_path)
+    jobs, folder = cases(5, range(5)), opened(tmp_path)
     with pytest.raises(KeyboardInterrupt):
-        carry_out(TRIAL, jobs, Engine(2), folder=folder)
+        carry_out(jobs, Canned(2), folder=folder)
     folder.close()
     with (tmp_path / "trials.jsonl").open("ab") as file:
         file.write(b'{"trial":2,"seed"')  # as where the parent was killed
     again = opened(tmp_path)
-    engine = Engine()
-    rows = carry_out(TRIAL, jobs, engine, folder=again)
+    engine = Canned()
+    rows = carry_out(jobs, engine, folder=again)
     again.close()
-    assert (sorted(again.rows), engine.tried) == ([*range(5)], [2, 1, 0])
-    assert rows == carry_out(TRIAL, jobs, Engine()) == read_batch(tmp_path)[1]
+    assert (sorted(again.rows), engine.tried) == ([("", k) for k in range(5)], [2, 1, 0])
+    assert rows == carry_out(jobs, Canned()) == read_batch(tmp_path)[1]
     assert [each.seed for each in rows] == [5, 6, 7, 8, 9]
 
 
@@ -91,8 +107,8 @@ def test_a_folder_takes_one_batch(tmp_path: Path) -> None:
     with pytest.raises(
         InvalidInput, match=r"holds 0 trials of another batch, which differs in worlds; choose "
     ):
-        opened(tmp_path, world=high)
-    other = Trial(plan=plan_of("OPEN 1\n"), camera="gl", simulated_limit_s=1)
+        opened(tmp_path, replace(TRIAL, world=high))
+    other = Trial(plan=plan_of("OPEN 1\n"), world=WORLD, camera="gl", simulated_limit_s=1)
     with pytest.raises(InvalidInput, match="differs in plan, camera, limit of simulated time; "):
         opened(tmp_path, other)
 
@@ -124,7 +140,7 @@ def test_another_batch_that_was_cut_short_is_refused_as_it_is(tmp_path: Path) ->
         file.write(b'{"trial":2,"seed"')
     kept = (tmp_path / "trials.jsonl").read_bytes()
     with pytest.raises(InvalidInput, match=r"of another batch, which differs in worlds"):
-        opened(tmp_path, world=msgspec.structs.replace(WORLD, level="high"))
+        opened(tmp_path, replace(TRIAL, world=msgspec.structs.replace(WORLD, level="high")))
     assert (tmp_path / "trials.jsonl").read_bytes() == kept
 
 
@@ -161,14 +177,14 @@ def test_two_commands_do_not_write_one_batch(tmp_path: Path) -> None:
 
 
 def test_a_full_disk_keeps_what_was_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    folder, jobs = opened(tmp_path), jobs_of(WORLD, range(2))
+    folder, jobs = opened(tmp_path), cases(5, range(2))
     folder.append(row(jobs[0]))
     limit = resource.getrlimit(resource.RLIMIT_FSIZE)
     monkeypatch.setattr(signal, "SIGXFSZ", signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
     resource.setrlimit(resource.RLIMIT_FSIZE, ((tmp_path / "trials.jsonl").stat().st_size + 10, limit[1]))
     try:
         with pytest.raises(InvalidInput, match=r"trials\.jsonl cannot be written"):
-            carry_out(TRIAL, jobs, Engine(), folder=folder)
+            carry_out(jobs, Canned(), folder=folder)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limit)
     folder.close()
@@ -176,10 +192,10 @@ def test_a_full_disk_keeps_what_was_kept(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 def test_figures_count_what_ended_how_and_tell_the_command_of_each_failure() -> None:
-    rows = carry_out(TRIAL, jobs_of(WORLD, range(4)), Engine())
-    lost = row_of(Answer(item=jobs_of(WORLD, [4])[0], killed=2))
-    found = figures([*rows, lost], lambda each: f"again {each.seed}")
-    assert (found.n, found.assembled, found.stopped, found.silent_failures, found.failed, found.killed) == (
+    rows = carry_out(cases(5, range(4)), Canned())
+    lost = rows_of(ASSEMBLY, Answer(item=cases(5, [4])[0], killed=2))
+    found = figures([*rows, *lost], lambda each: f"again {each.seed}")
+    assert (found.n, found.right, found.outcomes["stopped"], found.silent_failures, found.failed, found.killed) == (
         5, 2, 1, 1, 1, 2,
     )  # fmt: skip
     assert [(each.trial, each.stage, each.cause, each.command) for each in found.failures] == [
@@ -213,29 +229,29 @@ def test_pairs_are_compared_by_mcnemars_exact_test() -> None:
 @pytest.mark.slow
 def test_a_kept_process_comes_to_the_same_as_a_new_one(tmp_path: Path) -> None:
     """The third trial of one process, to the byte of its events, is that of a process that has done nothing yet."""
-    jobs = jobs_of(WORLD, range(3))
-    kept = carry_out(TRIAL, jobs, processes(1))
-    (new,) = carry_out(TRIAL, jobs[2:], processes(1))
+    jobs = cases(5, range(3))
+    kept = carry_out(jobs, processes(1))
+    (new,) = carry_out(jobs[2:], processes(1))
     assert kept[2].events == new.events
     assert len({each.events for each in kept}) == 3
 
 
 @pytest.mark.slow
 def test_calls_of_the_operator_are_answered_as_the_batch_says() -> None:
-    trial = Trial(plan=plan_of("CLOSE 2\n"), camera="ray", on_stop="retry:2")
-    found = trial(jobs_of(WORLD, range(1))[0])
+    trial = Trial(plan=plan_of("CLOSE 2\n"), world=WORLD, camera="ray", on_stop="retry:2")
+    found = trial(cases(5, range(1))[0])[0]
     assert found.verdict == "stopped"
     assert found.result is not None
     assert len(found.result.interventions) == 2
-    assert figures([found], lambda _: "").answered == 1
-    assert head_of(trial, WORLD).differs(head_of(TRIAL, WORLD)) == ["plan", "answers of the operator"]
+    assert answered([found]) == 1
+    assert trial.head(ASSEMBLY).differs(TRIAL.head(ASSEMBLY)) == ["plan", "answers of the operator"]
 
 
 @pytest.mark.slow
 def test_an_exception_is_a_result() -> None:
-    rows = carry_out(Trial(plan=plan_of(FEEL), camera="none"), jobs_of(WORLD, range(1)), processes(1))
+    rows = carry_out(cases(5, range(1)), processes(1), trial=replace(TRIAL, camera="none"))
     assert (rows[0].ended, rows[0].verdict) == ("raised", "failed")
-    assert rows[0].cause.startswith("InvalidInput: ")
+    assert rows[0].cause.startswith("NoSuchName: ")
 
 
 @pytest.mark.slow
@@ -243,14 +259,16 @@ def test_an_exception_is_a_result() -> None:
     ("simulated", "wall", "ended"), [(1.0, 99.0, "simulated limit"), (99.0, 1e-6, "wall limit")]
 )
 def test_a_trial_that_takes_too_long_has_failed(simulated: float, wall: float, ended: str) -> None:
-    trial = Trial(plan=plan_of(FEEL), camera="ray", simulated_limit_s=simulated, wall_limit_s=wall)
-    found = trial(jobs_of(WORLD, range(1))[0])
+    trial = Trial(
+        plan=plan_of(FEEL), world=WORLD, camera="ray", simulated_limit_s=simulated, wall_limit_s=wall
+    )
+    found = trial(cases(5, range(1))[0])[0]
     assert (found.ended, found.verdict) == (ended, "failed")
 
 
 def test_what_a_trial_leaves_can_be_read_by_other_programs(tmp_path: Path) -> None:
     folder = opened(tmp_path)
-    folder.append(row(jobs_of(WORLD, [0])[0]))
+    folder.append(row(cases(5, [0])[0]))
     folder.close()
     head, first = map(json.loads, (tmp_path / "trials.jsonl").read_text().splitlines())
     assert (head["format"], head["world"]["seed"], first["result"]["assembled"]) == ("handeye batch", 5, True)
@@ -301,7 +319,7 @@ def test_the_finding_with_the_least_margin_for_its_spread_is_the_next_to_fail() 
             ),
         }
         found = result(completed=True, assembled=True, checks=checks)
-        return Row(trial=seed, seed=seed, ended="ended", result=found)
+        return Row(trial=seed, seed=seed, result=found)
 
     tilt, clamp = margins([judged(1, 1.0, 80.0), judged(2, 2.0, 82.0)])
     assert (tilt.finding, tilt.median, tilt.worst, tilt.worst_seed, tilt.deviations) == (
@@ -316,8 +334,8 @@ def test_the_finding_with_the_least_margin_for_its_spread_is_the_next_to_fail() 
 
 def test_failures_are_counted_by_stage_and_cause() -> None:
     rows = [
-        *carry_out(TRIAL, jobs_of(WORLD, range(4)), Engine()),
-        row(Job(trial=1, world=WorldSpec(seed=99))),
+        *carry_out(cases(5, range(4)), Canned()),
+        row(Case(trials=(1,), seed=99)),
     ]
     found = figures(rows, lambda each: f"again {each.seed}")
     assert [(each.stage, each.count, each.command) for each in found.causes] == [
@@ -326,11 +344,11 @@ def test_failures_are_counted_by_stage_and_cause() -> None:
 
 
 def test_batches_are_compared_over_the_seeds_that_both_have() -> None:
-    first = carry_out(TRIAL, jobs_of(WORLD, range(4)), Engine())
+    first = carry_out(cases(5, range(4)), Canned())
     other = [msgspec.structs.replace(each, result=STOPPED) for each in first[:3]]
-    head = head_of(TRIAL, WORLD)
+    head = TRIAL.head(ASSEMBLY)
     (found,) = paired(["first", "other"], [(head, first), (head, tuple(other))])
-    assert (found.pairs, found.first_assembled, found.assembled, found.only_first, found.only_this, found.told) == (
+    assert (found.pairs, found.first_right, found.right, found.only_first, found.only_this, found.noticed) == (
         3, 1, 0, 1, 0, 3,
     )  # fmt: skip
     with pytest.raises(
@@ -343,26 +361,27 @@ def test_batches_that_assemble_alike_are_told_apart_by_the_time_of_the_arm() -> 
     def batch(*seconds: float) -> tuple[Head, tuple[Row, ...]]:
         timing = [msgspec.structs.replace(RIGHT.timing, manipulation_s=each) for each in seconds]
         results = [msgspec.structs.replace(RIGHT, timing=each) for each in timing]
-        rows = [Row(trial=k, seed=k, ended="ended", result=each) for k, each in enumerate(results)]
-        return head_of(TRIAL, WORLD), tuple(rows)
+        rows = [Row(trial=k, seed=k, result=each) for k, each in enumerate(results)]
+        return TRIAL.head(ASSEMBLY), tuple(rows)
 
     first = batch(400, 401, 402, 403, 404, 405)
     names = ["first", "slower", "alike"]
     slower, alike = paired(names, [first, batch(405, 406, 407, 408, 409, 410), first])
-    assert (slower.both, slower.p, slower.longer_s, slower.p_longer) == (6, 1, 5, 2 / 2**6)
-    assert (alike.longer_s, alike.p_longer) == (0, 1)
-    (apart,) = paired(names[:2], [first, (first[0], (Row(trial=0, seed=0, ended="ended", result=STOPPED),))])
-    assert (apart.both, apart.longer_s, apart.p_longer) == (0, None, None)
+    longer = slower.measures["arm time, s"]
+    assert (slower.p, longer.pairs, longer.more, longer.p) == (1, 6, 5, 2 / 2**6)
+    assert (alike.measures["arm time, s"].more, alike.measures["arm time, s"].p) == (0, 1)
+    (apart,) = paired(names[:2], [first, (first[0], (Row(trial=0, seed=0, result=STOPPED),))])
+    assert apart.measures == {}
 
 
 def test_batches_of_other_worlds_or_other_work_are_not_compared() -> None:
-    rows = carry_out(TRIAL, jobs_of(WORLD, range(2)), Engine())
-    head = head_of(TRIAL, WORLD)
+    rows = carry_out(cases(5, range(2)), Canned())
+    head, other = TRIAL.head(ASSEMBLY), TRIAL.head(DISMANTLING)
     drawn = msgspec.structs.replace(head, world=msgspec.structs.replace(WORLD, drawing=WORLD.drawing - 1))
     with pytest.raises(InvalidInput, match=r"^other was carried out by another version, whose seeds were "):
         paired(["first", "other"], [(head, rows), (drawn, rows)])
     with pytest.raises(InvalidInput, match=r"^other holds trials of another kind"):
-        paired(["first", "other"], [(head, rows), (msgspec.structs.replace(head, work="dismantle"), rows)])
+        paired(["first", "other"], [(head, rows), (other, rows)])
 
 
 def test_what_cannot_be_left_is_told_before_a_trial_is_carried_out(command: Command, tmp_path: Path) -> None:
@@ -381,8 +400,8 @@ def test_what_cannot_be_left_is_told_before_a_trial_is_carried_out(command: Comm
 
 
 def test_only_tables_that_handeye_wrote_are_replaced(tmp_path: Path) -> None:
-    rows = carry_out(TRIAL, jobs_of(WORLD, range(2)), Engine())
-    write_tables(tmp_path / "tables", tables(rows, figures(rows, lambda _: "")), "csv")
+    rows = carry_out(cases(5, range(2)), Canned())
+    write_tables(tmp_path / "tables", tables_of(ASSEMBLY, rows, figures(rows)), "csv")
     (tmp_path / "tables" / "mine").mkdir()
     (tmp_path / "tables" / "mine" / "it.csv").write_text("mine")
     with pytest.raises(InvalidInput, match=r"holds other things \(`mine/it\.csv`\)"):
@@ -396,7 +415,7 @@ def test_names_of_batches_are_shown_as_they_are(
     names = ["first", "[/]", "[bold]", "[1]", ":smile:", "esc\x1b[31m"]
     for name in names:
         folder = opened(tmp_path / name)
-        carry_out(TRIAL, jobs_of(WORLD, range(2)), Engine(), folder=folder)
+        carry_out(cases(5, range(2)), Canned(), folder=folder)
         folder.close()
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", columns)
@@ -406,18 +425,18 @@ def test_names_of_batches_are_shown_as_they_are(
 
 
 def test_page_and_tables_have_all_figures_and_nothing_from_outside() -> None:
-    rows = carry_out(TRIAL, jobs_of(WORLD, range(4)), Engine())
+    rows = carry_out(cases(5, range(4)), Canned())
     found = figures(rows, lambda each: f"handeye assemble --seed {each.seed}")
-    page = batch_page("it", rows, found).decode()
+    page = sweep_page("it", ASSEMBLY, rows, found).decode()
     assert ("2 of 4 assembled" in page, "handeye assemble --seed 7" in page, "://" in page) == (
         True,
         True,
         False,
     )
-    made = {table.name: table for table in tables(rows, found)}
+    made = {table.name: table for table in tables_of(ASSEMBLY, rows, found)}
     assert [*made] == ["trials", "margins", "failures"]
     assert made["failures"]["seed"].tolist() == [6, 7]
-    assert csv_bytes(made["trials"]).startswith(b"trial,seed,verdict,")
+    assert csv_bytes(made["trials"]).startswith(b"trial,seed,condition,verdict,")
 
 
 def test_contact_operations_of_the_pump_happen_at_positions_that_are_taught() -> None:

@@ -1,9 +1,6 @@
 """What a run with a fault came to is judged by the error that should name it."""
 
 import json
-from collections.abc import Iterator
-from itertools import islice
-from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
@@ -23,18 +20,19 @@ from handeye.results.result import Result
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 from handeye.tasks import task
-from handeye.trials import faults as fault_trials
-from handeye.trials.brakes import brakes_hold
+from handeye.trials.assembly import brakes_hold
 from handeye.trials.faults import (
-    FaultTrial,
+    FAULTS,
+    FaultRow,
+    FaultWork,
+    PanicInStage,
     chosen,
-    counted_outcomes,
-    matrix_of,
     outcome,
     trial_of,
     with_panic,
 )
-from handeye.trials.panic import PanicInStage
+from handeye.trials.figures import figures
+from handeye.trials.sweep import Case
 
 STOPPED = result(completed=False, assembled=None, message="the gasket is not on properly")  # with error 32
 CALLED = msgspec.structs.replace(STOPPED, error=None, message="THE ROTOR IS HARD TO TURN")
@@ -98,16 +96,16 @@ def test_faults_are_chosen_by_name_and_by_group_and_by_the_matrix_if_nobody_name
         chosen(CATALOGUE, ["lamp.daed"])
 
 
+def rows_of(*names: str, ended: Result = STOPPED, unbraked: str = "") -> list[FaultRow]:
+    tried = [trial_of(Fault(name=name), CATALOGUE, ended, [], braked=name != unbraked) for name in names]
+    return [FaultRow(trial=0, seed=0, condition=each.name, tried=each) for each in tried]
+
+
 def test_outcomes_are_counted() -> None:
-    trials = [
-        trial_of(Fault(name=name), CATALOGUE, STOPPED, [], braked=name != "lamp.dead")
-        for name in CATALOGUE.kinds
-    ]
-    assert counted_outcomes(trials) == "1 unbraked, 1 misnamed, 1 stopped"
-    matrix = matrix_of(trials)
-    assert (matrix.n, matrix.undetected, [trial.name for trial in matrix.faults]) == (
-        3, 1, ["lamp.dead", "picture.dark", "picture.frozen"],
-    )  # fmt: skip
+    rows = rows_of(*CATALOGUE.kinds, unbraked="lamp.dead")
+    found = figures(FAULTS, rows)
+    assert FAULTS.summary(rows) == ["3 faults: 1 unbraked, 1 misnamed, 1 stopped; 1 undetected"]
+    assert (found.n, found.right, found.silent_failures, found.exit_code) == (3, 1, 1, 3)
 
 
 def test_the_matrix_of_the_pump_has_thirty_faults_and_more() -> None:
@@ -127,42 +125,40 @@ def test_brakes_hold_until_the_arm_is_driven() -> None:
     assert brakes_hold(cell)
 
 
-def broken_off(*_: object, **__: object) -> Iterator[FaultTrial]:
-    """One trial, and then Ctrl-C."""
-    yield trial_of(Fault(name="picture.frozen"), CATALOGUE, RIGHT, [], braked=True)
-    raise KeyboardInterrupt
+@pytest.fixture
+def unnoticed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Each fault goes unnoticed, and the third trial is Ctrl-C; the conditions that were tried."""
+    tried: list[str] = []
+
+    def work(self: FaultWork, case: Case) -> list[FaultRow]:
+        if len(tried) == 2:
+            raise KeyboardInterrupt
+        tried.append(case.condition)
+        (row,) = rows_of("picture.frozen", ended=RIGHT)
+        return [msgspec.structs.replace(row, condition=case.condition)]
+
+    monkeypatch.setattr(FaultWork, "__call__", work)
+    return tried
 
 
-def test_the_matrix_that_is_interrupted_tells_what_has_ended(
-    command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+@pytest.mark.usefixtures("unnoticed")
+def test_the_matrix_that_is_interrupted_tells_what_has_ended_and_goes_on_there(
+    command: Command, unnoticed: list[str]
 ) -> None:
-    monkeypatch.setattr(fault_trials, "try_faults", broken_off)
-    place = tmp_path / "kept.jsonl"
-    code, out, err = command("faults", "--out", str(place))
-    assert (code, "1 faults: 1 unnoticed; 1 undetected" in out) == (130, True)
-    assert f"1 of {len(task().faults(0).matrix) + 1} faults, about " in err
-    assert json.loads(place.read_text())["outcome"] == "unnoticed"
+    words = ("faults", "--jobs", "1", "--only", "picture", "--only", "panic", "--out", "kept")
+    code, out, err = command(*words)
+    assert (code, "2 faults: 2 unnoticed; 2 undetected" in out) == (130, True)
+    assert "2 trials kept in kept; the same command goes on from there" in err
+    first = unnoticed.copy()
+    unnoticed.clear()
+    assert command(*words)[0] in (3, 130)
+    assert not {*first} & {*unnoticed}
 
 
-def test_an_outcome_is_in_the_file_before_the_next_run_ends(
-    command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    place, seen = tmp_path / "kept.jsonl", []
-
-    def looked_at(*_: object, **__: object) -> Iterator[FaultTrial]:
-        yield trial_of(Fault(name="picture.frozen"), CATALOGUE, RIGHT, [], braked=True)
-        seen.append(json.loads(place.read_text())["name"])
-
-    monkeypatch.setattr(fault_trials, "try_faults", looked_at)
-    command("faults", "--out", str(place))
-    assert seen == ["picture.frozen"]
-
-
-def test_a_fault_that_goes_undetected_has_an_exit_code_of_its_own(
-    command: Command, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(fault_trials, "try_faults", lambda *_, **__: islice(broken_off(), 1))
-    code, out, _ = command("faults", "--only", "picture.frozen", "--json")
+@pytest.mark.usefixtures("unnoticed")
+def test_a_fault_that_goes_undetected_has_an_exit_code_of_its_own(command: Command) -> None:
+    words = ("faults", "--jobs", "1", "--only", "picture.frozen", "--json")
+    code, out, _ = command(*words)
     told = json.loads(out)
     assert (code, told["n"], told["undetected"]) == (3, 1, 1)
     assert {"name", "outcome", "stage", "message"} <= told["faults"][0].keys()

@@ -1,7 +1,6 @@
 """The insertion bench: what is tried, what comes of it, and what is told of that."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -18,15 +17,29 @@ from handeye.planning.scripts import plan_source
 from handeye.runs.runner import Runner
 from handeye.runs.scripts import taught_beside
 from handeye.systems.stanford import executor_run as programs
-from handeye.tasks.insertion.task import INSERTION
+from handeye.tasks.insertion.task import INSERTION as TASK
 from handeye.touch.spiral import spiral
-from handeye.trials import insertion
-from handeye.trials.insertion import Condition, InsertionTrial, fetched, grid, trials, trials_in_world, tried
-from handeye.trials.insertion_figures import GENTLE, Bench
-from handeye.trials.insertion_page import html, rows
+from handeye.trace.table_files import csv_bytes
+from handeye.trials.figures import figures
+from handeye.trials.insertion import (
+    GENTLE,
+    INSERTION,
+    Condition,
+    InsertionRow,
+    InsertionTrial,
+    InsertionWork,
+    fetched,
+    grid,
+    insertion_cases,
+    trials_in_world,
+    tried,
+)  # fmt: skip
+from handeye.trials.page import sweep_page
+from handeye.trials.sweep import Case
+from handeye.trials.tables import trials
 
 EXACT = Condition(sd=0.0)
-FIRST = InsertionTrial(condition=0, seed=1, number=0)
+FIRST = InsertionTrial(seed=1, number=0)
 SCRIPT = (plans() / "insertion.al").read_text(encoding="utf-8")
 
 
@@ -40,9 +53,9 @@ def planned(text: str) -> Plan:
     made = plan_source(
         Source(name="insertion.al", text=text),
         taught_beside(plans() / "insertion.al"),
-        INSERTION.arm,
+        TASK.arm,
         AL,
-        task=INSERTION.name,
+        task=TASK.name,
     )
     assert made.plan is not None
     return made.plan
@@ -102,19 +115,20 @@ def test_a_program_that_says_done_with_the_pin_on_the_face_is_a_silent_failure(s
 
 
 def test_the_gentle_search_presses_less_than_half_as_hard_as_that_of_1973(exact: InsertionTrial) -> None:
-    (hard,) = trials_in_world([Condition(sd=0.0, search="1973")], FIRST)
+    (hard,) = trials_in_world(Condition(sd=0.0, search="1973"), FIRST)
     assert hard.outcome == "seated"
     assert hard.peak > 2 * exact.peak
 
 
-def test_any_number_of_workers_gives_the_same_table(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Their shares come in another order."""
-    monkeypatch.setattr(insertion, "fetched", lambda plan, seed: None)
-    monkeypatch.setattr(insertion, "tried", lambda condition, begun, trial: trial)
-    monkeypatch.setattr(insertion, "in_processes", lambda work, shares, jobs: map(work, reversed(shares)))
-    one, two = (Bench.of(grid("1973"), trials(grid("1973"), 25, seed=1, workers=n)) for n in (1, 2))
-    assert rows(one) == rows(two)
-    assert [trial.seed for trial in one.of_condition(3)] == [1] * 10 + [2] * 10 + [3] * 5
+def test_ten_trials_share_a_world_and_the_last_may_have_fewer() -> None:
+    cases = [case for case in insertion_cases(grid("1973"), 25, 1) if case.condition == grid("1973")[3].name]
+    assert [(case.seed, len(case.trials)) for case in cases] == [(1, 10), (2, 10), (3, 5)]
+    assert [number for case in cases for number in case.trials] == [*range(25)]
+
+
+def test_conditions_have_names_of_their_own() -> None:
+    conditions = [*grid("gentle"), *grid("1973")]
+    assert len({each.name for each in conditions}) == len(conditions)
 
 
 # -- the rule of the step ----------------------------------------------------------------------------------
@@ -136,49 +150,49 @@ def test_each_condition_has_a_plan_that_searches_with_its_step(condition: Condit
 # -- what is told of it ------------------------------------------------------------------------------------
 
 
-def many(seated: int, told: int = 0, silent: int = 0) -> Bench:
-    """A bench of so many trials of each outcome."""
+def many(seated: int, told: int = 0, silent: int = 0) -> list[InsertionRow]:
+    """Rows of so many trials of each outcome."""
     outcomes = ("seated",) * seated + ("told",) * told + ("silent",) * silent
     made = [
         replace(FIRST, number=number, outcome=outcome, peak=10.0 + number % 20, felt=7.0,
                 seconds=2.0 if outcome == "seated" else None)
         for number, outcome in enumerate(outcomes)
     ]  # fmt: skip
-    return Bench.of([Condition()], reversed(made))
+    return [InsertionRow(trial=each.number, seed=1, condition=Condition().name, tried=each) for each in made]
 
 
 def test_the_interval_of_a_share_is_wilsons() -> None:
     """Factory's policy, 750 of 768, as its peers compute it; and the figure that this bench has to show."""
-    (factory,), (ours,) = many(750, 18).figures(), many(995, 5).figures()
-    assert factory.interval == pytest.approx((0.9632, 0.9851), abs=1e-4)
-    assert ours.interval == pytest.approx((0.9883, 0.9979), abs=1e-4)
+    factory, ours = (figures(INSERTION, rows).wilson95 for rows in (many(750, 18), many(995, 5)))
+    assert factory == pytest.approx((0.9632, 0.9851), abs=1e-4)
+    assert ours == pytest.approx((0.9883, 0.9979), abs=1e-4)
 
 
 def test_figures_are_of_all_trials_but_times_of_those_seated() -> None:
-    (figures,) = many(18, 1, 1).figures()
-    assert (figures.n, figures.seated, figures.told, figures.silent) == (20, 18, 1, 1)
-    assert figures.peak_n is not None
-    assert (figures.peak_n.median, figures.peak_n.most, figures.gentle) == (19.5, 29.0, 11)
-    assert figures.seconds is not None
-    assert figures.seconds.most == 2.0
-
-
-def test_trials_stand_in_order_however_they_came() -> None:
-    assert [trial.number for trial in many(5).trials] == [0, 1, 2, 3, 4]
+    rows = many(18, 1, 1)
+    found = figures(INSERTION, rows)
+    assert (found.n, found.right, found.outcomes, found.exit_code) == (
+        20, 18, {"seated": 18, "told": 1, "silent": 1}, 3,
+    )  # fmt: skip
+    peaks, times = found.measures["peak, N"], found.measures["contact to seated, s"]
+    assert (peaks.n, peaks.median, peaks.most) == (20, 19.5, 29.0)
+    assert (times.n, times.most) == (18, 2.0)
+    (settings,) = INSERTION.details(rows)
+    assert settings.cells() == [("0.114 mm, chamfer 1, sd 1", "0", "20", "11")]
 
 
 def test_the_page_fetches_nothing_and_draws_each_trial() -> None:
-    page = html(many(18, 2), "twenty <trials>").decode()
+    rows = many(18, 2)
+    page = sweep_page("twenty <trials>", INSERTION, rows, figures(INSERTION, rows)).decode()
     assert "twenty &lt;trials&gt;" in page
-    assert page.count("<circle") == 1 + 20 + 18
-    assert "<script" not in page
-    assert "18 of 20" in page
+    assert page.count("<circle") >= 1 + 20 + 18
+    assert ("<script" in page, "18 of 20 seated" in page) == (False, True)
 
 
 def test_a_table_has_a_line_for_each_trial() -> None:
-    head, first, *others = rows(many(2, 1)).decode().splitlines()
-    assert head.startswith("search,clearance_mm,chamfer_mm,sd_mm,seed,number")
-    assert first == "gentle,0.114,1.0,1.0,1,0,0.0,0.0,seated,0,10.0,7.0,2.0,0.0"
+    head, first, *others = csv_bytes(trials(INSERTION, many(2, 1))).decode().splitlines()
+    assert head.startswith("trial,seed,condition,verdict,stage,cause,error_x,error_y,peak,felt,whole")
+    assert first.startswith('0,1,"0.114 mm, chamfer 1, sd 1",seated,,,0.0,0.0,10.0,7.0,0.0')
     assert len(others) == 2
 
 
@@ -187,58 +201,63 @@ def test_a_table_has_a_line_for_each_trial() -> None:
 
 @pytest.fixture
 def canned(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Trials that take no time, one in eight of them silent."""
+    """Trials that take no time; the last of seven in a world, and of more, are silent."""
 
-    def made(conditions: list[Condition], n: int, *, seed: int, workers: int) -> list[InsertionTrial]:
-        return [
-            replace(each, condition=index, seed=seed)
-            for index in range(len(conditions))
-            for each in many(n - n // 8, 0, n // 8).trials
-        ]
+    def work(self: InsertionWork, case: Case) -> list[InsertionRow]:
+        rows = many(min(7, len(case.trials)), 0, len(case.trials) - min(7, len(case.trials)))
+        named = zip(case.trials, rows, strict=True)
+        return [replace(row, trial=k, seed=case.seed, condition=case.condition) for k, row in named]
 
-    monkeypatch.setattr(insertion, "trials", made)
+    monkeypatch.setattr(InsertionWork, "__call__", work)
+
+
+BENCH = ("bench", "insertion", "--jobs", "1")
 
 
 @pytest.mark.usefixtures("canned")
 def test_without_options_a_grid_is_tried_and_told(command: Command) -> None:
-    code, out, _ = command("bench", "insertion", "--json")
-    figures = json.loads(out)["figures"]
-    assert len(figures) == len(grid("gentle"))
-    assert {each["n"] for each in figures} == {10}
+    code, out, _ = command(*BENCH, "--json")
+    told = json.loads(out)
+    assert [each["condition"] for each in told["conditions"]] == [each.name for each in grid("gentle")]
+    assert {each["n"] for each in told["conditions"]} == {10}
     assert code == 3  # some were silent
 
 
 @pytest.mark.usefixtures("canned")
 def test_one_setting_is_tried_where_one_is_named(command: Command) -> None:
-    code, out, _ = command("bench", "insertion", "--n", "7", "--sd", "2", "--json")
-    (figures,) = json.loads(out)["figures"]
-    assert (code, figures["n"], figures["condition"]["sd"], figures["condition"]["clearance"]) == (
-        0,
-        7,
-        2,
-        0.114,
-    )
+    code, out, _ = command(*BENCH, "--n", "7", "--sd", "2", "--json")
+    (setting,) = json.loads(out)["settings"]
+    assert (code, setting["n"], setting["condition"]) == (0, 7, "0.114 mm, chamfer 1, sd 2")
 
 
 @pytest.mark.usefixtures("canned")
-@pytest.mark.parametrize(("name", "begins"), [("b.html", b"<!doctype html>"), ("b.csv", b"search,")])
+@pytest.mark.parametrize(("name", "begins"), [("b.html", b"<!doctype html>"), ("b.csv", b"trial,seed,")])
 def test_it_is_written_as_its_name_says(command: Command, name: str, begins: bytes) -> None:
-    command("bench", "insertion", "--n", "4", "--sd", "1", "--out", name)
+    command(*BENCH, "--n", "4", "--sd", "1", "--out", name)
     assert Path(name).read_bytes().startswith(begins)
+
+
+@pytest.mark.usefixtures("canned")
+def test_a_folder_is_gone_on_with_and_its_page_made_anew(command: Command) -> None:
+    for n in ("4", "12"):
+        _, out, err = command(*BENCH, "--n", n, "--sd", "1", "--out", "kept", "--json")
+    assert (json.loads(out)["n"], len(Path("kept/trials.jsonl").read_text("utf-8").splitlines())) == (12, 17)
+    assert "4 of 12 insertions kept from before" in err
+    assert Path("kept/figures.html").is_file()
 
 
 def test_what_has_ended_is_told_when_it_is_broken_off(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken_off(*_: object, **__: object) -> Iterator[InsertionTrial]:
-        yield from many(3).trials
-        raise KeyboardInterrupt
+    def work(self: InsertionWork, case: Case) -> list[InsertionRow]:
+        if case.seed:
+            raise KeyboardInterrupt
+        return [replace(row, seed=0, condition=case.condition) for row in many(10)]
 
-    monkeypatch.setattr(insertion, "trials", broken_off)
-    code, out, _ = command("bench", "insertion", "--sd", "1", "--out", "b.csv")
-    assert code == 130
-    assert "3 of 3" in out
-    assert len(Path("b.csv").read_text(encoding="utf-8").splitlines()) == 4
+    monkeypatch.setattr(InsertionWork, "__call__", work)
+    code, out, _ = command(*BENCH, "--n", "20", "--sd", "1", "--out", "b.csv")
+    assert (code, "10 of 10 seated" in out) == (130, True)
+    assert len(Path("b.csv").read_text(encoding="utf-8").splitlines()) == 11
 
 
 @pytest.mark.parametrize(
@@ -249,7 +268,6 @@ def test_what_has_ended_is_told_when_it_is_broken_off(
         (("--clearance", "2"), "0.05 to 1 mm"),
         (("--sd", "-1"), "0 to 5 mm"),
         (("--sd", "nan"), "0 to 5 mm"),
-        (("--out", "b.txt"), ".html"),
         (("--seed", "-1"), "from 0 up"),
     ],
 )

@@ -8,8 +8,8 @@ import pytest
 
 from handeye.core.faults import Fault
 from handeye.core.variation import Overrides, WorldSpec
-from handeye.trials.batch.folder import Head
-from handeye.trials.batch.row import Row
+from handeye.trials.folder import Head
+from handeye.trials.plans.row import Row
 
 DOCS = Path(__file__).parents[2] / "docs"
 FILES = sorted((DOCS / "trials").glob("*.csv"))
@@ -52,7 +52,7 @@ def test_what_a_batch_has_left_is_told_and_added_up(maker: ModuleType, tmp_path:
             seed=first, level="high", faults=(thick,), overrides=Overrides(set={"camera.place.x": 0.00762})
         )
         head = Head(
-            plan="ab" * 8, program="p", world=spec, camera="ray", without=("touch",),
+            kind="assembly", plan="ab" * 8, program="p", world=spec, camera="ray", without=("touch",),
             on_stop="unwind:the pins", simulated_limit_s=3600.0, versions={"handeye": "1"}, code="c",
         )  # fmt: skip
         rows = [
@@ -106,7 +106,7 @@ def test_batches_of_the_same_code_and_level_are_paired_with_the_whole_program(ma
 
 def test_other_trials_and_other_pages_are_refused(maker: ModuleType) -> None:
     head = Head(
-        work="dismantle", plan="p", program="p", world=WorldSpec(seed=1), camera="ray", simulated_limit_s=1.0,
+        kind="dismantling", plan="p", program="p", world=WorldSpec(seed=1), camera="ray", simulated_limit_s=1.0,
         versions={}, code="c",
     )  # fmt: skip
     with pytest.raises(SystemExit, match="no trials of assembling"):

@@ -6,8 +6,7 @@ import pytest
 from trial_functions import hung, killed_always, killed_once, process, refused
 
 from handeye.core.errors import InvalidInput
-from handeye.trials.seeds import WorkerLost, in_processes
-from handeye.trials.workers import answers
+from handeye.trials.workers import WorkerLost, answers, in_processes
 
 pytestmark = pytest.mark.slow
 

@@ -24,5 +24,6 @@ trials pallet = handeye.systems.trig.cli.pallet_trials:pallet_trials: Palletise 
         ".trig": "handeye.systems.trig.own_language:LANGUAGE",
         ".trig.json": "handeye.systems.trig.own_language:LANGUAGE",
     },
+    sweeps={"pallet": "handeye.systems.trig.run.pallet_trials:PALLET"},
     files=("job.json", "program.trig.json"),
 )

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.faults import Catalogue
 from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings
 from handeye.program.program import Fixture
-from handeye.tasks.interface import CameraSetup, Disturbance, ExportedScene, HistoricalTiming, Task, Words
-from handeye.tasks.trial import Trial
+from handeye.tasks.interface import Disturbance, ExportedScene, Eye, Period, Task, Words
+from handeye.tasks.water_pump.trials.base import BaseTrial
+from handeye.tasks.water_pump.trials.gasket import GasketTrial
 from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS, PARK
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.stations import planned_fixtures
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from handeye.cell.truth import Truth
     from handeye.core.pose import Array
 
-PERIOD: Final = HistoricalTiming(
+PERIOD: Final = Period(
     year=1973,
     program="water_pump",
     times={"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0},
@@ -52,17 +53,13 @@ class WaterPump(Task):
     words = Words(product="the pump", done="The pump is assembled.", apart="The pump is taken apart.")
     script = "water_pump.al"
     other_scripts = ("water_pump_1973.al",)
-    eye = CameraSetup(drawing=DRAWING, looks=LOOKS)
+    eye = Eye(drawing=DRAWING, looks=LOOKS)
     photographs = ("studio", "pump")
     period = PERIOD
     contacts = CONTACTS
 
-    @property
-    def trials(self) -> Mapping[str, Trial[Any]]:
-        from handeye.tasks.water_pump.trials.base import BaseTrial
-        from handeye.tasks.water_pump.trials.gasket import GasketTrial
-
-        return {"base": BaseTrial(), "gasket": GasketTrial()}
+    def __init__(self) -> None:
+        self.trials = {"base": BaseTrial(), "gasket": GasketTrial()}
 
     def fixtures(self) -> Mapping[str, Fixture]:
         return planned_fixtures()

@@ -21,7 +21,7 @@ from handeye.runs.operator import Operator, OperatorChoice, attend
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import StopCondition
-from handeye.trials.brakes import brakes_hold
+from handeye.trials.assembly import brakes_hold
 from handeye.trials.chaos.schedule import Answer, Break, Schedule
 
 POLL: Final = 0.01

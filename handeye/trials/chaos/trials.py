@@ -1,36 +1,61 @@
 """Many schedules, in several processes; those that fail are shrunk to the fewest things with which they do."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Final
 
-from handeye.core.record import Record
 from handeye.core.variation import Level, WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.tasks.interface import Task
-from handeye.trials.chaos.schedule import Schedule, draw
+from handeye.trials.chaos.schedule import Schedule, draw, parse_schedule
 from handeye.trials.chaos.sound_run import SoundRun, sound_run
 from handeye.trials.chaos.trial import Tried, shrunk, try_schedule
-from handeye.trials.seeds import in_processes
+from handeye.trials.sweep import Case, Sweep, TrialRow
+from handeye.trials.workers import in_processes
 
 LEVELS: Final[tuple[Level, ...]] = ("nominal", "low", "high")
 
 
-class Outcome(Record, frozen=True, kw_only=True):
-    """What one schedule came to."""
+class ChaosRow(TrialRow, frozen=True, kw_only=True):
+    """One schedule, which is the condition, tried."""
 
-    drawn: Tried
-    shrunk: Tried | None
+    drawn: Tried | None = None
+    """What it came to; None: it broke off."""
+    shrunk: Tried | None = None
     """The same with the fewest things with which it still fails; None: it does not fail."""
 
+    @property
+    def outcome(self) -> str:
+        return "did not hold" if self.drawn is None or self.drawn.broken else "held"
 
-class Chaos(Record, frozen=True, kw_only=True):
-    """What many schedules came to."""
+    @property
+    def detail(self) -> str:
+        return super().detail if self.shrunk is None else "; ".join(map(str, self.shrunk.broken))
 
-    n: int
-    broken: int
-    failing: tuple[Outcome, ...]
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChaosWork:
+    """Tries schedules on the sound runs of a folder."""
+
+    plan: Plan
+    folder: Path
+    camera: str
+
+    def __call__(self, case: Case) -> list[ChaosRow]:
+        """Try one; if it fails, find the fewest things with which it does."""
+        schedule = parse_schedule(case.condition)
+        sound = sound_run(
+            self.folder, self.plan, WorldSpec(seed=schedule.seed, level=schedule.level), self.camera
+        )
+        drawn = try_schedule(schedule, sound)
+        least = shrunk(drawn, schedule, lambda fewer: try_schedule(fewer, sound))[1] if drawn.broken else None
+        return [
+            ChaosRow(
+                trial=case.trials[0], seed=case.seed, condition=case.condition, drawn=drawn, shrunk=least
+            )
+        ]
 
 
 def worlds(seed: int, count: int) -> list[WorldSpec]:
@@ -58,27 +83,32 @@ def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: Task) -> It
         )
 
 
-def try_all(
-    drawn: Sequence[Schedule], plan: Plan, folder: Path, camera: str, workers: int
-) -> Iterator[Outcome]:
-    """What schedules come to, in the order they end."""
-    yield from in_processes(partial(outcome, plan=plan, folder=folder, camera=camera), drawn, workers)
+def _sentence(row: ChaosRow) -> str:
+    """What did not hold in a schedule that fails, and the command that shows it again."""
+    if row.drawn is None:
+        return f"{row.condition}: {row.detail}"
+    if row.shrunk is None:
+        return ""
+    whole = "" if row.shrunk.schedule == row.condition else f"\n  shrunk from: {row.condition}"
+    told = "\n".join(map(str, row.shrunk.broken))
+    return f'{told}\n  handeye trials chaos --schedule "{row.shrunk.schedule}"{whole}'
 
 
-def outcome(schedule: Schedule, plan: Plan, folder: Path, camera: str) -> Outcome:
-    """What one schedule comes to; if it fails, with the fewest things with which it does.
-
-    Raises:
-        InvalidInput: it cannot be carried out.
-    """
-    sound = sound_run(folder, plan, WorldSpec(seed=schedule.seed, level=schedule.level), camera)
-    tried = try_schedule(schedule, sound)
-    if not tried.broken:
-        return Outcome(drawn=tried, shrunk=None)
-    return Outcome(drawn=tried, shrunk=shrunk(tried, schedule, lambda fewer: try_schedule(fewer, sound))[1])
+def _more(rows: Sequence[ChaosRow]) -> dict[str, object]:
+    failing = sorted((row for row in rows if row.drawn and row.drawn.broken), key=lambda row: row.condition)
+    return {
+        "broken": len(failing),
+        "failing": [{"drawn": row.drawn, "shrunk": row.shrunk} for row in failing],
+    }
 
 
-def summed(outcomes: Sequence[Outcome]) -> Chaos:
-    """Outcomes, those of failing schedules by their words."""
-    failing = sorted((each for each in outcomes if each.drawn.broken), key=lambda each: each.drawn.schedule)
-    return Chaos(n=len(outcomes), broken=len(failing), failing=tuple(failing))
+CHAOS: Final = Sweep(
+    kind="chaos",
+    row=ChaosRow,
+    outcomes={"held": "right", "did not hold": "silent"},
+    success="held",
+    noun="schedule",
+    sentence=_sentence,
+    more=_more,
+)
+"""Schedules of faults, interruptions and answers."""

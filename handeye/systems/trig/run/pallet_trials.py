@@ -1,56 +1,61 @@
 """Trials of the palletiser: taught, run, undone and judged in many worlds, to its end or broken off on its way."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Final
 
 from handeye.core.errors import InvalidInput
 from handeye.core.random_streams import random_numbers
-from handeye.core.record import Record
 from handeye.runs.runner import Runner
 from handeye.systems.trig.run.job import JobReport, carried_out, setup_of_job
-from handeye.trials.batch.rates import rate
-from handeye.trials.seeds import in_processes
+from handeye.trials.sweep import Case, Sweep, TrialRow
 
 STEPS: Final = 14
 """That a block takes, at least, without those of the loops' ends."""
 PLACES: Final = 15
 
 
-class Failure(Record, frozen=True, kw_only=True):
-    """A trial in which something was not right."""
+class PalletRow(TrialRow, frozen=True, kw_only=True):
+    """One job of palletising."""
 
-    seed: int
-    outcome: str
-    told: str
-    """By the program, and by the referee."""
-    command: str
-    """What carries it out again."""
+    report: JobReport | None = None
+    """None: it broke off."""
+
+    @property
+    def outcome(self) -> str:
+        assert self.report is not None
+        return self.report.outcome
+
+    @property
+    def detail(self) -> str:
+        if self.report is None:
+            return super().detail
+        return "; ".join((*self.report.told, *(check.told for check in self.report.wrong)))
+
+    @property
+    def measures(self) -> Mapping[str, float]:
+        if self.report is None:
+            return {}
+        both = (("", self.report.checks), ("back.", self.report.checks_back))
+        return {
+            f"{way}{name}, {check.unit}": check.value
+            for way, checks in both
+            for name, check in checks.items()
+        }
 
 
-class PalletFigures(Record, frozen=True, kw_only=True):
-    """Trials counted."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PalletWork:
+    """Palletises, and takes everything back."""
 
-    n: int
     blocks: int
-    interrupted: bool
-    right: int
-    stopped: int
-    silent_failures: int
-    wilson95: tuple[float, float] | None
-    """Of the rate of those that were right."""
-    most: Mapping[str, float]
-    """The largest value of each finding, in its unit; those after undoing have `back.` before their names."""
-    arm_s: float
-    """Of the arm's clock, all together."""
-    failures: tuple[Failure, ...]
+    interrupt: bool
+    """Each run is broken off after a drawn number of steps, and undone from there."""
 
-
-def trials(n: int, *, seed: int, blocks: int, interrupt: bool, workers: int) -> Iterator[JobReport]:
-    """So many trials, in the order they end; that of number k is in the world of seed + k."""
-    seeds = [seed + number for number in range(n)]
-    work = partial(tried, blocks, interrupt)
-    yield from map(work, seeds) if workers == 1 or len(seeds) == 1 else in_processes(work, seeds, workers)
+    def __call__(self, case: Case) -> list[PalletRow]:
+        """Carry one out."""
+        report = tried(self.blocks, self.interrupt, case.seed)
+        return [PalletRow(trial=case.trials[0], seed=case.seed, report=report)]
 
 
 def tried(blocks: int, interrupt: bool, seed: int) -> JobReport:
@@ -69,37 +74,26 @@ def broken_off_after(seed: int, blocks: int) -> int:
     return int(random_numbers(seed, "pallet.interrupt").integers(1, most, endpoint=True))
 
 
-def figures(found: Sequence[JobReport], blocks: int, *, interrupt: bool) -> PalletFigures:
-    """Count trials."""
-    outcomes = [each.outcome for each in found]
-    right = outcomes.count("right")
-    failures = (each for each in sorted(found, key=lambda each: each.seed) if each.outcome != "right")
-    return PalletFigures(
-        n=len(found),
-        blocks=blocks,
-        interrupted=interrupt,
-        right=right,
-        stopped=outcomes.count("stopped"),
-        silent_failures=outcomes.count("silent"),
-        wilson95=rate(right, len(found)).wilson95,
-        most=_most(found),
-        arm_s=round(sum(each.arm_s for each in found), 3),
-        failures=tuple(_failure(each) for each in failures),
-    )
-
-
-def _most(found: Sequence[JobReport]) -> dict[str, float]:
+def _more(rows: Sequence[PalletRow]) -> dict[str, object]:
+    """The largest value of each finding, and the time of the arm."""
     most: dict[str, float] = {}
-    for each in found:
-        for before, checks in (("", each.checks), ("back.", each.checks_back)):
-            for name, check in checks.items():
-                most[before + name] = max(most.get(before + name, 0.0), check.value)
-    return most
+    for row in rows:
+        for name, value in row.measures.items():
+            finding = name.rpartition(", ")[0]
+            most[finding] = max(most.get(finding, 0.0), value)
+    return {"most": most, "arm_s": _arm_s(rows)}
 
 
-def _failure(found: JobReport) -> Failure:
-    told = "; ".join((*found.told, *(check.told for check in found.wrong)))
-    options = f"--n 1 --seed {found.seed} --blocks {found.blocks}"
-    broken = " --interrupt" if found.interrupted_after is not None else ""
-    command = f"handeye trials pallet {options}{broken}"
-    return Failure(seed=found.seed, outcome=found.outcome, told=told, command=command)
+def _arm_s(rows: Sequence[PalletRow]) -> float:
+    return round(sum(row.report.arm_s for row in rows if row.report), 3)
+
+
+PALLET: Final = Sweep(
+    kind="pallet",
+    row=PalletRow,
+    outcomes={"right": "right", "silent": "silent", "stopped": "wrong", "halted": "wrong"},
+    success="right",
+    more=_more,
+    summary=lambda rows: [f"{_arm_s(rows):.0f} s of the arm's clock"],
+)
+"""Jobs of palletising, there and back."""

@@ -1,4 +1,4 @@
-"""The catalogue of the pump's faults, and those tried by default."""
+"""The catalogue of what can be broken in the pump's world."""
 
 from typing import Final
 
@@ -65,9 +65,9 @@ MATRIX: Final = (
     "rotor.jammed",
     "arm.pushed.y",
 )
-"""Faults that `handeye faults` tries by default: one of those alike in joints, pins, screws and holes."""
+"""By what `handeye faults` tries a program: of like faults of several joints, pins, screws and holes one."""
 
 
 def catalogue(seed: int) -> Catalogue:
-    """The faults of a seed's world: devices, parts, mishaps."""
+    """What can be broken in the world of a seed, and what can happen to it: devices, parts, mishaps."""
     return Catalogue(*device_faults(), *part_faults(seed), *mishap_faults(), matrix=MATRIX)

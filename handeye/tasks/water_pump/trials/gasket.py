@@ -1,24 +1,24 @@
 """Trial of the eye: is the gasket on properly?"""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import Final
+from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
 
-from handeye.core.errors import CalibrationFailed
 from handeye.core.pose import Pose, planar, translated, yaw
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
-from handeye.ports.camera import CLOSE_UP
-from handeye.program.program import Part
 from handeye.tasks.trial import Attempt, Count, Known, Trial
-from handeye.tasks.water_pump.trials.known_camera import known_camera
-from handeye.tasks.water_pump.trials.still_pump import Place, StillPump, look, pump_base, put_base
 from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, standard
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
-from handeye.vision.camera_model import View
-from handeye.vision.gasket import inspect
+
+if TYPE_CHECKING:
+    from handeye.program.program import Part
+    from handeye.tasks.water_pump.trials.still_pump import Place, StillPump
+    from handeye.vision.camera_model import View
 
 RIGHT: Final = "right"
 SHIFTED: Final = "shifted .3"
@@ -27,36 +27,43 @@ DOUBLED: Final = "doubled"
 REJECTED: Final = (SHIFTED, ABSENT)
 """Cases that the eye has to reject. Two gaskets on each other look like one: the hand finds them, by their height."""
 SHIFT: Final = 0.3 * INCH
-BASE_OFF_IN: Final = 0.03  # to either side, and .3 deg: play that the blocks leave
-GASKET_OFF_IN: Final = 0.02  # likewise, the pins
+BASE_OFF: Final = 0.03
+GASKET_OFF: Final = 0.02
+"""in, to either side, and .3 deg: how far off the blocks and the pins leave what is where it belongs."""
 
 
 class GasketAttempt(Attempt, frozen=True, kw_only=True):
     """A gasket of every case inspected once."""
 
     accepted: dict[str, bool]
-    """Verdict of the eye by case; empty if the camera could not be calibrated."""
+    """By the case; none if the camera could not be calibrated."""
     failure: str | None = None
 
 
 class GasketTrial(Trial[GasketAttempt]):
     """Inspect the gasket where it belongs, shifted, not there, and doubled."""
 
+    attempt = GasketAttempt
+
     def attempts(
         self, world: WorldSpec, number: int, *, camera: str, known: Known
     ) -> Iterator[GasketAttempt]:
-        X_WP = standard()
-        x, y, z = map(float, X_WP[:3, 3])
-        still, part = StillPump(PumpWorld.draw(world), renderer=camera), pump_base((x, y, z, yaw(X_WP)))
+        from handeye.core.errors import CalibrationFailed
+        from handeye.ports.camera import CLOSE_UP
+        from handeye.tasks.water_pump.trials.known_camera import known_camera
+        from handeye.tasks.water_pump.trials.still_pump import StillPump, look, pump_base, put_base
+
+        still, part = StillPump(PumpWorld.draw(world), renderer=camera), pump_base(_standard())
         try:
             model = known_camera(still, known, camera, part.at[:3])
         except CalibrationFailed as error:
             for k in range(number):
                 yield GasketAttempt(seed=world.seed, number=k, accepted={}, failure=str(error))
             return
+        x, y, z, _ = part.at
         rng = still.world.generator("trial.gasket")
         for k in range(number):
-            base = _jittered(part.at, rng, BASE_OFF_IN)
+            base = _jittered(part.at, rng, BASE_OFF)
             put_base(still, base, pins=True)
             view = look(still.camera, model, CLOSE_UP, (x, y, z + part.face))
             yield GasketAttempt(seed=world.seed, number=k, accepted=_inspected(still, base, part, view, rng))
@@ -64,6 +71,11 @@ class GasketTrial(Trial[GasketAttempt]):
     def sentence(self, attempt: GasketAttempt) -> str:
         accepted = [case for case, ok in attempt.accepted.items() if ok]
         return attempt.failure or f"accepted: {', '.join(accepted) or 'none'}"
+
+    def outcome(self, attempt: GasketAttempt) -> Literal["right", "missed", "wrong"]:
+        if any(attempt.accepted.get(case) for case in REJECTED):
+            return "wrong"
+        return "right" if attempt.accepted.get(RIGHT) else "missed"
 
     def count(self, attempts: Sequence[GasketAttempt]) -> Count:
         tried = len(attempts)
@@ -78,7 +90,9 @@ class GasketTrial(Trial[GasketAttempt]):
 def _inspected(
     still: StillPump, base: Place, part: Part, view: View, rng: np.random.Generator
 ) -> dict[str, bool]:
-    """The eye's verdict on the gasket of each case, all compared with one picture before."""
+    """Whether the gasket of each case is accepted, all compared with one picture before."""
+    from handeye.vision.gasket import inspect
+
     before = still.camera.digitise()
     stand = still.pose("gasket")
     X_WP = planar(*base) @ planar(0.0, 0.0, base_top(), 0.0)
@@ -94,7 +108,7 @@ def _inspected(
 
 def _right(X_WP: Pose, rng: np.random.Generator) -> Pose:
     x, y, z = (float(value) for value in X_WP[:3, 3])
-    return planar(*_jittered((x, y, z, yaw(X_WP)), rng, GASKET_OFF_IN))
+    return planar(*_jittered((x, y, z, yaw(X_WP)), rng, GASKET_OFF))
 
 
 def _shifted(X_WP: Pose, rng: np.random.Generator) -> Pose:
@@ -117,7 +131,12 @@ _CASES: Final[dict[str, Callable[[Pose, np.random.Generator], Pose | None]]] = {
     ABSENT: _absent,
     DOUBLED: _doubled,
 }
-"""Pose of the gasket on a base face at `X_WP`, by case; None: it stays on its stand."""
+"""Where the gasket is put on a base whose face is at a pose; None: it stays on its stand."""
+
+
+def _standard() -> Place:
+    X_WP = standard()
+    return float(X_WP[0, 3]), float(X_WP[1, 3]), float(X_WP[2, 3]), yaw(X_WP)
 
 
 def _jittered(place: Place, rng: np.random.Generator, amount: float) -> Place:

@@ -1,4 +1,4 @@
-"""One trial of a batch, from a seed to the row that is kept of it."""
+"""One trial of a planned program, from a seed to the row that is kept of it."""
 
 import hashlib
 import time
@@ -19,24 +19,15 @@ from handeye.runs.operator import NOBODY, parse_policy
 from handeye.runs.runner import Runner
 from handeye.tasks import task
 from handeye.trials.assembly import Finished, run_plan
-from handeye.trials.batch.contacts import contacts, searches
-from handeye.trials.batch.row import Ended, Row
-from handeye.trials.workers import Answer
+from handeye.trials.folder import Head, head_of
+from handeye.trials.plans.contacts import contacts, searches
+from handeye.trials.plans.row import Row
+from handeye.trials.sweep import Case, Ended, Sweep
 
 SIMULATED_LIMIT_S: Final = 3600.0
 """Of the cell's clock: five times what a whole pump takes."""
 WALL_LIMIT_S: Final = 1800.0
 """Of the host's: thirty times what a whole pump takes."""
-GRACE: Final = 1.1
-"""After so many times the limit, the process is ended from outside: it hangs where nobody asks for the time."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Job:
-    """A trial to be carried out."""
-
-    trial: int
-    world: WorldSpec
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,6 +35,8 @@ class Trial:
     """Carries out trials of one plan."""
 
     plan: Plan
+    world: WorldSpec
+    """What the worlds are but for their seeds."""
     camera: str = "auto"
     without: tuple[Sense, ...] = ()
     """Senses that the program does without."""
@@ -52,25 +45,29 @@ class Trial:
     simulated_limit_s: float = SIMULATED_LIMIT_S
     wall_limit_s: float = WALL_LIMIT_S
 
-    @property
-    def work(self) -> str:
-        """What is done in each, where that is not to assemble."""
-        return ""
+    def head(self, sweep: Sweep[Row]) -> Head:
+        """The head of a batch of them."""
+        return head_of(
+            sweep, self.world, self.plan, self.settings, camera=self.camera, without=self.without,
+            on_stop=self.on_stop, simulated_limit_s=self.simulated_limit_s,
+        )  # fmt: skip
 
-    def __call__(self, job: Job) -> Row:
-        """Carry one out. An exception is a result: of a thousand trials, none is worth the others."""
+    @property
+    def settings(self) -> dict[str, str]:
+        """What else decides them, by what it is called."""
+        return {}
+
+    def __call__(self, case: Case) -> list[Row]:
+        """Carry one out."""
         timer, watch = HostTimer(), Watch(simulated_s=self.simulated_limit_s, wall_s=self.wall_limit_s)
-        row = Row(trial=job.trial, seed=job.world.seed, ended="raised")
+        (number,), world = case.trials, msgspec.structs.replace(self.world, seed=case.seed)
         try:
-            found = self._facts(job.world, timer, watch)
-        except Exception as error:
-            found = (
-                {"raised": f"{type(error).__name__}: {error}"}
-                if watch.ended == "ended"
-                else {"ended": watch.ended}
-            )
-        spent = {"wall_s": round(timer.wall_s, 3), "cpu_s": round(timer.cpu_s, 3)}
-        return msgspec.structs.replace(row, **found, **spent)
+            found = self._facts(world, timer, watch)
+        except Exception:
+            if watch.ended == "ended":
+                raise
+            found = {"ended": watch.ended}
+        return [Row(trial=number, seed=case.seed, condition=case.condition, **found)]  # type: ignore[arg-type]
 
     def _facts(self, world: WorldSpec, timer: HostTimer, watch: "Watch") -> dict[str, object]:
         """What a row tells of a trial that no exception broke off."""
@@ -91,26 +88,6 @@ class Trial:
         }
 
 
-def row_of(answer: Answer[Job, Row]) -> Row:
-    """The row of a trial, also of one that was lost with its process.
-
-    Raises:
-        BaseException: what carried it out, and not the trial itself, has failed.
-    """
-    if answer.error is not None:
-        raise answer.error
-    if answer.value is not None:
-        return msgspec.structs.replace(answer.value, killed=answer.killed)
-    ended: Ended = "wall limit" if answer.overdue else "killed"
-    return Row(
-        trial=answer.item.trial,
-        seed=answer.item.world.seed,
-        ended=ended,
-        killed=answer.killed,
-        wall_s=round(answer.wall_s, 3),
-    )
-
-
 def events_digest(events: list[AnyEvent]) -> str:
     """Sixteen hexadecimal digits that stand for what happened."""
     digest = hashlib.sha256()
@@ -125,7 +102,7 @@ def facts(done: Finished, ended: Ended) -> dict[str, object]:
     return {
         "ended": ended,
         "result": done.result,
-        "line": None if done.result.completed or not steps else steps[-1].place,
+        "place": None if done.result.completed or not steps else steps[-1].place,
         "events": events_digest(done.runner.events),
     }
 

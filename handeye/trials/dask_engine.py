@@ -7,9 +7,7 @@ from typing import Any, Final
 from handeye.core.errors import Refused
 from handeye.core.extras import MissingExtra
 from handeye.core.versions import code_digest
-from handeye.trials.batch.engines import Engine
-from handeye.trials.batch.row import Row
-from handeye.trials.batch.trial import Job, Trial
+from handeye.trials.sweep import Case, Engine, Guarded
 from handeye.trials.workers import TRIES, Answer
 
 HOST: Final = "127.0.0.1"
@@ -23,12 +21,12 @@ def dask_workers(count: int, scheduler: str | None) -> Engine:
         count: how many are begun here, where there is no scheduler.
         scheduler: address of a scheduler whose workers are there already.
     """
-    return lambda trial, jobs: _answers(trial, jobs, count, scheduler)
+    return lambda work, cases: _answers(work, cases, count, scheduler)
 
 
 def _answers(
-    trial: Trial, jobs: Sequence[Job], count: int, scheduler: str | None
-) -> Generator[Answer[Job, Row], None, None]:
+    work: Guarded[Any], cases: Sequence[Case], count: int, scheduler: str | None
+) -> Generator[Answer[Case, list[Any]], None, None]:
     """What comes of trials, in the order they end.
 
     A trial whose worker is killed is begun once more by the scheduler, which does not tell.
@@ -40,31 +38,31 @@ def _answers(
     try:
         from distributed import KilledWorker, as_completed
     except ImportError:
-        raise MissingExtra("trials assembly --engine dask", "distributed", "cluster") from None
-    if not jobs:
+        raise MissingExtra("--engine dask", "distributed", "cluster") from None
+    if not cases:
         return
     with _client(count, scheduler) as client:
-        there = client.scatter(trial, broadcast=True)  # once to each worker, and not with each trial
+        there = client.scatter(work, broadcast=True)  # once to each worker, and not with each trial
         code = code_digest()
-        given = {client.submit(_tried, there, code, job, pure=False): job for job in jobs}
+        given = {client.submit(_tried, there, code, case, pure=False): case for case in cases}
         for done in as_completed([*given], loop=client.loop):
-            job = given.pop(done)
+            case = given.pop(done)
             try:
-                yield Answer(item=job, value=done.result())
+                yield Answer(item=case, value=done.result())
             except KilledWorker:
-                yield Answer(item=job, killed=TRIES)
+                yield Answer(item=case, killed=TRIES)
             done.release()
 
 
-def _tried(trial: Trial, code: str, job: Job) -> Row:
-    """Carry out a trial on a worker.
+def _tried(work: Guarded[Any], code: str, case: Case) -> list[Any]:
+    """Carry out a case on a worker.
 
     Raises:
         InvalidInput: the worker has another handeye than whoever asks.
     """
     if code_digest() != code:
         raise Refused("a worker has another handeye than this computer; install the same on all")
-    return trial(job)
+    return work(case)
 
 
 @contextmanager

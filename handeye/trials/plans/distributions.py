@@ -7,7 +7,9 @@ import numpy as np
 
 from handeye.core.record import Record
 from handeye.results.result import Check
-from handeye.trials.batch.row import Row
+from handeye.trials.plans.row import Row
+from handeye.trials.rates import rate
+from handeye.trials.sweep import Details
 
 ALIKE: Final = 1e-3
 """Part of their mean by which margins may vary and still count as equal."""
@@ -18,8 +20,8 @@ class StageTime(Record, frozen=True, kw_only=True):
 
     stage: str
     n: int
-    median_s: float
     p5_s: float
+    median_s: float
     p95_s: float
 
 
@@ -50,6 +52,34 @@ class Margin(Record, frozen=True, kw_only=True):
     """Mean margin in standard deviations: the finding with the fewest is the next to fail. None: they hardly vary."""
 
 
+class OperationRate(Record, frozen=True, kw_only=True):
+    """Success of a contact operation: the program went on behind it."""
+
+    operation: str
+    successes: int
+    trials: int
+    low_share: float | None
+    """Wilson's interval, 95 %."""
+    rate_share: float | None
+    high_share: float | None
+    at_least_share: float | None
+    """Exact lower bound, 95 %."""
+
+
+def operations(rows: Sequence[Row]) -> Iterator[OperationRate]:
+    """Success of each contact operation."""
+    done: dict[str, list[bool]] = {}
+    for contact in (contact for row in rows for contact in row.contacts):
+        done.setdefault(contact.operation, []).append(contact.done)
+    for name, each in done.items():
+        sure = rate(sum(each), len(each))
+        low, high = sure.wilson95 or (None, None)
+        yield OperationRate(
+            operation=name, successes=sure.successes, trials=sure.trials, low_share=low, rate_share=sure.rate,
+            high_share=high, at_least_share=sure.p_s,
+        )  # fmt: skip
+
+
 def stage_times(rows: Sequence[Row]) -> Iterator[StageTime]:
     """Times of the stages, in the order of the program."""
     results = [row.result for row in rows if row.result is not None]
@@ -72,6 +102,35 @@ def search_places(rows: Sequence[Row]) -> Iterator[SearchPlaces]:
             at=at, n=len(here), found=sum(end.found for end in here), median=median, p95=p95,
             most=max(end.places for end in here),
         )  # fmt: skip
+
+
+def details(rows: Sequence[Row]) -> tuple[Details, ...]:
+    """Tables of operations, stages, searches and margins."""
+    return (
+        Details(
+            name="operations", title="Contact operations", rows=tuple(operations(rows)),
+            heads=("contact operation", "done", "of", "from", "rate", "to", "at least"),
+            span=("low_share", "rate_share", "high_share"),
+        ),
+        Details(
+            name="stages", title="Arm time by stage", rows=tuple(stage_times(rows)),
+            heads=("stage", "trials", "5 %", "median", "95 %"), span=("p5_s", "median_s", "p95_s"),
+        ),
+        Details(
+            name="searches", title="Searches", rows=tuple(search_places(rows)),
+            heads=("search around", "searches", "found", "places: median", "95 %", "most"),
+        ),
+        margin_details(rows),
+    )  # fmt: skip
+
+
+def margin_details(rows: Sequence[Row]) -> Details:
+    """The table of margins to the limits of the referee: the finding with the fewest deviations is the next to fail."""
+    return Details(
+        name="margins", title="Margins to the referee’s limits, the next to fail first", rows=margins(rows),
+        heads=("margin to the limit of", "unit", "trials", "median", "5 %", "worst", "seed", "deviations"),
+        span=("worst", "p5", "median"),
+    )  # fmt: skip
 
 
 def margins(rows: Sequence[Row]) -> tuple[Margin, ...]:

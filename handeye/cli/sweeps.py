@@ -1,0 +1,254 @@
+"""What commands that carry out a sweep have in common: options, progress, the folder, and what is told at the end."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
+
+from cyclopts import Parameter
+
+from handeye.cli.common import Json, WholeNumber, note, notes, positive, put_json, say, screen
+from handeye.cli.tally import Tally
+from handeye.core.errors import BadArgument
+from handeye.core.files import check_place, write_over
+from handeye.core.host_time import HostTimer
+from handeye.core.plain_text import counted
+
+if TYPE_CHECKING:
+    from handeye.planfile.plan import Plan
+    from handeye.trials.figures import Figures
+    from handeye.trials.folder import Head
+    from handeye.trials.sweep import Case, Engine, Sweep, TrialRow, Work
+
+FIGURES, TABLES = "figures.html", "tables"
+"""What a sweep leaves in its folder."""
+ROWS: Final = ".csv"
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SweepOptions:
+    """Options of every sweep but number and seed."""
+
+    jobs: Annotated[WholeNumber, Parameter(name=["--jobs", "--workers"], help="Processes at a time.")] = 2
+    out: Annotated[
+        Path | None,
+        Parameter(
+            help="Folder of the batch: a line is written to it as each trial ends, and the same command goes on where "
+            "it was broken off; a page, figures.html, when all have ended. Or a page (.html) or a table of the trials "
+            "(.csv) alone."
+        ),
+    ] = None
+    tables: Annotated[
+        Literal["csv", "parquet"] | None,
+        Parameter(help="With --out: the figures as tables, in the folder `tables` there."),
+    ] = None
+    json: Json = False
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder in which trials are kept."""
+        return None if self.out is None or self.out.suffix.lower() in (".html", ROWS) else self.out
+
+    def check(self) -> None:
+        """Raises InvalidInput if what is wanted cannot be left when the trials have ended."""
+        from handeye.trace.table_files import check_tables
+        from handeye.trials.page import PAGE
+        from handeye.trials.tables import ROWS as TABLE
+
+        positive(self.jobs, "process")
+        if self.tables is not None and self.folder is None:
+            raise BadArgument("--tables needs --out, the folder that they are left in")
+        if self.out is None:
+            return
+        if self.folder is None:
+            check_place(self.out, PAGE if self.out.suffix.lower() == ".html" else TABLE)
+            return
+        if not self.out.is_dir():
+            return
+        check_place(self.out / FIGURES, PAGE)
+        if self.tables is not None:
+            check_tables(self.out / TABLES, self.tables)
+
+
+ANY: Final = SweepOptions()
+
+
+def carry_out_sweep(
+    sweep: "Sweep[Any]",
+    work: "Work[Any]",
+    cases: "Sequence[Case]",
+    head: "Head",
+    options: SweepOptions,
+    *,
+    title: str,
+    plan: "Plan | None" = None,
+    again: "Callable[[Any], str]" = lambda _: "",
+    engine: "Engine | None" = None,
+    anew: bool = False,
+    more: Mapping[str, object] | None = None,
+) -> int:
+    """Carry out a sweep: keep and tell each trial as it ends, then the figures, even if broken off; the exit code.
+
+    Args:
+        title: of the page.
+        again: the command that carries the trial of a row out again.
+        engine: carries the trials out; by default processes of this computer.
+        anew: trials that are in the folder are dropped.
+        more: what the JSON has besides.
+    """
+    from handeye.trials.figures import figures
+    from handeye.trials.folder import BatchFolder
+    from handeye.trials.sweep import carry_out, processes
+
+    wanted = {(case.condition, number) for case in cases for number in case.trials}
+    folder = None if options.folder is None else BatchFolder(options.folder, sweep, head, plan, anew=anew)
+    timer = HostTimer()
+    rows: dict[tuple[str, int], TrialRow] = {}
+    try:
+        if folder is not None:
+            options.check()
+            rows = {key: row for key, row in folder.rows.items() if key in wanted}
+        with _Progress(sweep, len(wanted), list(rows.values()), timer, json=options.json) as progress:
+
+            def told(row: "TrialRow") -> None:
+                rows[row.key] = row
+                progress.tell(row)
+
+            carry_out(sweep, work, cases, engine or processes(options.jobs), folder=folder, told=told)
+    except BaseException:
+        if folder is not None:
+            note(
+                f"{counted(len(folder.rows), 'trial')} kept in {options.out}; the same command goes on from there"
+            )
+        raise
+    finally:
+        if folder is not None:
+            folder.close()
+        ordered = [
+            rows[case.condition, k] for case in cases for k in case.trials if (case.condition, k) in rows
+        ]
+        found = figures(sweep, ordered, again, wall_s=timer.wall_s)
+        if ordered:
+            _tell(sweep, ordered, found, options, title, more or {})
+    return found.exit_code
+
+
+def _tell(
+    sweep: "Sweep[Any]",
+    rows: "Sequence[Any]",
+    found: "Figures",
+    options: SweepOptions,
+    title: str,
+    more: Mapping[str, object],
+) -> None:
+    """Leave page and tables, and tell the figures."""
+    from handeye.trace.table_files import csv_bytes, write_tables
+    from handeye.trials.page import PAGE, sweep_page
+    from handeye.trials.tables import ROWS as TABLE
+    from handeye.trials.tables import tables, trials
+
+    if options.out is not None and options.out.suffix.lower() == ROWS:
+        write_over(options.out, csv_bytes(trials(sweep, rows)), TABLE)
+    elif options.out is not None:
+        page = options.out if options.folder is None else options.out / FIGURES
+        write_over(page, sweep_page(title, sweep, rows, found), PAGE)
+    if options.folder is not None and options.tables is not None:
+        made = tables(sweep, rows, found)
+        write_tables(options.folder / TABLES, made, options.tables, "Figures are in the unit of their column")
+    if options.json:
+        put_json({**json_of(sweep, rows, found), **more})
+        return
+    from handeye.trials.text import page as text
+
+    screen.print(text(sweep, rows, found), soft_wrap=True)
+
+
+def json_of(sweep: "Sweep[Any]", rows: "Sequence[Any]", found: "Figures") -> dict[str, object]:
+    """The figures of a sweep for programs."""
+    from msgspec.structs import asdict
+
+    return asdict(found) | {each.name: each.rows for each in sweep.details(rows)} | dict(sweep.more(rows))
+
+
+class _Progress(Tally):
+    """Trials counted as they end, and told as their kind wants it."""
+
+    def __init__(
+        self, sweep: "Sweep[Any]", total: int, kept: "list[Any]", timer: HostTimer, *, json: bool
+    ) -> None:
+        super().__init__(total, f"{sweep.noun}s", silent=sweep.narrated, kept=len(kept))
+        self._sweep, self._rows, self._timer = sweep, list(kept), timer
+        self._to = notes if json else screen
+        if kept:
+            note(f"{len(kept)} of {counted(total, sweep.noun)} kept from before")
+        for row in kept:
+            self._say(row)
+
+    def tell(self, row: "TrialRow") -> None:
+        """Count a trial that has ended, and tell of it."""
+        self._rows.append(row)
+        with self.aside():
+            self._say(row)
+            if self._sweep.narrated:
+                self._narrate(row)
+        self.one_more()
+
+    def _say(self, row: "TrialRow") -> None:
+        said = "" if self._sweep.sentence is None else self._sweep.sentence(row)
+        for line in said.splitlines():
+            say(line, self._to, whole=line.startswith("  "))
+
+    def _narrate(self, row: "TrialRow") -> None:
+        from handeye.trials.text import told_so_far
+
+        done = len(self._rows)
+        left = self._timer.wall_s / (done - self._kept) * (self._total - done)
+        rate = told_so_far(self._sweep, self._rows)
+        note(
+            f"{done:4} of {self._total}  seed {row.seed:4}  {row.verdict:9}  {rate}, {_left(left)} left"
+            f"{row.detail and '  '}{row.detail}"
+        )
+
+
+def _left(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+
+
+def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
+    """A command that carries out a sweep whose work takes no options: for the table of commands of a system's entry.
+
+    Args:
+        n: trials where nobody says how many.
+    """
+
+    def command(
+        *,
+        number: Annotated[WholeNumber, Parameter(name="--n", help="How many trials.")] = n,
+        seed: Annotated[
+            WholeNumber, Parameter(help="World of trial 0; trial K has a number greater by K.")
+        ] = 0,
+        options: SweepOptions = ANY,
+    ) -> int:
+        from handeye.core.variation import WorldSpec, checked_seed
+        from handeye.trials.folder import head_of
+        from handeye.trials.sweep import cases
+
+        positive(number, sweep.noun)
+        options.check()
+        if sweep.work is None:
+            raise BadArgument(
+                f"trials of the kind {sweep.kind} take options; they have a command of their own"
+            )
+        world = WorldSpec(seed=checked_seed(seed))
+        title = f"{sweep.kind} in worlds from seed {seed} on"
+        return carry_out_sweep(
+            sweep, sweep.work, cases(seed, range(number)), head_of(sweep, world), options, title=title,
+            again=lambda row: f"handeye trials {sweep.kind} --n 1 --seed {row.seed}",
+        )  # fmt: skip
+
+    told = f"Carry out trials of the kind {sweep.kind} in many worlds and count."
+    command.__doc__ = (
+        f"{told}\n\nExit code 0: no silent failure; 1: every trial broke off; 3: one was silent."
+    )
+    return command

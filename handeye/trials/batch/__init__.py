@@ -1,1 +1,0 @@
-"""Batches: many whole runs of one plan, kept in a folder, and the figures that they make."""

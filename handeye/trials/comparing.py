@@ -1,0 +1,118 @@
+"""Batches of one kind in the same worlds, compared pair by pair."""
+
+from collections.abc import Mapping, Sequence
+from statistics import median
+from typing import Any, NamedTuple
+
+from handeye.core.errors import Refused
+from handeye.core.record import Record
+from handeye.trials.folder import Head
+from handeye.trials.kinds import sweep_of
+from handeye.trials.rates import mcnemar, signed_rank
+from handeye.trials.sweep import Standing, TrialRow
+
+Batch = tuple[Head, tuple[Any, ...]]
+Key = tuple[str, int, int]
+"""Condition, seed, and which of the trials in that world."""
+
+
+class Difference(Record, frozen=True, kw_only=True):
+    """How a measure differs over the pairs of which both trials are right."""
+
+    pairs: int
+    more: float
+    """Median of how much more it is in this batch than in the first."""
+    p: float
+    """Two-sided, of Wilcoxon's signed-rank test: how likely such differences are if both are alike."""
+
+
+class Paired(Record, frozen=True, kw_only=True):
+    """A batch beside the first, over the trials that both have."""
+
+    name: str
+    pairs: int
+    right: int
+    first_right: int
+    """Of the first batch, over the same trials."""
+    only_first: int
+    """Pairs in which only the first was right."""
+    only_this: int
+    p: float
+    """Two-sided, of McNemar's exact test: how likely so uneven a split is if neither is better."""
+    measures: dict[str, Difference]
+    noticed: int
+    """Failures of this batch that were noticed: by an error, a call, a guard."""
+    silent: int
+    """Failures that were taken for a success."""
+    failed: int
+    """Trials of this batch that broke off."""
+
+
+class PairedTrial(NamedTuple):
+    """What a comparison needs to know of a trial."""
+
+    standing: Standing
+    broken_off: bool
+    measures: Mapping[str, float]
+
+
+def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[Paired, ...]:
+    """Each batch beside the first one.
+
+    Raises:
+        InvalidInput: one has no trial in common with the first, is of another kind, or the same seeds are other worlds
+            in it.
+    """
+    first_head = batches[0][0]
+    for name, (head, _) in zip(names, batches, strict=True):
+        if head.kind != first_head.kind:
+            raise Refused(f"{name} holds trials of another kind: {head.kind}, and not {first_head.kind}")
+        if head.world.drawing != first_head.world.drawing:
+            raise Refused(f"{name} was carried out by another version, whose seeds were other worlds")
+    first, *others = (_trials(head, rows) for head, rows in batches)
+    return tuple(beside(name, first, other) for name, other in zip(names[1:], others, strict=True))
+
+
+def _trials(head: Head, rows: Sequence[TrialRow]) -> dict[Key, PairedTrial]:
+    sweep, in_world, found = sweep_of(head.kind), dict[tuple[str, int], int](), dict[Key, PairedTrial]()
+    for row in rows:
+        world = row.condition, row.seed
+        number = in_world[world] = in_world.get(world, -1) + 1
+        standing = sweep.standing(row)
+        if standing != "uncounted":
+            found[*world, number] = PairedTrial(standing, row.broken_off, row.measures)
+    return found
+
+
+def beside(name: str, first: Mapping[Key, PairedTrial], other: Mapping[Key, PairedTrial]) -> Paired:
+    """A batch beside another; raises InvalidInput if they have no trial in common."""
+    pairs = [(first[key], this) for key, this in other.items() if key in first]
+    if not pairs:
+        raise Refused(f"{name} has no seed in common with the first batch; they are compared pair by pair")
+    right = [(one.standing == "right", this.standing == "right") for one, this in pairs]
+    only_first, only_this = right.count((True, False)), right.count((False, True))
+    ended = [this for _, this in pairs if not this.broken_off]
+    return Paired(
+        name=name,
+        pairs=len(pairs),
+        right=sum(this for _, this in right),
+        first_right=sum(one for one, _ in right),
+        only_first=only_first,
+        only_this=only_this,
+        p=mcnemar(only_first, only_this),
+        measures=_differences([pair for pair, both in zip(pairs, right, strict=True) if all(both)]),
+        noticed=sum(this.standing == "wrong" for this in ended),
+        silent=sum(this.standing == "silent" for this in ended),
+        failed=len(pairs) - len(ended),
+    )
+
+
+def _differences(pairs: Sequence[tuple[PairedTrial, PairedTrial]]) -> dict[str, Difference]:
+    found: dict[str, list[float]] = {}
+    for one, this in pairs:
+        for name in one.measures.keys() & this.measures.keys():
+            found.setdefault(name, []).append(this.measures[name] - one.measures[name])
+    return {
+        name: Difference(pairs=len(each), more=median(each), p=signed_rank(each))
+        for name, each in sorted(found.items())
+    }

@@ -1,0 +1,170 @@
+"""Figures of any sweep, from its rows: how often, how sure that is, what was measured, and what failed where."""
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from handeye.core.record import Record
+from handeye.trials.rates import rate
+from handeye.trials.sweep import R, Sweep
+
+
+class Spread(Record, frozen=True, kw_only=True):
+    """How the values of a measure are spread."""
+
+    n: int
+    median: float
+    p95: float
+    """95 % of them are not over it."""
+    most: float
+
+
+class ConditionFigures(Record, frozen=True, kw_only=True):
+    """Trials of one condition."""
+
+    condition: str
+    n: int
+    """Trials that count."""
+    right: int
+    outcomes: dict[str, int]
+    wilson95: tuple[float, float] | None
+    p_s: float | None
+    measures: dict[str, Spread]
+
+
+class Failure(Record, frozen=True, kw_only=True):
+    """A trial that did not end as it should."""
+
+    trial: int
+    seed: int
+    condition: str
+    verdict: str
+    stage: str
+    cause: str
+    """In equal words for equal causes."""
+    detail: str
+    """With figures."""
+    line: str | None
+    """Of the script, where the program stopped."""
+    command: str
+    """Carries it out again."""
+
+
+class Cause(Record, frozen=True, kw_only=True):
+    """Failures in the same stage for the same cause."""
+
+    stage: str
+    cause: str
+    count: int
+    command: str
+    """Carries the first of them out again."""
+
+
+class Figures(Record, frozen=True, kw_only=True):
+    """What the trials of a sweep come to. But for the host's seconds, equal sweeps have equal figures."""
+
+    kind: str
+    n: int
+    """Trials that count."""
+    right: int
+    silent_failures: int
+    """Failures that were taken for a success."""
+    failed: int
+    """Trials that broke off: by an exception, at a limit, or because their process was killed twice."""
+    uncounted: int
+    killed: int
+    """How often the process of a trial was killed."""
+    wilson95: tuple[float, float] | None
+    """Wilson's interval of the probability that a trial is right."""
+    p_s: float | None
+    """Lower bound of the same, 95 % one-sided, exact."""
+    outcomes: dict[str, int]
+    measures: dict[str, Spread]
+    conditions: tuple[ConditionFigures, ...]
+    """Where there are several."""
+    failures: tuple[Failure, ...]
+    causes: tuple[Cause, ...]
+    """Of the failures, the most frequent first."""
+    cpu_s: float
+    """Of all trials."""
+    wall_s: float
+    """Of the host, since this command began."""
+
+    @property
+    def exit_code(self) -> int:
+        """3: a failure was taken for a success; 1: every trial broke off; 0 otherwise."""
+        return 3 if self.silent_failures else int(0 < self.failed == self.n)
+
+
+def figures(
+    sweep: Sweep[R], rows: Sequence[R], command: Callable[[R], str] = lambda _: "", *, wall_s: float = 0.0
+) -> Figures:
+    """The figures of some rows; `command` carries the trial of one out again."""
+    standings = Counter(sweep.standing(row) for row in rows)
+    counted = [row for row in rows if sweep.standing(row) != "uncounted"]
+    failures = tuple(_failure(row, command) for row in counted if sweep.standing(row) != "right")
+    named = dict.fromkeys(row.condition for row in rows)
+    conditions = tuple(
+        _of_condition(sweep, name, [row for row in rows if row.condition == name]) for name in named
+    )
+    total = _of_condition(sweep, "", rows)
+    return Figures(
+        kind=sweep.kind,
+        n=total.n,
+        right=total.right,
+        silent_failures=standings["silent"],
+        failed=sum(row.broken_off for row in rows),
+        uncounted=standings["uncounted"],
+        killed=sum(row.killed for row in rows),
+        wilson95=total.wilson95,
+        p_s=total.p_s,
+        outcomes=total.outcomes,
+        measures=total.measures,
+        conditions=conditions if len(conditions) > 1 else (),
+        failures=failures,
+        causes=_causes(failures),
+        cpu_s=round(sum(row.cpu_s for row in rows), 3),
+        wall_s=round(wall_s, 3),
+    )
+
+
+def _of_condition(sweep: Sweep[R], name: str, rows: Sequence[R]) -> ConditionFigures:
+    counted = [row for row in rows if sweep.standing(row) != "uncounted"]
+    right = sum(sweep.standing(row) == "right" for row in counted)
+    sure = rate(right, len(counted))
+    values: dict[str, list[float]] = {}
+    for row in counted:
+        for measure, value in row.measures.items():
+            values.setdefault(measure, []).append(value)
+    return ConditionFigures(
+        condition=name,
+        n=len(counted),
+        right=right,
+        outcomes=dict(Counter(row.verdict for row in rows).most_common()),
+        wilson95=sure.wilson95,
+        p_s=sure.p_s,
+        measures={measure: spread(each) for measure, each in values.items()},
+    )
+
+
+def spread(values: Sequence[float]) -> Spread:
+    """How values are spread; there is at least one."""
+    median, p95, most = np.percentile(values, [50, 95, 100]).round(6).tolist()
+    return Spread(n=len(values), median=median, p95=p95, most=most)
+
+
+def _failure(row: R, command: Callable[[R], str]) -> Failure:
+    return Failure(
+        trial=row.trial, seed=row.seed, condition=row.condition, verdict=row.verdict, stage=row.stage,
+        cause=row.cause, detail=row.detail, line=row.line, command=command(row),
+    )  # fmt: skip
+
+
+def _causes(failures: Sequence[Failure]) -> tuple[Cause, ...]:
+    counts = Counter((failure.stage, failure.cause) for failure in failures)
+    first = {(failure.stage, failure.cause): failure.command for failure in reversed(failures)}
+    return tuple(
+        Cause(stage=stage, cause=cause, count=count, command=first[stage, cause])
+        for (stage, cause), count in counts.most_common()
+    )

@@ -1,0 +1,190 @@
+"""The folder of a batch: what the batch is, its plan, and a line for each trial that has ended."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final, Generic, Literal, TypeVar
+
+import msgspec
+
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadFile, CannotWrite
+from handeye.core.files import read_whole
+from handeye.core.line_file import LineFile
+from handeye.core.plain_text import counted
+from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
+from handeye.core.versions import code_digest, versions
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import plan_digest, read_plan, write_plan
+from handeye.program.senses import Sense
+from handeye.trials.kinds import sweep_of
+from handeye.trials.sweep import R, Sweep
+
+T = TypeVar("T", bound=Record)
+
+TRIALS: Final = "trials.jsonl"
+PLAN: Final = "plan.json"
+_NAMES: Final = {
+    "kind": "work", "plan": "plan", "world": "worlds", "camera": "camera", "without": "senses",
+    "on_stop": "answers of the operator",
+    "simulated_limit_s": "limit of simulated time", "versions": "versions", "code": "program",
+}  # fmt: skip
+"""What parts of a head are called."""
+
+
+class Head(Record, frozen=True, kw_only=True):
+    """First line of a batch's file: all that decides what its trials come to."""
+
+    format: Literal["handeye batch"] = "handeye batch"
+    version: Literal[2] = 2
+    kind: str
+    world: WorldSpec
+    """The world of trial 0; that of trial k has a seed greater by k, unless trials share worlds."""
+    plan: str = ""
+    """Digest of the plan; empty: there is none."""
+    program: str = ""
+    camera: str = ""
+    without: tuple[Sense, ...] = ()
+    """Senses that the program does without."""
+    on_stop: str = "abort"
+    """How calls of the operator are answered."""
+    simulated_limit_s: float | None = None
+    settings: dict[str, str] = msgspec.field(default_factory=dict)
+    """What else decides the trials, by what it is called."""
+    versions: dict[str, str]
+    code: str
+    """Digest of handeye and its scenes."""
+
+    def differs(self, other: "Head") -> list[str]:
+        """Names of what is not the same in another one."""
+        names = [told for name, told in _NAMES.items() if getattr(self, name) != getattr(other, name)]
+        both = dict.fromkeys([*self.settings, *other.settings])
+        return names + [name for name in both if self.settings.get(name) != other.settings.get(name)]
+
+
+def head_of(
+    sweep: Sweep[Any],
+    world: WorldSpec,
+    plan: Plan | None = None,
+    settings: Mapping[str, str] | None = None,
+    **more: Any,
+) -> Head:
+    """The head of a batch whose trial 0 is in this world; raises InvalidInput if the installation is incomplete."""
+    if plan is not None:
+        more |= {"plan": plan_digest(plan), "program": plan.program.name}
+    more |= {"settings": dict(settings or {}), "versions": versions(), "code": code_digest()}
+    return Head(kind=sweep.kind, world=world, **more)
+
+
+class BatchFolder(Generic[R]):
+    """A folder that trials are written to as they end."""
+
+    def __init__(
+        self, path: Path, sweep: Sweep[R], head: Head, plan: Plan | None = None, *, anew: bool = False
+    ) -> None:
+        """Begin a batch in a folder, or go on with it.
+
+        Args:
+            anew: the trials of a batch that is there are dropped.
+
+        Raises:
+            InvalidInput: another batch or something else is in it, it cannot be written, or another command writes to
+                it now.
+        """
+        self.path, self._sweep = path, sweep
+        _check(path, sweep, head, anew=anew)
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
+        self._file = LineFile(path / TRIALS, "another command", again=not anew)
+        self.rows: dict[tuple[str, int], R] = {}
+        """Trials that have ended, by condition and number."""
+        try:
+            self._begin(head, plan)
+        except BaseException:
+            self._file.close()
+            raise
+
+    def append(self, row: R) -> None:
+        """Keep a trial; raises InvalidInput if there is no room."""
+        self._file.append(msgspec.json.encode(row) + b"\n")
+        self.rows[row.key] = row
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def _begin(self, head: Head, plan: Plan | None) -> None:
+        empty = (self.path / TRIALS).stat().st_size == 0
+        if plan is not None and (empty or not (self.path / PLAN).exists()):
+            write_plan(self.path / PLAN, plan)
+        if empty:
+            self._file.append(msgspec.json.encode(head) + b"\n")
+            return
+        self.rows = {row.key: row for row in _same_batch(self.path, self._sweep, head)}
+
+
+def read_batch(path: Path) -> tuple[Head, tuple[Any, ...]]:
+    """What a folder holds: the head, and the trials that have ended, by condition and number.
+
+    Raises:
+        InvalidInput: the folder holds no batch, or one that this handeye cannot read.
+    """
+    file = path / TRIALS
+    if not file.is_file():
+        raise BadFile(f"{path} holds no batch of trials: {quoted(TRIALS)} is not in it")
+    first, *lines = read_whole(file).split(b"\n")[:-1] or [b""]  # a line that was cut short has no end
+    head = _decoded(first, Head, file, 1)
+    return head, _rows(file, head, sweep_of(head.kind), lines)
+
+
+def _rows(file: Path, head: Head, sweep: Sweep[R], lines: list[bytes]) -> tuple[R, ...]:
+    rows = [_decoded(line, sweep.row, file, number) for number, line in enumerate(lines, 2)]
+    for number, row in enumerate(rows, 2):
+        if not sweep.shared_worlds and row.seed != head.world.seed + row.trial:
+            raise BadFile(f"{file}, line {number}, has the seed {row.seed}, which trial {row.trial} has not")
+    return tuple(sorted({row.key: row for row in rows}.values(), key=lambda row: row.key))
+
+
+def _decoded(line: bytes, kind: type[T], file: Path, number: int) -> T:
+    try:
+        return msgspec.json.decode(line, type=kind)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise BadFile(f"{file}, line {number}, is of no batch that this handeye reads: {error}") from None
+
+
+def _same_batch(path: Path, sweep: Sweep[R], head: Head) -> tuple[R, ...]:
+    """The trials of a batch that a folder holds; raises InvalidInput if it is another one."""
+    file = path / TRIALS
+    first, *lines = read_whole(file).split(b"\n")[:-1] or [b""]
+    begun = _decoded(first, Head, file, 1)
+    differs = head.differs(begun)
+    if differs:
+        raise CannotWrite(
+            f"{path} holds {counted(len(lines), 'trial')} of another batch, which differs in "
+            f"{', '.join(differs)}; choose another folder"
+        )
+    if (path / PLAN).exists() and plan_digest(read_plan(path / PLAN)) != head.plan:
+        raise BadFile(f"{path / PLAN} is not the plan of the batch in {path}")
+    return _rows(file, head, sweep, lines)
+
+
+def _check(path: Path, sweep: Sweep[Any], head: Head, *, anew: bool) -> None:
+    """Raises InvalidInput if a folder may not be written, for what is in it; nothing there is touched."""
+    if not path.exists():
+        return
+    if (path / TRIALS).is_file() and (path / TRIALS).stat().st_size:
+        if anew:
+            read_batch(path)
+        else:
+            _same_batch(path, sweep, head)
+    if (path / TRIALS).exists():
+        return
+    if not path.is_dir():
+        raise CannotWrite(f"{path} is not a folder")
+    others = sorted(place.name for place in path.iterdir())
+    if others:
+        raise CannotWrite(
+            f"{path} holds other things ({quoted(others[0])}); choose a new folder, or an empty one"
+        )

@@ -1,0 +1,1 @@
+"""Trials of planned programs: assembled, or assembled and taken apart again, in many worlds."""

@@ -1,0 +1,290 @@
+"""A sweep: trials of one kind in many worlds, each kept as it ends, and all of them counted.
+
+A kind is a value, `Sweep`: what is kept of a trial, how its outcomes count, and which tables are made of many. All else
+is the same for every kind: the folder in which a sweep goes on where it was broken off (`folder`), figures with their
+intervals (`figures`), the terminal (`text`), the page (`page`), tables (`tables`), and comparing two (`comparing`).
+"""
+
+from collections.abc import Callable, Generator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, Any, Final, Generic, Literal, TypeVar
+
+import msgspec
+
+from handeye.core.host_time import HostTimer
+from handeye.core.record import Record
+from handeye.trials.workers import Answer, answers
+
+if TYPE_CHECKING:
+    from handeye.trials.folder import BatchFolder
+
+Ended = Literal["ended", "raised", "killed", "simulated limit", "wall limit", "not built"]
+"""How a trial ended: by itself; by an exception; because its process was killed; at a limit of simulated seconds, or of
+the host's; before there was anything to try it on."""
+Standing = Literal["right", "wrong", "silent", "uncounted"]
+"""How an outcome counts: a success; a failure; a failure that was taken for a success; not at all."""
+
+FAILED: Final = "failed"
+"""Outcome of a trial that broke off."""
+GRACE: Final = 1.1
+"""Multiple of the limit of wall time at which a process is ended from outside: it hangs where nothing looks at it."""
+_CAME_TO_AN_END: Final = ("ended", "not built")
+_BROKEN_OFF: Final[Mapping[str, str]] = {
+    "killed": "its process was killed twice",
+    "simulated limit": "over the limit of simulated time",
+    "wall limit": "over the limit of wall time",
+}
+
+
+class Case(Record, frozen=True, kw_only=True):
+    """Trials that are carried out together, in one world."""
+
+    trials: tuple[int, ...]
+    """Their numbers among the trials of the condition, from 0."""
+    seed: int
+    condition: str = ""
+    """What is tried, where a sweep tries several things."""
+
+
+class TrialRow(Record, frozen=True, kw_only=True):
+    """What is kept of one trial. Equal trials have equal rows, but for host seconds and killed processes."""
+
+    trial: Annotated[int, msgspec.Meta(ge=0)]
+    seed: Annotated[int, msgspec.Meta(ge=0)]
+    condition: str = ""
+    ended: Ended = "ended"
+    raised: str = ""
+    """Type and words of the exception."""
+    killed: Annotated[int, msgspec.Meta(ge=0)] = 0
+    """How often its process was killed."""
+    wall_s: float = 0.0
+    cpu_s: float = 0.0
+
+    @property
+    def key(self) -> tuple[str, int]:
+        """Condition and number, which no other trial of a sweep has."""
+        return self.condition, self.trial
+
+    @property
+    def broken_off(self) -> bool:
+        """It did not come to an end of its own."""
+        return self.ended not in _CAME_TO_AN_END
+
+    @property
+    def verdict(self) -> str:
+        """Its outcome, a key of `Sweep.outcomes`, or `failed`."""
+        return FAILED if self.broken_off else self.outcome
+
+    @property
+    def outcome(self) -> str:
+        """Outcome of a trial that came to an end; each kind says its own."""
+        raise NotImplementedError
+
+    @property
+    def stage(self) -> str:
+        """Where a failed trial failed, if the kind can say."""
+        return ""
+
+    @property
+    def line(self) -> str | None:
+        """Line of the script where the program stopped."""
+        return None
+
+    @property
+    def cause(self) -> str:
+        """Why it failed, in equal words for equal causes."""
+        return self.detail
+
+    @property
+    def detail(self) -> str:
+        """Why it failed, with figures."""
+        return self.raised or _BROKEN_OFF.get(self.ended, "")
+
+    @property
+    def measures(self) -> Mapping[str, float]:
+        """Measured values by name and unit, as `peak, N`; none where there is no value."""
+        return {}
+
+    @property
+    def facts(self) -> Mapping[str, float]:
+        """Values that stand in the table of trials only, likewise."""
+        return {}
+
+
+R = TypeVar("R", bound=TrialRow)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Details:
+    """A table that a kind of sweep adds to its figures: on the terminal, the page, as CSV, and in the JSON."""
+
+    name: str
+    """Of the table, and of its key in the JSON."""
+    title: str
+    rows: Sequence[Record]
+    """Flat records; their fields are the columns. Fields that end in `_share` are shares of 1, in `_s` seconds."""
+    heads: tuple[str, ...]
+    """Names of the columns for people."""
+    span: tuple[str, str, str] | None = None
+    """Fields that are drawn as a bar with a dot in it: its low end, the dot, its high end."""
+
+    def cells(self) -> list[tuple[str, ...]]:
+        """The rows as people read them."""
+        names = self.rows[0].__struct_fields__ if self.rows else ()
+        return [tuple(told(name, getattr(row, name)) for name in names) for row in self.rows]
+
+    def number(self, column: int) -> bool:
+        """A column has numbers."""
+        row = self.rows[0]
+        return not isinstance(getattr(row, row.__struct_fields__[column]), str)
+
+
+def told(name: str, value: object) -> str:
+    """A value of a field as people read it."""
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        return (
+            percent(value)
+            if name.endswith("_share")
+            else f"{value:.1f} s"
+            if name.endswith("_s")
+            else f"{value:.3g}"
+        )
+    return str(value)
+
+
+def percent(*parts: float | None) -> str:
+    """Parts of one as percentages: `88.6 to 99.1 %`."""
+    return f"{' to '.join(f'{100 * part:.1f}' for part in parts if part is not None)} %"
+
+
+def _nothing(_: Sequence[Any]) -> dict[str, object]:
+    return {}
+
+
+def _no_details(_: Sequence[Any]) -> tuple[Details, ...]:
+    return ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sweep(Generic[R]):
+    """A kind of sweep."""
+
+    kind: str
+    """Its folders say so; of several words, the first is what `sweep_of` looks up."""
+    row: type[R]
+    outcomes: Mapping[str, Standing]
+    success: str
+    """The word for trials that are right."""
+    noun: str = "trial"
+    sentence: Callable[[R], str] | None = None
+    """What people are told of each trial as it ends; empty: nothing. None: of failures, when all have ended."""
+    narrated: bool = False
+    """Each trial is told on standard error with the rate so far: it takes long."""
+    summary: Callable[[Sequence[R]], Sequence[str]] = field(default=lambda _: ())
+    """Lines below all others."""
+    more: Callable[[Sequence[R]], Mapping[str, object]] = _nothing
+    """What the JSON of the figures has besides."""
+    details: Callable[[Sequence[R]], Sequence[Details]] = _no_details
+    work: "Callable[[Case], Sequence[R]] | None" = None
+    """Carries out the trials of a case, where that takes no options: such a kind has a command for nothing."""
+    shared_worlds: bool = False
+    """Several trials share a world: a seed is not that of trial 0 and the number of the trial."""
+
+    def standing(self, row: R) -> Standing:
+        """How a trial counts."""
+        return "wrong" if row.broken_off else self.outcomes[row.outcome]
+
+
+Work = Callable[[Case], Sequence[R]]
+"""Carries out the trials of a case. It is sent to other processes; what it raises is kept as how the trials ended."""
+
+
+@dataclass(frozen=True, slots=True)
+class Guarded(Generic[R]):
+    """Work whose exceptions are results: of a thousand trials, none is worth the others."""
+
+    work: Work[R]
+    row: type[R]
+
+    def __call__(self, case: Case) -> list[R]:
+        """Carry out the trials of a case."""
+        timer = HostTimer()
+        try:
+            rows = list(self.work(case))
+        except Exception as error:
+            rows = lost(self.row, case, ended="raised", raised=f"{type(error).__name__}: {error}")
+        each = {"wall_s": round(timer.wall_s / len(rows), 3), "cpu_s": round(timer.cpu_s / len(rows), 3)}
+        return [msgspec.structs.replace(row, **each) for row in rows]
+
+
+def lost(row: type[R], case: Case, **fields: object) -> list[R]:
+    """Rows of a case of whose trials nothing is known but how they ended."""
+    return [row(trial=k, seed=case.seed, condition=case.condition, **fields) for k in case.trials]  # type: ignore[arg-type]
+
+
+Engine = Callable[[Guarded[Any], Sequence[Case]], Generator[Answer[Case, list[Any]], None, None]]
+"""Carries out cases in any order; one whose process is lost is tried once more."""
+
+
+def processes(jobs: int, wall_limit_s: float | None = None) -> Engine:
+    """Processes on this computer, kept from case to case; this one, if one is enough and nothing limits its time."""
+
+    def carry_out(
+        work: Guarded[Any], cases: Sequence[Case]
+    ) -> Generator[Answer[Case, list[Any]], None, None]:
+        if wall_limit_s is None and min(jobs, len(cases)) <= 1:
+            return (Answer(item=case, value=work(case)) for case in cases)
+        return answers(work, cases, jobs, limit_s=None if wall_limit_s is None else wall_limit_s * GRACE)
+
+    return carry_out
+
+
+def cases(seed: int, numbers: Sequence[int], conditions: Sequence[str] = ("",)) -> list[Case]:
+    """One trial a world under each condition: trial k in the world of `seed` + k."""
+    return [Case(trials=(k,), seed=seed + k, condition=each) for each in conditions for k in numbers]
+
+
+def carry_out(
+    sweep: Sweep[R],
+    work: Work[R],
+    cases: Sequence[Case],
+    engine: Engine,
+    *,
+    folder: "BatchFolder[R] | None" = None,
+    told: Callable[[R], None] = lambda _: None,
+) -> tuple[R, ...]:
+    """Rows of the trials of some cases, in their order; those that a folder has are not tried again.
+
+    Args:
+        told: called with each new row once it is kept.
+
+    Raises:
+        InvalidInput: a row cannot be written.
+    """
+    rows: dict[tuple[str, int], R] = {} if folder is None else dict(folder.rows)
+    todo = [case for case in cases if any((case.condition, number) not in rows for number in case.trials)]
+    with closing(engine(Guarded(work, sweep.row), todo)) as carried_out:
+        for answer in carried_out:
+            for row in rows_of(sweep, answer):
+                if folder is not None:
+                    folder.append(row)
+                rows[row.key] = row
+                told(row)
+    return tuple(rows[case.condition, number] for case in cases for number in case.trials)
+
+
+def rows_of(sweep: Sweep[R], answer: Answer[Case, list[R]]) -> list[R]:
+    """Rows of a case, also of one that was lost with its process; raises what failed outside of the trials."""
+    if answer.error is not None:
+        raise answer.error
+    if answer.value is not None:
+        return (
+            [msgspec.structs.replace(row, killed=answer.killed) for row in answer.value]
+            if answer.killed
+            else answer.value
+        )
+    ended: Ended = "wall limit" if answer.overdue else "killed"
+    return lost(sweep.row, answer.item, ended=ended, killed=answer.killed, wall_s=round(answer.wall_s, 3))

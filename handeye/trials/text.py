@@ -1,0 +1,172 @@
+"""The figures of a sweep for a terminal."""
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
+from rich.table import Table
+from rich.text import Text
+
+from handeye.core.diagnostics import visible
+from handeye.core.plain_text import counted, printable
+from handeye.trials.comparing import Paired
+from handeye.trials.figures import ConditionFigures, Failure, Figures, Spread
+from handeye.trials.sweep import R, Sweep, percent
+
+NARROWEST: Final = 80
+"""Columns that a table of figures takes: a narrower terminal breaks its lines, and loses nothing of them."""
+
+
+class PlainTable(Table):
+    """A table of words and figures, which may come from a file that nobody trusts."""
+
+    def __init__(self, words: tuple[str, ...], *figures: str) -> None:
+        super().__init__(box=None, pad_edge=False, collapse_padding=True, header_style="bold")
+        for title in words:
+            self.add_column(printable(title), overflow="fold")
+        for title in figures:
+            self.add_column(title, justify="right", no_wrap=True)
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        yield from super().__rich_console__(console, options.update_width(max(options.max_width, NARROWEST)))
+
+    def row(self, *cells: str) -> None:
+        """Add a row."""
+        self.add_row(*map(printable, cells))
+
+
+def page(sweep: Sweep[R], rows: Sequence[R], found: Figures) -> RenderableType:
+    """All that is told of a sweep when it has ended."""
+    tables = [table for table in _tables(sweep, rows, found) if table.rows]
+    spaced = [part for table in tables for part in (table, Text())]
+    lines = [] if sweep.sentence else [*failures(found)]
+    return Group(
+        *spaced,
+        *(Text(visible(line)) for line in [*lines, *sweep.summary(rows)]),
+        Text(verdict(sweep, found)),
+    )
+
+
+def _tables(sweep: Sweep[R], rows: Sequence[R], found: Figures) -> Iterator[PlainTable]:
+    for details in sweep.details(rows):
+        figures = [
+            head for column, head in enumerate(details.heads) if details.rows and details.number(column)
+        ]
+        table = PlainTable(details.heads[: len(details.heads) - len(figures)], *figures)
+        for cells in details.cells():
+            table.row(*cells)
+        yield table
+    several = [each for each in found.conditions if each.n > 1]
+    if several:
+        yield _rates(sweep, found.conditions)
+    yield _measures(several or [found])
+
+
+def _rates(sweep: Sweep[R], conditions: Sequence[ConditionFigures]) -> PlainTable:
+    others = [name for name, standing in sweep.outcomes.items() if standing != "right"]
+    table = PlainTable(("condition",), sweep.success, "Wilson, 95 %", "at least", *others)
+    for each in conditions:
+        counts = (str(each.outcomes.get(name, 0)) for name in others)
+        table.row(each.condition, f"{each.right} of {each.n}", *sure(each.wilson95, each.p_s), *counts)
+    return table
+
+
+def _measures(figures: "Sequence[ConditionFigures | Figures]") -> PlainTable:
+    """How measures are spread: by condition, or of all trials."""
+    table = PlainTable(("measure",), "trials", "median", "95 %", "most")
+    for each in figures:
+        name = f"{each.condition}: " if isinstance(each, ConditionFigures) else ""
+        for measure, found in each.measures.items():
+            table.row(f"{name}{measure}", *_spread(found))
+    return table
+
+
+def _spread(found: Spread) -> tuple[str, ...]:
+    return str(found.n), *(f"{value:.3g}" for value in (found.median, found.p95, found.most))
+
+
+def sure(wilson95: tuple[float, float] | None, p_s: float | None) -> tuple[str, str]:
+    """Interval and lower bound of a rate; empty if nothing was tried."""
+    return ("", "") if wilson95 is None or p_s is None else (percent(*wilson95), percent(p_s))
+
+
+def failures(found: Figures) -> Iterator[str]:
+    """The failures, each with the command that carries it out again, and their causes counted."""
+    for failure in found.failures:
+        yield from _failure(failure)
+    for cause in found.causes:
+        yield f"{cause.count} of {found.n}: {_place(cause.stage)}{cause.cause}"
+
+
+def verdict(sweep: Sweep[R], found: Figures) -> str:
+    """How many trials are right, and how sure that is."""
+    wrong = [name for name, standing in sweep.outcomes.items() if standing == "wrong"]
+    counts = [
+        f"{found.silent_failures} silent failures",
+        *(f"{found.outcomes.get(name, 0)} {name}" for name in wrong),
+        f"{found.failed} broken off",
+    ]
+    text = f"{found.right} of {found.n} {sweep.success}, {', '.join(counts)}"
+    if found.uncounted:
+        names = [name for name, standing in sweep.outcomes.items() if standing == "uncounted"]
+        text += f"\n{' or '.join(names)}, and not counted: {found.uncounted}"
+    interval, least = sure(found.wilson95, found.p_s)
+    return (
+        f"{text}\n{sweep.success}: {interval} (Wilson, 95 %), at least {least} (exact, 95 %)"
+        if interval
+        else text
+    )
+
+
+def _failure(failure: Failure) -> Iterator[str]:
+    place = _place(failure.stage, failure.line)
+    condition = f", {failure.condition}" if failure.condition else ""
+    yield f"trial {failure.trial}, seed {failure.seed}{condition}: {failure.verdict}, {place}{failure.detail}"
+    if failure.command:
+        yield f"  {failure.command}"
+
+
+def _place(stage: str, line: str | None = None) -> str:
+    """Where something failed, with what joins it to why; empty if that is not known."""
+    named = f"“{stage}”" if stage not in ("", "referee") else stage
+    return f"{named}{f', line {line}' if line else ''}: " if named else ""
+
+
+def comparison(first: str, found: Sequence[Paired]) -> RenderableType:
+    """Batches beside the first one: how often they are right, and what differs where both are."""
+    rates = PlainTable(
+        (f"beside {first}",),
+        "right",
+        "first",
+        "only\nfirst",
+        "only\nthis",
+        "p",
+        "noticed",
+        "silent",
+        "broken\noff",
+    )
+    measures = PlainTable(("where both are right", "measure"), "pairs", "more", "p")
+    for each in found:
+        counts = each.first_right, each.only_first, each.only_this
+        rates.row(each.name, f"{each.right} of {each.pairs}", *map(str, counts), f"{each.p:.2g}",
+                  *map(str, (each.noticed, each.silent, each.failed)))  # fmt: skip
+        for name, difference in each.measures.items():
+            measures.row(
+                each.name, name, str(difference.pairs), f"{difference.more:+.3g}", f"{difference.p:.2g}"
+            )
+    return Group(rates, Text(), measures) if measures.rows else rates
+
+
+def told_so_far(sweep: Sweep[R], rows: Sequence[R]) -> str:
+    """The rate of the trials that have ended: `3 of 4 assembled (30.1 to 95.4 %)`."""
+    from handeye.trials.rates import rate
+
+    known = [row for row in rows if sweep.standing(row) != "uncounted"]
+    found = rate(sum(sweep.standing(row) == "right" for row in known), len(known))
+    interval = f" ({percent(*found.wilson95)})" if found.wilson95 else ""
+    return f"{found.successes} of {found.trials} {sweep.success}{interval}"
+
+
+def kept(rows: int, out: object) -> str:
+    """What is told where a batch is broken off."""
+    return f"{counted(rows, 'trial')} kept in {out}; the same command goes on from there"
