@@ -169,9 +169,7 @@ def test_a_run_of_an_older_handeye_is_refused_in_a_sentence(command: Command, ta
     Path("old.checkpoint").write_bytes(encode(newest))
     code, _, err = command("dismantle", "old.checkpoint")
     assert code == 2
-    assert err == (
-        "handeye: old.checkpoint has no record of how to undo its first steps: an older handeye carried them out\n"
-    )
+    assert err == ("handeye: old.checkpoint has no record of how to undo its first steps\n")
 
 
 def test_a_folder_without_a_run_is_refused(command: Command) -> None:

@@ -83,12 +83,10 @@ def cause_sentence(cause: Cause) -> str:
             | c.UndoUnknown()
         ):  # fmt: skip
             return _undo_stopped(cause)
-        case c.Recorded():
-            return cause.words
     assert_never(cause)
 
 
-def inspection_sentence(cause: c.InspectionCause | c.Recorded | None) -> str:
+def inspection_sentence(cause: c.InspectionCause | None) -> str:
     """The result of an inspection; None is a pass."""
     match cause:
         case None:
@@ -97,8 +95,6 @@ def inspection_sentence(cause: c.InspectionCause | c.Recorded | None) -> str:
             return "no gasket: the picture after shows nothing new where it should be"
         case c.GasketWrong():
             return "; ".join(f"the {fault.hole} hole {_hole(fault)}" for fault in cause.faults)
-        case c.Recorded():
-            return cause.words
     assert_never(cause)
 
 

@@ -322,12 +322,6 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
     """The record that the step left for its reversal cannot be used."""
 
 
-class Recorded(CauseRecord, frozen=True, kw_only=True):
-    """A cause recorded as words by an older version."""
-
-    words: str
-
-
 SightCause = NoOutline | OutsidePicture | NoHoles
 """Causes for which vision does not find a part."""
 SenseCause = (
@@ -339,5 +333,5 @@ InspectionCause = NoGasket | GasketWrong
 Cause = (
     BeyondArm | JointBehind | HandAstray | HandStuck | GuardsUnmet | TravelOutside | HeightOutside | HeightUnknown
     | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause | InspectionCause
-    | PartAstray | NoSearch | PlacesTried | Looping | UndoCause | Recorded
+    | PartAstray | NoSearch | PlacesTried | Looping | UndoCause
 )  # fmt: skip

@@ -11,12 +11,12 @@ from handeye.core.source import line_name
 from handeye.core.units import Measures
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
-from handeye.program.causes import Cause, InspectionCause, JointName, Recorded
+from handeye.program.causes import Cause, InspectionCause, JointName
 from handeye.program.guards import GuardKind
 from handeye.program.senses import Sense
 
 AskedBy = Literal["person", "program", "job"]
-"""Who has the arm undo what it did; a job does so by itself where its program has ended."""
+"""Who orders a reversal; a job does so by itself when its program has ended."""
 Importance = Literal["debug", "info", "warning", "error"]
 Choice = Literal["proceed", "retry", "skip"]
 """Choices of an operator after a stop: proceed after it, retry the stage, or skip the rest of the stage."""
@@ -56,7 +56,7 @@ class RunStarted(Event, frozen=True, kw_only=True):
     """How pictures are made."""
     versions: dict[str, str]
     replaced: dict[str, str] | UnsetType = UNSET
-    """Parts that code of whoever began the run took the place of, with the names of that code."""
+    """Parts replaced by code of the caller, with the names of that code."""
     without: tuple[Sense, ...] | UnsetType = UNSET
     """Senses that the program did without."""
 
@@ -67,7 +67,7 @@ class RunStarted(Event, frozen=True, kw_only=True):
 
     @property
     def own_parts(self) -> dict[str, str]:
-        """The same; empty where all parts were handeye's own."""
+        """Replaced parts; empty if all were handeye's own."""
         return self.replaced or {}
 
 
@@ -94,7 +94,7 @@ class StepStarted(Event, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def place(self) -> str:
-        """Its line, as people are told: `12`, or `pins.al:12`."""
+        """Its line, as people see it: `12`, or `pins.al:12`."""
         return line_name(self.line, self.file)
 
 
@@ -124,11 +124,11 @@ class JointFriction(Record, frozen=True, kw_only=True):
 
 
 class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
-    """The arm has measured its joints and weighed its links before the working phase, in so many simulated seconds."""
+    """The arm has measured its joints and weighed its links before the working phase; `seconds` are simulated."""
 
     joints: tuple[JointFriction, ...]
     links: tuple[float, ...] = ()
-    """How heavy it has found each link to be, over the model's; none in recordings that do not tell."""
+    """Weight of each link as found, over the model's; empty: not weighed."""
     seconds: float
 
 
@@ -157,7 +157,7 @@ class ErrorRaised(Event, frozen=True, kw_only=True):
 
 
 class ErrorTested(Event, frozen=True, kw_only=True):
-    """The program asked for an error; `occurred` is the answer."""
+    """The program tested for an error; `occurred` is the answer."""
 
     number: int
     occurred: bool
@@ -220,8 +220,8 @@ class PartInspected(Event, frozen=True, kw_only=True):
 
     part: str
     ok: bool
-    cause: InspectionCause | Recorded | None
-    """Why it is not as it should be."""
+    cause: InspectionCause | None
+    """Why it is not as it should be; None: it is."""
 
 
 class PartMatched(Event, frozen=True, kw_only=True):
@@ -231,9 +231,9 @@ class PartMatched(Event, frozen=True, kw_only=True):
     ok: bool
     """It does."""
     off: float
-    """By how much it has moved against what is around it, m."""
+    """Displacement against its surroundings, m."""
     unlike: float
-    """Share of it, from 0 to 1, that looks otherwise."""
+    """Share of it, from 0 to 1, that looks different."""
 
 
 class CameraStarted(Event, frozen=True, kw_only=True):
@@ -254,7 +254,7 @@ class CameraBusy(Event, frozen=True, kw_only=True):
 
 
 class OperatorCalled(Event, frozen=True, kw_only=True):
-    """Brakes are set and the operator is told: the program's own message, or of an error, or of what goes wrong."""
+    """Brakes are set and the operator is called, with the program's own message, an error, or a cause."""
 
     message: str = ""
     """The program's own words."""
@@ -270,10 +270,10 @@ class OperatorAnswered(Event, frozen=True, kw_only=True):
 
 
 class ExperimentMade(Event, frozen=True, kw_only=True):
-    """Somebody at the stepper changed what the program remembers (m, rad): the run is no longer the plan's alone."""
+    """A person at the stepper changed what the program remembers (m, rad): the run is no longer the plan's alone."""
 
     what: str
-    """The kind of thing: `saved`, `position`, or what else a system lets people set."""
+    """Its kind: `saved`, `position`, or another that the system has."""
     name: str
     value: tuple[float, ...]
 
@@ -298,11 +298,11 @@ class WentBack(Event, frozen=True, kw_only=True):
 
 
 class UndoOrdered(Event, frozen=True, kw_only=True):
-    """Somebody, the program, or the job has the arm undo what it did, until so many executed steps are left."""
+    """Reversal ordered: the arm undoes executed steps until `left` remain."""
 
     left: int
     halts: bool
-    """The run ends there; otherwise the program can go on."""
+    """The run ends there; else the program can go on."""
     asked_by: AskedBy = "person"
 
 
@@ -317,7 +317,7 @@ class UndoFinished(StepFinished, frozen=True, kw_only=True):
     """A step is undone."""
 
     force: float
-    """Greatest force that the hand has felt meanwhile, N."""
+    """Greatest force on the hand meanwhile, N."""
 
 
 class StageUndone(Event, frozen=True, kw_only=True):
@@ -327,7 +327,7 @@ class StageUndone(Event, frozen=True, kw_only=True):
 
 
 class UndoEnded(Event, frozen=True, kw_only=True):
-    """As much is undone as was asked for; the program would go on with a step."""
+    """The reversal is complete; the program would go on with a step."""
 
     step: int
 

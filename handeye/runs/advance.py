@@ -1,4 +1,4 @@
-"""Going on, step after step, until a run pauses; states worth keeping are handed to the observers."""
+"""Advance a run step by step until it pauses; states worth keeping go to the observers."""
 
 from collections.abc import Callable, Sequence
 from typing import Literal
@@ -43,7 +43,7 @@ def advance(
     """Do `steps` steps, or all that are left, but at least one before a stop condition counts.
 
     Args:
-        asked: tells behind each step whether somebody wants the run to pause there.
+        asked: asked after each step whether to pause there.
     """
     done = 0
     while not runner.ended:
@@ -65,7 +65,7 @@ def advance(
 
 
 def paused_before(runner: Runner, stops: Sequence[AnyStop], done: int = 0) -> Pause | None:
-    """Pause before the next step, if a condition says so; the state is kept then."""
+    """The pause before the next step, if a condition asks for one; the state is kept then."""
     met = next((stop for stop in stops if stop.met_before(runner)), None)
     if met is None:
         return None
@@ -95,7 +95,7 @@ def _step(runner: Runner, stops: Sequence[AnyStop], done: int) -> Pause | None:
 
 
 def ended(runner: Runner, done: int = 0) -> Pause:
-    """Say why a run cannot go on by itself."""
+    """Why a run cannot go on by itself."""
     if runner.trouble is not None:
         return Pause(kind="trouble", done=done, message=runner.trouble)
     call = runner.call
@@ -105,7 +105,7 @@ def ended(runner: Runner, done: int = 0) -> Pause:
 
 
 def keep(runner: Runner, snapshot: Snapshot) -> None:
-    """Hand a state that the run has been in to those who keep states."""
+    """Hand a state of the run to the observers that keep states."""
     checkpoint = runner.checkpoint(snapshot)
     for observer in runner.observers:
         observer.checkpoint(checkpoint)

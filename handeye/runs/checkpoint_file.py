@@ -57,7 +57,7 @@ class Head(Record, frozen=True, kw_only=True):
     time: float | None
     """s on the cell's clock."""
     touched: bool
-    """Somebody had interfered with the run: it is not what the plan alone makes of it."""
+    """People had interfered with the run: it is not what the plan alone makes of it."""
     task: str
     judged: bool = False
     """The referee is to look at what came out."""
@@ -76,8 +76,6 @@ class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):
     happened: Annotated[int, msgspec.Meta(ge=0)]
     cell: CellState | None
     state: msgspec.Raw
-    vision_s: float = 0.0
-    """Written by a handeye of before, and not read: processor time, which no two runs take the same."""
 
 
 class _Body(Record, frozen=True, kw_only=True):
@@ -87,7 +85,7 @@ class _Body(Record, frozen=True, kw_only=True):
 
 
 def head_of(checkpoint: Checkpoint) -> Head:
-    """Summarize a checkpoint in a line."""
+    """The summary of a checkpoint."""
     setup, snapshot = checkpoint.setup, checkpoint.snapshot
     arm, arm_digest = system_of(setup).machine(setup.plan)
     return Head(
@@ -125,11 +123,7 @@ def encode(checkpoint: Checkpoint) -> bytes:
 
 
 def decode(data: bytes, name: str) -> Checkpoint:
-    """The checkpoint in some bytes.
-
-    Raises:
-        InvalidInput: not a checkpoint, not whole, of another version, or for another arm.
-    """
+    """The checkpoint in some bytes; raises BadFile if it is none, or cannot be used here. `name` is for messages."""
     head, rest = _opened(data, name)
     try:
         body = unpacked(rest, _Body, LARGEST)
@@ -184,11 +178,7 @@ def _on_disk(snapshot: Snapshot) -> _Snapshot:
 
 
 def _in_memory(kept: _Snapshot, kind: System, name: str) -> Snapshot:
-    """The snapshot, its state decoded by the type of its system.
-
-    Raises:
-        InvalidInput: it is no state of that system.
-    """
+    """The snapshot, its state decoded by the type of its system."""
     try:
         state = decoded(kept.state, kind.state)
     except ValueError as error:
@@ -202,35 +192,23 @@ def _in_memory(kept: _Snapshot, kind: System, name: str) -> Snapshot:
 
 
 def _time(snapshot: Snapshot, events: Sequence[AnyEvent]) -> float:
-    """When a snapshot was taken, s: by the clock of the cell, or of the last event where there is none."""
+    """The time of a snapshot, s: by the cell's clock, or by the last event where there is no cell."""
     time = events[-1].time if snapshot.cell is None else snapshot.cell.time
     return round(time, 6)
 
 
 def decode_head(data: bytes, name: str) -> Head:
-    """Read the summary of a checkpoint; all of it is checked for damage.
-
-    Raises:
-        InvalidInput: as `decode`.
-    """
+    """The summary of a checkpoint; all of it is checked for damage, as in `decode`."""
     return _opened(data, name)[0]
 
 
 def read_checkpoint(path: Path) -> Checkpoint:
-    """The checkpoint in a file.
-
-    Raises:
-        InvalidInput: as `decode`, or the file cannot be read.
-    """
+    """The checkpoint in a file; raises BadFile as `decode`."""
     return decode(read_whole(path), str(path))
 
 
 def read_head(path: Path) -> Head:
-    """Read the summary of the checkpoint in a file.
-
-    Raises:
-        InvalidInput: as `decode`, or the file cannot be read.
-    """
+    """The summary of the checkpoint in a file; raises BadFile as `decode`."""
     return decode_head(read_whole(path), str(path))
 
 
@@ -245,14 +223,10 @@ def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
     words = first.decode("ascii", errors="replace").split(" ")
     if len(words) != 3 or words[0] != MAGIC or not re.fullmatch(r"[1-9][0-9]{0,8}", words[1]):
         raise BadFile(f"{name} is not a checkpoint of handeye")
-    if int(words[1]) < VERSION:
+    if int(words[1]) != VERSION:
         raise BadFile(
-            f"{name} was saved by an older handeye, in checkpoint format version {words[1]}; this one reads version "
-            f"{VERSION}: start the run again, or resume it there"
-        )
-    if int(words[1]) > VERSION:
-        raise BadFile(
-            f"{name} has checkpoint format version {words[1]}; this handeye reads up to version {VERSION}"
+            f"{name} has checkpoint format version {words[1]}; this handeye reads version {VERSION}: start the run "
+            "again, or resume it where it was saved"
         )
     if words[2] != hashlib.sha256(rest).hexdigest():
         raise BadFile(f"{name} is damaged or cut short: its checksum is wrong")

@@ -28,11 +28,7 @@ class CheckpointStore:
         self.folder = folder
 
     def save(self, checkpoint: Checkpoint) -> Path:
-        """Write a checkpoint under a name that sorts by how far the run had come.
-
-        Raises:
-            InvalidInput: the folder cannot be written to.
-        """
+        """Write a checkpoint under a name that sorts by the number of steps done; return the file."""
         path = self.folder / file_name(checkpoint)
         write_checkpoint(path, checkpoint)
         for other in self.folder.glob(f"{checkpoint.position:04}-*{ENDING}"):
@@ -49,11 +45,11 @@ class CheckpointStore:
                 continue
 
     def moved(self) -> Iterator[Path]:
-        """Those, sound or not, of a run that had begun."""
+        """Files, sound or not, of checkpoints of a run that had begun."""
         return (path for path in self.folder.glob(f"*{ENDING}") if _position(path) >= 0)
 
     def damaged(self) -> list[str]:
-        """Faults of those that are not sound, a sentence each."""
+        """A sentence for each file that is not sound."""
         faults = []
         for path in sorted(self.folder.glob(f"*{ENDING}")):
             try:
@@ -63,11 +59,7 @@ class CheckpointStore:
         return faults
 
     def check(self, setup: Setup) -> None:
-        """Make sure that checkpoints of a run with this setup belong here.
-
-        Raises:
-            InvalidInput: there are those of another run.
-        """
+        """Raises BadFile if the checkpoints here belong to a run with another setup."""
         for path, head in self.heads():
             if (head.system, head.plan) != (setup.system, digest_of(setup)):
                 raise BadFile(f"{path} is of another plan ({head.program}, {head.plan})")
@@ -83,11 +75,7 @@ class CheckpointStore:
                 )
 
     def claim(self, setup: Setup) -> None:
-        """Make sure that nothing is lost when a run with this setup keeps its states here.
-
-        Raises:
-            InvalidInput: what is here is of another run, cannot be read, or would not come out again the same.
-        """
+        """Raises InvalidInput if a run with this setup would overwrite what could not be made again."""
         self.check(setup)
         for fault in self.damaged():
             raise CannotWrite(f"{self.folder} holds an unreadable file ({fault}); choose another folder")
@@ -97,7 +85,7 @@ class CheckpointStore:
             )
 
     def newest(self) -> tuple[Checkpoint | None, list[str]]:
-        """The sound checkpoint that is farthest on, and the faults of those that are not sound, a sentence each."""
+        """The sound checkpoint with the most steps done, and a sentence for each file that is not sound."""
         found, faults = None, []
         for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
             try:
@@ -110,10 +98,7 @@ class CheckpointStore:
         return found, faults
 
     def at_or_before(self, position: int) -> Checkpoint | None:
-        """The newest of those that `save` has written that is not farther on than `position` steps.
-
-        The one from before the run does not count.
-        """
+        """The newest checkpoint with at most `position` steps done, except the one from before the run."""
         for path, head in self.heads():
             if head.position >= 0 and 0 <= _position(path) <= position:
                 return read_checkpoint(path)
@@ -122,10 +107,7 @@ class CheckpointStore:
     def for_stage(self, setup: Setup, number: int) -> Checkpoint | None:
         """The checkpoint from which the fewest steps lead to a stage (by number) of a run with this setup.
 
-        Checkpoints from after somebody interfered do not count.
-
-        Raises:
-            InvalidInput: the checkpoints here are of another run.
+        Checkpoints from after people interfered do not count. Raises BadFile if those here are of another run.
         """
         self.check(setup)
         stages = listing_of(setup).stages
@@ -137,7 +119,7 @@ class CheckpointStore:
         return None
 
     def drop_after(self, position: int) -> None:
-        """Remove those that are farther on than `position` steps."""
+        """Remove those with more than `position` steps done."""
         for path in self.folder.glob(f"*{ENDING}"):
             if _position(path) > position:
                 path.unlink(missing_ok=True)
@@ -158,11 +140,7 @@ def file_name(checkpoint: Checkpoint) -> str:
 
 
 def leave(folder: Path, checkpoint: Checkpoint) -> Path:
-    """Write a checkpoint under a name of its own, never over another state; where it now is.
-
-    Raises:
-        InvalidInput: the folder cannot be written to.
-    """
+    """Write a checkpoint under a name of its own, never over another state; return the file."""
     state, setup, name = encode(checkpoint), checkpoint.setup, file_name(checkpoint)
     if _holds(folder / name, state):
         return folder / name

@@ -1,4 +1,4 @@
-"""A work cell at a moment that other programs are shown: a world as it is drawn, or as a kept run has left it."""
+"""The state of a work cell for other programs: a world as it is drawn, or as a run has left it."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +20,7 @@ MomentKind = Literal["drawn", "final", "unfinished"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExportedState:
-    """A cell at a moment."""
+    """A cell at a moment, and what to say about it."""
 
     task: str
     world: WorldSpec
@@ -35,22 +35,15 @@ class ExportedState:
 
 
 def initial_state(world: WorldSpec, name: str = DEFAULT) -> ExportedState:
-    """A world of a task, by its name, before anything happened in it, its cell switched on.
-
-    Raises:
-        InvalidInput: it cannot be drawn here.
-    """
+    """A world of a task, by its name, with the cell switched on and nothing done."""
     return ExportedState(task=name, world=world, moment="drawn", truth=task(name).cell(world, "ray").truth)
 
 
 def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
-    """What a run has left behind, and the faults of what cannot be read of it, a sentence each.
+    """The state a run has left, and a sentence for each checkpoint that cannot be read.
 
     Args:
-        path: the folder of the run, of which the newest sound checkpoint counts; or a checkpoint.
-
-    Raises:
-        InvalidInput: there is no such run, it has not begun, or its cell cannot be built here.
+        path: the folder of the run, whose newest sound checkpoint is taken; or a checkpoint.
     """
     if not path.is_dir():
         return _exhibit(path, read_checkpoint(path)), []
@@ -59,11 +52,7 @@ def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
 
 
 def present_state(runner: Runner) -> ExportedState:
-    """A run as it now is.
-
-    Raises:
-        InvalidInput: its system acts on no cell.
-    """
+    """The present state of a run; raises Refused if its system acts on no cell."""
     if runner.system.cell is None:
         raise Refused("the run is of a system that acts on no cell")
     return _shown(runner.checkpoint(), runner.cell.truth)
@@ -81,7 +70,7 @@ def _exhibit(path: Path, checkpoint: Checkpoint) -> ExportedState:
 
 
 def _shown(checkpoint: Checkpoint, truth: Truth) -> ExportedState:
-    """The truth of a cell in the state of a checkpoint, with what is told of it."""
+    """A cell in the state of a checkpoint."""
     setup = checkpoint.setup
     return ExportedState(
         task=setup.task,

@@ -71,19 +71,16 @@ class RunFolder(Observer):
         self._journal: Journal | None = None
         self._recorder: Recorder | None = None
         self.spent: HostSeconds | None = None
-        """What earlier sessions of the run have cost the host; None: there were none, or nobody knows."""
+        """Host time of earlier sessions; None: there were none, or it is unknown."""
         self._meter = Meter()
 
     def watch(
         self, runner: Runner, start: Checkpoint, *, again: bool, meter: Meter | None = None
     ) -> "RunFolder":
-        """Look at a run that begins, or with `again` goes on, from `start`.
+        """Observe a run that begins, or with `again` resumes, from `start`.
 
         Args:
             meter: measures what the run costs the host; by default from now on.
-
-        Raises:
-            InvalidInput: the folder cannot be written to.
         """
         if (self.path / RESULT).is_dir():  # it would be found out when the run is over
             raise CannotWrite(f"{self.path / RESULT} cannot be written: it is a folder")
@@ -98,20 +95,16 @@ class RunFolder(Observer):
 
     @property
     def lost(self) -> int:
-        """Events of a run that goes on which its trace had lost, and with them the motions between them."""
+        """Number of events of a resumed run that its trace had lost, with the motions between them."""
         return 0 if self._recorder is None else self._recorder.lost
 
     @property
     def journal_lost(self) -> bool:
-        """The event list of a run that goes on was lost or another's, and was begun anew."""
+        """True if the event list of a resumed run was lost or another's, and was begun anew."""
         return self._journal is not None and self._journal.lost
 
     def begin(self, start: Checkpoint) -> None:
-        """Let this run take the place of the one that was here.
-
-        Raises:
-            InvalidInput: the folder cannot be written to.
-        """
+        """Let this run replace the one that was here."""
         self.kept.drop_after(-1)
         left = [self.path / name for name in (TRACE, f"{TRACE}.part", HOST, *_outcomes())]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
@@ -163,7 +156,7 @@ class RunFolder(Observer):
             self._journal.undone(events, self._runner.time, "back")
 
     def _goes_on(self) -> None:
-        """What the run came to before is no longer its result."""
+        """Remove the outcome: it is no longer the run's."""
         for name in _outcomes():
             (self.path / name).unlink(missing_ok=True)
 
@@ -180,11 +173,7 @@ class RunFolder(Observer):
         write_host_seconds(self.path / HOST, self._meter.seconds(self._runner))
 
     def check_traced(self) -> None:
-        """Make sure that what happens next can be told.
-
-        Raises:
-            InvalidInput: the trace was broken off, so that nothing may happen after it.
-        """
+        """Raises CannotWrite if the trace was cut off, so that nothing more may happen."""
         if self._recorder is not None and self._recorder.broken:
             raise CannotWrite(
                 f"the trace in {self.path} was cut off; make room, then `handeye resume {self.path}` continues "
@@ -212,13 +201,10 @@ class RunFolder(Observer):
 
 
 def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFolder:
-    """A folder for a run that begins at `start`.
+    """A folder for a run that begins at `start`; raises CannotWrite if something would be lost.
 
     Args:
-        overwrite: the run that is in the folder, if any, is replaced once this one moves.
-
-    Raises:
-        InvalidInput: the folder cannot be had, or holds something that would be lost.
+        overwrite: replace the run that is in the folder once this one moves.
     """
     _refuse_others(path)
     if not overwrite:
@@ -241,10 +227,9 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFo
 
 
 def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
-    """The folder of a run that was interrupted, its newest sound checkpoint, and the faults of what is left out.
+    """The folder of an interrupted run, its newest sound checkpoint, and a sentence for each file left out.
 
-    Raises:
-        InvalidInput: there is none, or it is not of the plan in the folder.
+    Raises BadFile if there is none, or it is not of the plan in the folder.
     """
     folder = RunFolder(path, [])
     if not folder.kept.folder.is_dir():
@@ -285,7 +270,7 @@ def _digest(beside: Path, setup: Setup) -> str:
 
 
 def _holds_run(path: Path) -> bool:
-    """See whether a run has left a record in a folder: it has moved, and not only been set up."""
+    """True if a run in the folder has moved, and was not only set up."""
     records = any((path / name).exists() for name in (EVENTS, TRACE, f"{TRACE}.part", RESULT))
     return records or any(CheckpointStore(path / CHECKPOINTS).moved())
 

@@ -1,4 +1,4 @@
-"""What a run has cost the computers it was on: in all its sessions, beside what happened in it.
+"""Host time of a run in all its sessions, beside what happened in it.
 
 It is kept in a file of its own, so that checkpoints and traces of equal runs are equal to the byte.
 """
@@ -19,7 +19,7 @@ _LARGEST = 10_000
 
 
 class HostSeconds(Record, frozen=True, kw_only=True):
-    """Seconds of the host, summed over the sessions of a run: the processes that began it and took it up."""
+    """Seconds of the host, summed over the sessions of a run: the processes that began and resumed it."""
 
     planning_cpu_s: float = 0.0
     """0: the plan was there already."""
@@ -36,14 +36,14 @@ class HostSeconds(Record, frozen=True, kw_only=True):
 
 @dataclass(slots=True, kw_only=True)
 class Meter:
-    """Measures a session of a run, on top of those before."""
+    """Measures a session of a run, added to the earlier ones."""
 
     timer: HostTimer = field(default_factory=HostTimer)
     planning_cpu_s: float = 0.0
     before: HostSeconds | None = None
 
     def seconds(self, runner: Runner) -> HostSeconds:
-        """All that the run has cost until now."""
+        """Host time of the run so far."""
         before = self.before or HostSeconds(from_step=runner.first, from_clock_s=runner.started)
         return msgspec.structs.replace(
             before,
@@ -55,11 +55,7 @@ class Meter:
 
 
 def read_host_seconds(path: Path) -> HostSeconds | None:
-    """What earlier sessions have cost; None if there is no record of them.
-
-    Raises:
-        InvalidInput: the record cannot be used.
-    """
+    """Host time of earlier sessions; None if there is no record. Raises BadFile if it is not sound."""
     if not path.exists():
         return None
     try:

@@ -1,4 +1,4 @@
-"""Observers that look on while a run goes on. No observer can change a run."""
+"""Observers of a run. None can change it."""
 
 from handeye.execution.servo_period import ServoPeriod
 from handeye.program.events import AnyEvent
@@ -6,7 +6,7 @@ from handeye.runs.snapshot import Checkpoint
 
 
 class Observer:
-    """Looks on; does nothing by itself."""
+    """Base of the observers; does nothing by itself."""
 
     def event(self, event: AnyEvent) -> None:
         """Something happened."""

@@ -1,4 +1,4 @@
-"""Policies for when the operator is called: give up, or try again so many times; asking people is the debugger's."""
+"""Policies for calls of the operator: give up, or retry a number of times. Asking people is the debugger's."""
 
 import re
 from collections.abc import Callable, Sequence
@@ -44,7 +44,7 @@ OperatorChoice = Choice | Literal["abort"] | Back | Unwind
 
 
 class Operator(Protocol):
-    """Somebody, or a rule, to say how to go on."""
+    """A person or a rule that says how to go on."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         """How to go on with a run that called the operator.
@@ -68,9 +68,9 @@ NOBODY: Final = Abort()
 
 @dataclass(frozen=True, slots=True)
 class Retry:
-    """Does each stage again at most so many times, then gives up; so it does where the arm cannot undo something.
+    """Repeats each stage up to `times` times, then gives up; it gives up at once while the arm reverses.
 
-    It counts what has happened in the run, so that a run taken up again goes on as if never broken off.
+    It counts the events of the run, so that a resumed run goes on as if it had never been broken off.
     """
 
     times: int
@@ -90,9 +90,9 @@ class Retry:
 
 @dataclass(frozen=True, slots=True)
 class UnwindOnce:
-    """Has the arm undo what it did, to the beginning of a stage given by its index, once for each stage that fails.
+    """Has the arm undo its steps to the beginning of a stage given by its index, once for each stage that fails.
 
-    Like `Retry` it goes by what has happened in the run.
+    Like `Retry` it goes by the events of the run.
     """
 
     stage: int | None = None
@@ -106,13 +106,13 @@ class UnwindOnce:
 
 
 def undoing(runner: Runner) -> bool:
-    """See whether the last step of a run was the undo of one."""
+    """True if the last step of a run was the undo of one."""
     last = next((event for event in reversed(runner.events) if isinstance(event, StepStarted)), None)
     return isinstance(last, UndoStarted)
 
 
 def _unwound(runner: Runner) -> set[int]:
-    """The stages, by their indices, for whose failure the arm has undone what it did."""
+    """Indices of the stages after whose failure the arm has undone its steps."""
     found, now = set(), -1
     for event in _of_this_part(runner):
         if isinstance(event, StageStarted):
@@ -123,20 +123,16 @@ def _unwound(runner: Runner) -> set[int]:
 
 
 def _of_this_part(runner: Runner) -> Sequence[AnyEvent]:
-    """What has happened since the run was begun, or last ordered to undo all that it was: another part of its job."""
+    """Events since the run began, or since the last order to undo all of it, another part of its job."""
     ordered = (n for n, event in enumerate(runner.events) if isinstance(event, UndoOrdered) and event.halts)
     return runner.events[max(ordered, default=-1) + 1 :]
 
 
 def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:
-    """The operator that `abort`, `retry:N`, `unwind` or `unwind:STAGE` stands for; None for `ask`, which takes
-    somebody to ask.
+    """The operator that `abort`, `retry:N`, `unwind` or `unwind:STAGE` names; None for `ask`, which takes a person.
 
     Args:
-        stages: names of the stages there are.
-
-    Raises:
-        InvalidInput: it is none of these.
+        stages: names of the stages.
     """
     if text == "abort":
         return Abort()
@@ -164,7 +160,7 @@ def attend(
     """Go on until the run pauses in a way that the operator does not settle.
 
     Args:
-        kept: the newest checkpoint on disk at a position or before it, for going back.
+        kept: the newest checkpoint on disk with at most that many steps done, for going back.
     """
     refused: str | None = None
     while True:
@@ -190,11 +186,7 @@ def _carry_out(
     stops: Sequence[AnyStop],
     kept: Callable[[int], Checkpoint | None],
 ) -> Pause | None:
-    """Do what the operator says; the pause after it, if there is one.
-
-    Raises:
-        InvalidInput: no state from so far back was kept, or there is nothing to undo.
-    """
+    """Follow the operator's answer; the pause after it, if any. Raises InvalidInput if it cannot be followed."""
     if isinstance(answer, Back):
         try:
             runner.back_to(beginnings(runner)[answer.stage], kept)
@@ -210,7 +202,7 @@ def _carry_out(
 
 
 def beginnings(runner: Runner) -> dict[int, int]:
-    """Beginnings of stages: steps done when each last began, by index of the stage, the last to begin last."""
+    """Number of steps done when each stage last began, by index of the stage, the last to begin last."""
     found: dict[int, int] = {}
     done = 0
     for event in runner.events:

@@ -1,7 +1,7 @@
-"""Parts of a run that its caller's code takes the place of.
+"""Parts of a run that are replaced by code of the caller.
 
-Code cannot be written into a checkpoint or a trace. What can is that it was there, and its name: a run that was begun
-with such a part goes on only with a part of that name.
+Checkpoints and traces cannot hold code, but its name: a run that was begun with such a part goes on only with a part
+of that name.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ NEEDED: Final = ("search", "camera")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
-    """Parts that decide a run, where they are not handeye's own."""
+    """Replacements for the parts that decide a run; None: handeye's own."""
 
     search: SearchPattern | None = None
     """The places that a search tries."""
@@ -31,11 +31,7 @@ class Parts:
         return {part: name_of(code) for part, code in found.items() if code is not None}
 
     def check(self, begun: dict[str, str]) -> None:
-        """Make sure that a run goes on with the parts it was begun with, given by their names.
-
-        Raises:
-            InvalidInput: it does not.
-        """
+        """Raises Refused if a run was begun with other parts, given by their names."""
         here = self.names
         for part in NEEDED:
             was, now = begun.get(part), here.get(part)
@@ -50,12 +46,12 @@ class Parts:
 
 
 def deciding(names: dict[str, str]) -> dict[str, str]:
-    """Those of some parts that decide a run."""
+    """The replaced parts that decide a run."""
     return {part: names[part] for part in NEEDED if part in names}
 
 
 def named(names: dict[str, str]) -> str:
-    """Tell which parts of a run are not handeye's own."""
+    """The replaced parts that decide a run, in words."""
     return ", ".join(f"{part} {name}" for part, name in deciding(names).items()) or "handeye's own"
 
 

@@ -66,20 +66,14 @@ class Runner:
         parts: Parts = OWN,
         calibrate: bool = False,
     ) -> None:
-        """Build the cell; calibrate its camera, or put it into the state that is kept of that or of the checkpoint.
+        """Build the cell; calibrate its camera, or restore the state kept of that or of the checkpoint.
 
         Args:
-            halt: the panic button, asked at every servo period.
-            viewed: told of each view in which the camera is calibrated: its number, of how many.
-            observers: makes those who look on, once the cell is built and before anything happens in it.
-            parts: parts of the run that are not handeye's own.
+            halt: the panic button, asked every servo period; Halted is raised if it is hit during calibration.
+            viewed: called for each view of a camera calibration with its number and their count.
+            observers: makes the observers, once the cell is built and before anything happens in it.
+            parts: replaced parts of the run.
             calibrate: calibrate the camera anew, whatever is kept of an earlier run.
-
-        Raises:
-            InvalidInput: there is no such task, the plan is for another arm or needs devices that the cell does not
-                have, the camera cannot work as asked, the checkpoint does not fit this scene, or the run was begun with
-                other parts.
-            Halted: the panic button was hit during calibration.
         """
         parts.check(start.setup.replaced)
         self.setup = start.setup
@@ -135,7 +129,7 @@ class Runner:
 
     @property
     def elapsed(self) -> float:
-        """Seconds of that clock since the working phase began: the time that people see."""
+        """Seconds of that clock since the working phase began, which people see."""
         return round(self.time - beginning(self.events), 6)
 
     @property
@@ -168,11 +162,7 @@ class Runner:
 
     @property
     def cell(self) -> SnapshotCell:
-        """The simulated cell.
-
-        Raises:
-            InvalidInput: the system acts on none.
-        """
+        """The simulated cell; raises Refused if the system acts on none."""
         if self.system.cell is None:
             raise Refused(f"the system {self.setup.system} acts on no cell")
         return self.system.cell
@@ -224,7 +214,7 @@ class Runner:
 
     @property
     def undone(self) -> bool:
-        """It has ended where the arm has undone what was asked for."""
+        """True if it has ended where the arm has undone as much as was ordered."""
         last = next((e for e in reversed(self.events) if isinstance(e, StepStarted | UndoEnded)), None)
         return self.at is None and isinstance(last, UndoEnded)
 
@@ -245,11 +235,7 @@ class Runner:
     # -- going on -------------------------------------------------------------------------------------
 
     def step(self) -> None:
-        """Do the next step.
-
-        Raises:
-            Halted: the panic button was hit; the step is not done, and `rollback` takes back what it has done.
-        """
+        """Do the next step. Raises Halted if the panic button is hit; `rollback` then takes back what it did."""
         assert not self.ended
         try:
             self.system.step()
@@ -268,14 +254,11 @@ class Runner:
         self._settle()
 
     def order_reversal(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
-        """From now on each step has the arm undo one that was executed, until so many are left.
+        """From now on each step has the arm undo one that was executed, until `left` are left.
 
         Args:
             halts: the run ends there; otherwise the program can go on.
             asked_by: who wants it.
-
-        Raises:
-            InvalidInput: so much was not executed, or the system cannot undo anything.
         """
         self.require("undo")
         self.system.reverse(Undoing(left=left, halts=halts, asked_by=asked_by))
@@ -286,11 +269,7 @@ class Runner:
         return self.system.finish() and self.trouble is None
 
     def repeat(self, events: Sequence[AnyEvent]) -> None:
-        """Go on until as many events as these have happened, doing what people did in them.
-
-        Raises:
-            InvalidInput: they tell of an experiment that nobody can have made.
-        """
+        """Go on until as many events as these have happened, repeating what people did in them."""
         while len(self.events) < len(events):
             then = events[len(self.events)]
             if isinstance(then, OperatorAnswered) and (self.call is not None or self.undone):
@@ -314,13 +293,10 @@ class Runner:
         self._return_to(self.history[-1])
 
     def back_to(self, position: int, kept: Callable[[int], Checkpoint | None] = lambda _: None) -> None:
-        """Be again where `position` steps were done: from the nearest state there is, and forward from there.
+        """Return to where `position` steps were done: from the nearest kept state, and forward from there.
 
         Args:
-            kept: the newest checkpoint on disk at a position or before it, for what is no longer in memory.
-
-        Raises:
-            InvalidInput: no such position, or no state at it or before it is left.
+            kept: the newest checkpoint on disk with at most that many steps done, for what is no longer in memory.
         """
         if not 0 <= position <= self.position:
             raise BadArgument(f"cannot go back to {position} steps done")
@@ -346,7 +322,7 @@ class Runner:
         return near
 
     def _happened(self, position: int) -> int:
-        """Count of events before the step after a position."""
+        """Number of events before the step after a position."""
         done = 0
         for number, event in enumerate(self.events):
             if done == position and isinstance(event, StageStarted | StepStarted):
@@ -362,21 +338,13 @@ class Runner:
     # -- experiments ----------------------------------------------------------------------------------
 
     def experiment(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        """Give what the system remembers a value of one's own, SI.
-
-        Raises:
-            InvalidInput: there is no such thing, or the value does not fit it.
-        """
+        """Set a value that the system remembers, SI."""
         self.system.set_value(what, name, value)
         self._emit(ExperimentMade(time=self.time, what=what, name=name, value=value))
         self._settle()
 
     def type_line(self, text: str, task: str = "") -> None:
-        """Type a line at the console of the system, for one of its tasks.
-
-        Raises:
-            InvalidInput: the system has no console, or no such task.
-        """
+        """Type a line at the console of the system, for one of its tasks."""
         self.require("console")
         self.system.type_line(text, task)
         self._settle()

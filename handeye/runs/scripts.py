@@ -1,4 +1,4 @@
-"""Scripts: their language, their task, what is taught for them, their plan."""
+"""Scripts of tasks: their language, the positions taught for them, their plans."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -75,13 +75,13 @@ def taught(file: Path, work: Task | None = None) -> Taught:
 
 
 def taught_beside(file: Path) -> Taught:
-    """What the file beside a script teaches, if there is one. Raises InvalidInput if it cannot be used."""
+    """Positions taught by the file beside a script, if there is one."""
     path = beside(file, ".toml")
     return load_taught(path) if path.exists() else Taught()
 
 
 def in_cell(known: Taught, work: Task) -> Taught:
-    """What is taught, and the fixtures of the cell of a task where it says nothing of them."""
+    """Taught positions, with the fixtures of the cell of a task where they say nothing of them."""
     return replace(known, fixtures={**work.fixtures(), **known.fixtures})
 
 

@@ -11,7 +11,7 @@ from handeye.tasks import DEFAULT
 
 
 class Setup(Record, frozen=True, kw_only=True):
-    """Everything that decides a run, as long as nobody interferes."""
+    """Everything that decides a run without interference."""
 
     system: str = PLANNED
     """Name of the system that carries it out."""
@@ -25,7 +25,7 @@ class Setup(Record, frozen=True, kw_only=True):
     limits: dict[str, float] = msgspec.field(default_factory=dict)
     """Limits that findings of the task's referee stand against in the place of its own, in their units."""
     replaced: dict[str, str] = msgspec.field(default_factory=dict)
-    """Parts that code of whoever began the run takes the place of, with the names of that code."""
+    """Parts replaced by code of the caller, with the names of that code."""
     without: tuple[Sense, ...] = ()
     """Senses that the program does without, in the order of `SENSES`."""
 
@@ -36,7 +36,7 @@ class Setup(Record, frozen=True, kw_only=True):
 
 
 def plan_of(setup: Setup) -> Plan:
-    """The plan of motions of a run; raises InvalidInput if its system follows none."""
+    """The plan of motions of a run; raises Refused if its system follows none."""
     if not isinstance(setup.plan, Plan):
         raise refusal(setup.system, "plans")
     return setup.plan

@@ -1,4 +1,4 @@
-"""Conditions that pause a run, as facts: a breakpoint, the end of a stage, so many steps."""
+"""Conditions that pause a run, as facts: a breakpoint, the end of a stage, a number of steps."""
 
 from collections.abc import Sequence
 
@@ -87,24 +87,24 @@ class AfterStage(StopCondition, frozen=True, kw_only=True):
 
 
 class ReversalEnd(StopCondition, frozen=True, kw_only=True, tag="Undone"):
-    """Pause when the arm has undone what was asked for."""
+    """Pause when the arm has undone as much as was ordered."""
 
     def met_before(self, runner: Runner) -> bool:
         return isinstance(runner.events[-1], UndoEnded)
 
 
 class AfterSteps(StopCondition, frozen=True, kw_only=True):
-    """Pause after so many steps; who goes on counts them."""
+    """Pause after a number of steps, which the caller counts."""
 
     count: int
 
 
 class PauseRequest(StopCondition, frozen=True, kw_only=True, tag="Asked"):
-    """Pause because somebody asked for it while the run went on."""
+    """Pause because a person asked for it during the run."""
 
 
 class ByHand(StopCondition, frozen=True, kw_only=True):
-    """Pause because somebody left the run as it was."""
+    """Pause because a person left the run as it was."""
 
 
 class DriverFailure(StopCondition, frozen=True, kw_only=True, tag="BrokenOff"):

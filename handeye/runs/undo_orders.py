@@ -1,4 +1,4 @@
-"""Orders to undo a run that is kept: how far, and the checkpoint that the undoing begins with."""
+"""Orders to reverse a kept run: how far back, and the checkpoint from which the reversal starts."""
 
 from collections.abc import Sequence
 
@@ -17,11 +17,7 @@ from handeye.runs.systems import listing_of, system_of
 
 
 def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) -> int:
-    """Steps that were executed when a stage, given by its index, last began.
-
-    Raises:
-        InvalidInput: it has not begun, or what was executed there is undone.
-    """
+    """Number of steps executed when a stage, given by its index, last began; raises Refused if none are left."""
     steps = listing.steps
     found = [n for n, done in enumerate(executed) if done.enters and steps[done.step].stage == stage]
     if not found:
@@ -34,10 +30,7 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
 
     Args:
         name: of the run, for messages.
-        stage: index of the stage to whose beginning it goes back; None: that of the run.
-
-    Raises:
-        InvalidInput: the run has left nothing to undo, or not all of it.
+        stage: index of the stage to whose beginning the arm goes back; None: to that of the run.
     """
     require(checkpoint.setup.system, "undo", name)
     snapshot, kind, plan = checkpoint.snapshot, system_of(checkpoint.setup), checkpoint.setup.plan
@@ -59,24 +52,18 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
 
 
 def _check_whole(checkpoint: Checkpoint, done: Sequence[ExecutedStep], name: str) -> None:
-    """Raises InvalidInput unless a run has left a record of its first step, or is at its beginning."""
+    """Raises Refused unless the run has a record of its first step, or is at its beginning."""
     first = next((event for event in checkpoint.events if isinstance(event, StepStarted)), None)
     if first is None:
         raise Refused(f"nothing was done in {name}: there is nothing to undo")
     if not done and any(isinstance(event, UndoEnded) for event in checkpoint.events):
         raise Refused(f"{name} is undone already")
     if not done or done[0].step != first.step:
-        raise Refused(
-            f"{name} has no record of how to undo its first steps: an older handeye carried them out"
-        )
+        raise Refused(f"{name} has no record of how to undo its first steps")
 
 
 def done_since(checkpoint: Checkpoint, events: Sequence[AnyEvent]) -> int | None:
-    """Steps that a run of which all these events have happened finished after a checkpoint.
-
-    Returns:
-        None: the checkpoint is not of that run.
-    """
+    """Number of steps finished after a checkpoint, by all events of a run; None if it is not of that run."""
     begun = len(checkpoint.events)
     if tuple(events[:begun]) != checkpoint.events:
         return None
@@ -84,15 +71,9 @@ def done_since(checkpoint: Checkpoint, events: Sequence[AnyEvent]) -> int | None
 
 
 def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> Checkpoint:
-    """The run as it was behind the last step that it finished: what it did since a checkpoint is carried out again.
+    """The run as it was after the last step it finished: the steps since the checkpoint are carried out again.
 
-    Equal runs go the same way to the byte, so that nothing is other than it was.
-
-    Args:
-        name: of the run, for messages.
-
-    Raises:
-        InvalidInput: it goes another way here, or its cell cannot be built.
+    Equal runs take the same course to the byte. Raises BadFile if this one takes another.
     """
     if not done_since(checkpoint, events):
         return checkpoint

@@ -20,11 +20,7 @@ from handeye.trace.reading import Trace, read_trace
 
 
 def setup_of(trace: Trace) -> Setup:
-    """Setup that a recorded run began with; its pictures are made in the way they were.
-
-    Raises:
-        InvalidInput: there is no such system here, or its plan is not sound.
-    """
+    """The setup that a recorded run began with; pictures are made in the same way."""
     begun = trace.head
     plan = system_named(begun.system).decode(trace.plan, f"the plan in {trace.name}")
     camera = "gl" if begun.camera.method == "opengl" else "ray"
@@ -39,7 +35,7 @@ def setup_of(trace: Trace) -> Setup:
 
 
 def settled(events: Sequence[AnyEvent]) -> int:
-    """Count of a run's events that do not depend on when somebody hit the panic button."""
+    """Number of a run's events that do not depend on when the panic button was hit."""
     if not events or not isinstance(events[-1], PanicStopped):
         return len(events)
     steps = [n for n, event in enumerate(events) if isinstance(event, StepStarted)]
@@ -49,10 +45,9 @@ def settled(events: Sequence[AnyEvent]) -> int:
 
 
 def difference(trace: Trace, folder: Path) -> str | None:
-    """Carry out a run again, keeping it in `folder`; the first thing in which it differs, in a sentence.
+    """Carry out a run again, keeping it in `folder`; the first difference, in a sentence.
 
-    Raises:
-        InvalidInput: it cannot be carried out here, or its trace is thinned.
+    Raises Refused if the trace is thinned.
     """
     if trace.thinned:
         raise Refused(f"{trace.name} is thinned: verify the whole trace, which it was made from")

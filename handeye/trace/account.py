@@ -19,8 +19,7 @@ _BENEATH: Final = " " * 20
 
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
-    """The account, line by line: a heading for each stage; the time, the line and the text of each step in the
-    source; beneath it what came of it; and at the end that it is the end, or none."""
+    """The account, line by line: stages; time, line and text of each step, what came of it; and how it ended."""
     teller = _Teller(beginning(events))
     for event in events:
         teller.tell(event)
@@ -31,7 +30,7 @@ def account(events: Sequence[AnyEvent]) -> list[str]:
 
 @dataclass(slots=True)
 class _Teller:
-    """Writes the account as the events come."""
+    """Writes the account from the events."""
 
     _origin: float
     """The cell's clock when the run began, s."""
@@ -43,9 +42,9 @@ class _Teller:
     _camera: float = 0.0
     """Seconds of it that the camera's mechanism took."""
     _shift: Array | None = None
-    """By how much the goal of the step under way is off its planned place."""
+    """Offset of the goal of the present step from its planned place, m."""
     _off: Array = field(default_factory=lambda: np.zeros(3))
-    """How far from its planned end the last motion ended; a straight one begins from there."""
+    """Offset of the end of the last motion from its planned end, m; a straight one begins from there."""
     _tested: str | None = None
     """The answer to a test, until it is known where the program goes on."""
 
@@ -119,7 +118,7 @@ class _Teller:
         return f"in {round(time - self._begun, 3):.1f} s{camera}"
 
     def _ended(self, event: happened.StepFinished) -> None:
-        """Tell where a motion ended, if not where its goal was, nor as far off as the last one."""
+        """Say where a motion ended, if neither where its goal was nor as far off as the last one."""
         if event.planned is None or event.hand is None:
             return
         off = np.subtract(event.hand, event.planned)

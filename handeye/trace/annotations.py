@@ -1,4 +1,4 @@
-"""Marks on a picture as the message that robotics tools draw over the picture, and back again."""
+"""Marks on a picture as the message that robotics tools draw over it, and back again."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -14,7 +14,7 @@ from handeye.vision.marks import Colour, Disc, Line, Loop, Mark, Point
 
 
 def annotations(taken: int, marks: Sequence[Mark]) -> bytes:
-    """Marks on the picture that was taken at a time (ns); the tools put them on the picture of their time."""
+    """Marks on the picture taken at a time (ns), which is how the tools find it."""
     message = ImageAnnotations(timestamp=stamp(taken))
     for mark in marks:
         match mark:
@@ -28,11 +28,7 @@ def annotations(taken: int, marks: Sequence[Mark]) -> bytes:
 
 
 def read_annotations(data: bytes) -> tuple[int, tuple[Mark, ...]]:
-    """The time (ns) at which the picture was taken that some marks are on, and the marks.
-
-    Raises:
-        DecodeError: it is no such message.
-    """
+    """The time (ns) of the picture that marks are on, and the marks; raises DecodeError if there are none."""
     message = ImageAnnotations.FromString(data)
     return message.timestamp.seconds * SECOND + message.timestamp.nanos, tuple(_marks(message))
 

@@ -1,6 +1,6 @@
-"""The channels of a trace: what stands on each, and the schema it is declared with.
+"""The channels of a trace: what each holds, and the schema it is declared with.
 
-The typed ones are those robotics tools show by themselves; `/events` is the lossless copy of each event, for us.
+The typed ones are those that robotics tools show by themselves; `/events` is the lossless copy of each event, for us.
 """
 
 from dataclasses import dataclass, replace
@@ -28,7 +28,7 @@ VERSION: Final = 3
 METADATA: Final = "handeye"
 """Name of the metadata record that says what the file is and what the run depended on."""
 THINNED: Final = "thinned"
-"""What that record also has where the file holds some of the servo periods of the run, not all."""
+"""Key of that record in files that hold some of the servo periods of the run, not all."""
 PLAN: Final = "plan.json"
 """Name of the attachment with the plan."""
 PACKED_PLAN: Final = "plan.json.zst"

@@ -14,13 +14,13 @@ from handeye.trace.trace import Trace
 
 
 def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:
-    """One sentence that names the first thing in which two traces differ; None if they say the same.
+    """One sentence that names the first difference of two traces; None if they say the same.
 
     How the files are packed does not matter, only what is in them.
 
     Args:
-        events: compare no more than so many events, and what came before and between them.
-        unseen: compare of so many events, from the first on, nothing that was recorded beside them.
+        events: compare only that many events, and what came before and between them.
+        unseen: of that many events, from the first on, compare nothing that was recorded beside them.
     """
     if a.plan != b.plan:
         return "the traces are of different plans"
@@ -37,7 +37,7 @@ def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: i
 
 @dataclass(slots=True)
 class _SoFar:
-    """How far the first of two traces has been read."""
+    """Progress through the first of two traces."""
 
     events: int = 0
     periods: int = 0

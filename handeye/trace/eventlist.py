@@ -1,4 +1,4 @@
-"""Event lists on disk (`events.jsonl`), and what of them counts."""
+"""Event lists on disk (`events.jsonl`): one JSON object a line, appended as things happen, never rewritten."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -14,13 +14,10 @@ from handeye.program.events import AnyEvent, WentBack, to_line
 
 
 def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
-    """The events in a file, one JSON object a line, those undone later included.
+    """The events in a file, those undone later included; raises BadFile if a line is cut short or no event.
 
     Args:
-        growing: a last line that is cut short is left out.
-
-    Raises:
-        InvalidInput: it cannot be read, or one of its lines is cut short or not an event.
+        growing: leave out a last line that is cut short.
     """
     text = read_whole(path)
     if growing:
@@ -48,32 +45,25 @@ def effective(events: Iterable[AnyEvent]) -> list[AnyEvent]:
 
 
 class Journal:
-    """Appends events to a file; what is undone stays in it, followed by a line that says so."""
+    """Appends events to a file; what is undone stays in it, followed by a `WentBack`."""
 
     def __init__(self, path: Path, events: Sequence[AnyEvent], *, again: bool) -> None:
-        """Begin a journal with these events, or go on with one.
+        """Begin a journal with these events, or resume one.
 
         A last line that was cut short is dropped; a journal that has lost some of the events is begun anew.
-
-        Raises:
-            InvalidInput: the file cannot be written, is being written by another run, or is no event list.
         """
         self._owed: WentBack | None = None  # there was no room for it
         self._file = LineFile(path, "another run", again=again)
         lacking = effective(read_events(path))[: len(events)] != list(events)
         self.lost = again and lacking
-        """Some of the events were not there, and it was begun anew: what was undone before is told nowhere."""
+        """Some of the events were missing, and it was begun anew, without what was undone before."""
         if lacking:
             self._file.clear()
             for event in events:
                 self.append(event)
 
     def append(self, event: AnyEvent) -> None:
-        """Write one event.
-
-        Raises:
-            InvalidInput: there is no room.
-        """
+        """Write one event; raises CannotWrite if there is no room."""
         owed, self._owed = self._owed, None
         if owed is not None and not isinstance(event, WentBack):
             self._write(owed)

@@ -40,10 +40,10 @@ class Forces:
     axis: Array
     """Unit vector along which, or about which, that guard looks, shape (n, 3); NaN: it looks at no force."""
     value: Array
-    """What it looks at, shape (n,): force along the axis (N), moment about it (N m), torque of the screwdriver (N m),
+    """Its reading, shape (n,): force along the axis (N), moment about it (N m), torque of the screwdriver (N m),
     or finger switches as a mask; NaN: no guard watches, or there is no record of it."""
     limit: Array
-    """What it allows of that, shape (n,); NaN: no guard watches."""
+    """Its limit, shape (n,); NaN: no guard watches."""
 
     def within(self, spans: Sequence[Span]) -> "Forces":
         """The same, in some spans of time."""
@@ -67,11 +67,7 @@ class Forces:
 
 
 def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
-    """Forces as messages about the hand tell them, one for each servo period.
-
-    Raises:
-        DecodeError, ValueError: one of them is no such message, or some are missing.
-    """
+    """Forces by messages about the hand, one a servo period; raises ValueError if some are missing."""
     told = [read_hand(message.data) for message in messages]
     if len(told) != len(times):
         raise ValueError("servo periods and what the hand felt in them differ in number")
@@ -93,7 +89,7 @@ def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
 
 
 def looked_at(guard: NDArray[np.str_], axis: Array, force: Array, moment: Array, sensed: Array) -> Array:
-    """What guards look at, shape (n,): a component of force or moment, or what is sensed."""
+    """Readings of guards, shape (n,): a component of force or moment, or what is sensed."""
     pressing = (guard == GuardKind.FORCE) | (guard == GuardKind.AGAINST)
     components = [(force * axis).sum(axis=1), (moment * axis).sum(axis=1)]
     return np.select([pressing, guard == GuardKind.MOMENT], components, default=sensed)

@@ -1,4 +1,4 @@
-"""What the hand feels and holds in a servo period, as JSON: no typed message of robotics tools has force and moment."""
+"""Force, gap and guards of a servo period as JSON: no typed message of robotics tools has force and moment."""
 
 from typing import Annotated, Any, Final
 
@@ -39,7 +39,7 @@ class GuardMessage(Record, frozen=True, kw_only=True):
 
 
 class HandMessage(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """What the hand feels and holds at the end of a servo period."""
+    """Force, gap and guards of the hand at the end of a servo period."""
 
     estimated: bool
     """Force and moment are estimated; else there are none here."""
@@ -56,7 +56,7 @@ class HandMessage(Record, frozen=True, kw_only=True, omit_defaults=True):
     driver_torque: float
     """Torque of the screwdriver's motor by its current, N m."""
     guards: tuple[GuardMessage, ...] = ()
-    """Those that watch."""
+    """Active guards."""
 
 
 _encoder: Final = msgspec.json.Encoder()
@@ -80,11 +80,7 @@ def hand_message(period: ServoPeriod) -> bytes:
 
 
 def read_hand(data: bytes) -> HandMessage:
-    """The message in some bytes.
-
-    Raises:
-        msgspec.DecodeError: it is none.
-    """
+    """The message in some bytes; raises msgspec.DecodeError if they are none."""
     return _decoder.decode(data)
 
 

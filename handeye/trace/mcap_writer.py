@@ -1,4 +1,4 @@
-"""An MCAP file while it grows: what is in it after a sync survives whatever happens to the program."""
+"""An MCAP file while it grows: after a sync its content survives whatever happens to the program."""
 
 import os
 from collections.abc import Iterator
@@ -54,18 +54,14 @@ class _Sink:
 
 
 class GrowingFile:
-    """A trace being written.
+    """A trace being written; one that cannot be written raises CannotWrite once.
 
     Where its chunks end depends on the messages alone: by `CHUNK`, after the start of the run, and at the end of each
-    stage; so equal messages give equal bytes. Unless somebody syncs within a chunk, which makes the file `uneven`.
+    stage; so equal messages give equal bytes. Unless a sync falls within a chunk, which makes the file `uneven`.
     """
 
     def __init__(self, file: Path) -> None:
-        """Make or empty a file.
-
-        Raises:
-            InvalidInput: it cannot be written.
-        """
+        """Make or empty a file."""
         self.file = file
         self.uneven = False
         """A chunk ends where it would not have ended by itself."""
@@ -111,10 +107,7 @@ class GrowingFile:
         """Write a message; `time` in ns. Nothing is written any more once something could not be.
 
         Args:
-            boundary: a run may be taken up again after it: a chunk ends there.
-
-        Raises:
-            InvalidInput: it cannot be written (said once).
+            boundary: a run may be resumed after it: a chunk ends there.
         """
         if self.broken:
             return
@@ -125,11 +118,7 @@ class GrowingFile:
                 self._end_chunk()
 
     def sync(self) -> None:
-        """Put everything so far on the disk.
-
-        Raises:
-            InvalidInput: it cannot be written (said once).
-        """
+        """Put everything so far on the disk."""
         if self.broken:
             return
         with self._complaining():
@@ -139,11 +128,7 @@ class GrowingFile:
             os.fsync(self._sink.handle)
 
     def finish(self) -> None:
-        """Write the summary: the file is whole.
-
-        Raises:
-            InvalidInput: it cannot be written; what was in the file before stays readable.
-        """
+        """Write the summary: the file is whole. If it cannot be written, what was in the file stays readable."""
         with self._complaining():
             self._writer.finish()
             os.fsync(self._sink.handle)
@@ -155,11 +140,7 @@ class GrowingFile:
         self.released = True
 
     def move(self, file: Path) -> None:
-        """Give the file another name; what has that name already is replaced.
-
-        Raises:
-            InvalidInput: it cannot have it.
-        """
+        """Rename the file; one that has the name already is replaced."""
         with self._complaining():
             os.replace(self.file, file)
         self.file = file

@@ -1,4 +1,4 @@
-"""What a plot of a trace shows: joints, force and events against time, in the units of those who read it."""
+"""Plots of traces: joints, force and events against time, in the units of the task; equal traces give equal files."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -80,9 +80,6 @@ def plot(trace: Trace, stage: str | None = None) -> Plot:
 
     Args:
         stage: a stage alone: its number among those that were carried out, its name, or a piece of it.
-
-    Raises:
-        InvalidInput: there is no such stage, nothing was recorded between the events, or the trace cannot be read.
     """
     begin, end = trace.covers if stage is None else _covers(trace, stage)
     rows = Span(begin, end).rows(trace.times)
@@ -183,40 +180,32 @@ _UNDATED: Final[dict[str, dict[str, Any]]] = {
     ".svg": {"Date": None},
     ".pdf": {"CreationDate": None},
 }
-"""What a file would tell of the moment it was made, and of who made it, left out."""
+"""Metadata that would date a file or name its maker, left out."""
 _STYLE: Final[dict[Any, Any]] = {
     "svg.hashsalt": "handeye",
     "font.size": 8.0,
     "axes.grid": True,
     "grid.alpha": 0.3,
 }
-_WIDE, _HIGH, _EVENTS_HIGH = 11.0, 2.2, 1.1  # in
-_POINTS: Final = 120
-"""Of an inch of a PNG."""
-_APART: Final = 0.025
-"""Of the width: how far apart names of stages are at least."""
+_WIDTH_IN, _PANEL_IN, _EVENTS_IN = 11.0, 2.2, 1.1
+_DPI: Final = 120
+_LEAST_GAP: Final = 0.025
+"""Between names of stages, as a share of the width."""
 _OVER: Final = "data", "axes fraction"
 _BANDS: Final = ("#f2f2f2", "#ffffff")
 """Behind every other stage."""
 
 
 def drawn(plot: Plot, ending: str) -> bytes:
-    """A plot as a file of a kind.
-
-    Args:
-        ending: one of KINDS.
-
-    Raises:
-        MissingExtra: matplotlib is not installed.
-    """
+    """A plot as a file with an ending of KINDS; raises MissingExtra without matplotlib."""
     try:
         import matplotlib
         from matplotlib.figure import Figure
     except ImportError:
         raise MissingExtra("trace plot", "matplotlib", "plot") from None
-    heights = [*(_HIGH for _ in plot.panels), _EVENTS_HIGH]
+    heights = [*(_PANEL_IN for _ in plot.panels), _EVENTS_IN]
     with matplotlib.rc_context(_STYLE):
-        figure = Figure(figsize=(_WIDE, sum(heights)), layout="constrained")
+        figure = Figure(figsize=(_WIDTH_IN, sum(heights)), layout="constrained")
         axes = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
         figure.suptitle(plot.title)
         for axis, panel in zip(axes, plot.panels, strict=False):
@@ -226,7 +215,7 @@ def drawn(plot: Plot, ending: str) -> bytes:
             _draw_stages(axis, plot)
         _name_stages(axes[0], plot)
         file = BytesIO()
-        figure.savefig(file, format=ending[1:], dpi=_POINTS, metadata=_UNDATED[ending])
+        figure.savefig(file, format=ending[1:], dpi=_DPI, metadata=_UNDATED[ending])
     return file.getvalue()
 
 
@@ -254,7 +243,7 @@ def _draw_stages(axis: Any, plot: Plot) -> None:
 
 def _name_stages(axis: Any, plot: Plot) -> None:
     """Write each stage over where it begins, or a little to the right where there is no room."""
-    least, free = (plot.end - plot.begin) * _APART, plot.begin
+    least, free = (plot.end - plot.begin) * _LEAST_GAP, plot.begin
     for stage in plot.stages:
         if plot.begin <= stage.begin < plot.end:
             at = max(stage.begin, free)

@@ -19,20 +19,20 @@ from handeye.trace.messages import GAP, LEVEL
 from handeye.trace.records import RawMessage
 
 Value = bool | int | float | str | None
-"""Of a quantity; None: there is none."""
+"""The value of a quantity; None: there is none."""
 Found = tuple[tuple[str, ...], Value, Value]
 """The name of a quantity, part by part, and two values of it."""
 
 
 class QuantityDifference(Record, frozen=True, kw_only=True):
-    """A quantity of which two runs tell different values."""
+    """A quantity that has different values in two runs."""
 
     quantity: tuple[str, ...]
     """Its name, part by part: `("joint", "boom", "position")`."""
     unit: str = ""
-    """SI unit of its values; empty: they have none, or nobody knows which."""
+    """SI unit of its values; empty: none, or unknown."""
     a: Value
-    """In the first run; None: it tells none."""
+    """In the first run; None: it has none."""
     b: Value
     """In the second."""
 
@@ -45,15 +45,11 @@ class QuantityDifference(Record, frozen=True, kw_only=True):
 def differing(
     a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None = None
 ) -> QuantityDifference | None:
-    """The first quantity of which two messages on a channel tell different values, their times left out; None: none.
+    """The first quantity in which two messages on a channel differ, their times left out; None: none.
 
     Args:
-        a: None: one run has no message there.
-        b: likewise.
-        arm: whose joints they tell of; without it, their units are not known.
-
-    Raises:
-        DecodeError: one of them is not such a message.
+        a: None: one run has no message there; b likewise.
+        arm: whose joints they are about; without it, their units are not known.
     """
     message = a or b
     tell = None if message is None else _TELLERS.get(message.topic)
@@ -68,7 +64,7 @@ def differing(
 
 
 def differing_events(a: AnyEvent, b: AnyEvent) -> QuantityDifference | None:
-    """The first quantity of which two events of a kind tell different values, their times left out; None: none."""
+    """The first quantity in which two events of a kind differ, their times left out; None: none."""
     plain = msgspec.to_builtins(a)
     found = next(_differing(_event(plain), _event(msgspec.to_builtins(b))), None)
     if found is None:
@@ -78,7 +74,7 @@ def differing_events(a: AnyEvent, b: AnyEvent) -> QuantityDifference | None:
 
 
 def _differing(a: Any, b: Any, name: tuple[str, ...] = ()) -> Iterator[Found]:
-    """What differs in two values that are made of dictionaries and lists, in the order of the first."""
+    """Differences of two values made of dictionaries and lists, in the order of the first."""
     if isinstance(a, Mapping) or isinstance(b, Mapping):
         one, other = a or {}, b or {}
         for key in dict.fromkeys((*one, *other)):
@@ -138,7 +134,7 @@ def _mark(mark: Any) -> dict[str, Any]:
 
 
 def _event(event: dict[str, Any]) -> dict[str, Any]:
-    """What an event tells, by the names of the quantities; it is made of dictionaries and lists."""
+    """The values of an event, by the names of the quantities; it is made of dictionaries and lists."""
     if event["event"] == FrictionMeasured.__name__:
         joints = {each["joint"]["name"]: {"friction": each["friction"]} for each in event["joints"]}
         links = {f"{number}": {"weight": weight} for number, weight in enumerate(event.get("links", ()), 1)}

@@ -10,7 +10,7 @@ from handeye.trace.quantities import QuantityDifference, Value
 _SHOWN_IN: Final[Mapping[str, str]] = {
     "m": "in", "m/s": "in/s", "rad": "deg", "rad/s": "deg/s", "N": "oz", "N m": "oz in",
 }  # fmt: skip
-"""The unit that people are told a quantity in, by its SI unit."""
+"""The unit in which people see a quantity, by its SI unit."""
 _DECIMALS: Final = 3
 _EVENTS: Final[Mapping[str, str]] = {
     "Adjusted": "goal that was moved",
@@ -36,7 +36,7 @@ _EVENTS: Final[Mapping[str, str]] = {
     "StageStarted": "beginning of the stage",
     "StepFinished": "end of the step",
 }
-"""Words for the events of which a quantity is told."""
+"""Words for the events that have quantities."""
 
 
 def quantity_text(quantity: tuple[str, ...]) -> str:
@@ -68,7 +68,7 @@ def _is_number(value: Value) -> bool:
 
 
 def _numbers(values: list[Value], unit: str) -> list[str]:
-    """Numbers in the unit that people are told them in; in SI, to the last bit, where nothing else tells them apart."""
+    """Numbers in the unit that people see; in SI, to the last bit, if they look the same otherwise."""
     numbers = [float(value) for value in values if isinstance(value, int | float)]
     if all(isinstance(value, int) for value in values):
         return [f"{value}" for value in values]

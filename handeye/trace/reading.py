@@ -1,4 +1,4 @@
-"""Reads traces from disk. What is not whole, not sound, or not ours is refused with one sentence."""
+"""Reads traces from disk. A file that is not whole, not sound or not ours is refused with one sentence."""
 
 import re
 from collections import Counter
@@ -24,13 +24,10 @@ TRACE: Final = Kind("trace", re.escape(MCAP0_MAGIC), ending=".mcap")
 
 
 def read_trace(path: Path, *, lenient: bool = False) -> Trace:
-    """The trace in a file.
+    """The trace in a file; raises BadFile if it is not whole, sound, of this version, and of its plan.
 
     Args:
         lenient: read what is sound of a trace that was not written to its end.
-
-    Raises:
-        InvalidInput: it cannot be read; not a trace, of another version, cut short, damaged, or its plan is another's.
     """
     return read_trace_as(Trace, path, lenient=lenient)
 
@@ -68,22 +65,13 @@ def read_trace_as(kind: type[AnyTrace], path: Path, *, lenient: bool = False) ->
 
 
 def is_cut_short(path: Path) -> bool:
-    """See whether a file is a trace that was not written to its end.
-
-    Raises:
-        InvalidInput: it cannot be read.
-    """
+    """True if a file is a trace that was not written to its end."""
     data = read_whole(path)
     return is_mcap(data) and not is_ended(data)
 
 
 def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
-    """The plan in a file that says it is a trace of ours, the version of its format, and whether it is thinned.
-
-    Raises:
-        InvalidInput: it does not say so.
-        DamagedTrace: it cannot be read so far.
-    """
+    """The plan in a file that says it is a trace of ours, the version of its format, and whether it is thinned."""
     if not is_mcap(data):
         raise BadFile(f"{path} is not a trace: it is not an MCAP file")
     start = front(data)

@@ -1,4 +1,4 @@
-"""Records a run as it happens: every event, and sixty times a second where everything is."""
+"""Records a run as it happens: every event, and the position of everything sixty times a second."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ def part(path: Path) -> Path:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSource:
-    """What a program looks at, to be asked for when an event tells of it."""
+    """Pictures of a program and marks on them, asked for when an event is about one."""
 
     picture: Callable[[str], Picture]
     """The picture of a name, as it was taken last."""
@@ -46,7 +46,8 @@ class PictureSource:
 class Recorder:
     """Writes the trace of a run: what is undone is taken out again, so that the file holds what counted.
 
-    A run that was broken off any number of times and went on leaves the same bytes as one that never was.
+    A run that was broken off and resumed any number of times leaves the same bytes as one that never was. A trace that
+    cannot be written raises CannotWrite once, and nothing more is written.
     """
 
     def __init__(
@@ -62,13 +63,10 @@ class Recorder:
         """Begin a trace; what another run left unfinished at its place is replaced.
 
         Args:
-            looks: what the program looks at.
+            looks: the pictures of the program.
             plan: the bytes of `plan.json`.
-            old: a trace to go on with, whole or not, and the events it is to begin with; see `resumed`.
+            old: a trace to resume, whole or not, and the events it is to begin with; see `resumed`.
             prefix: those events.
-
-        Raises:
-            InvalidInput: it cannot be written; what was there is still there.
         """
         self._path, self._frames, self._looks, self._plan = path, frames, looks, plan
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []
@@ -90,14 +88,11 @@ class Recorder:
         events: int,
         prefix: Sequence[Event],
     ) -> "Recorder":
-        """Go on with the trace that a broken-off run left, after its event number `events`.
+        """Resume the trace that a broken-off run left, after its event number `events`.
 
         Args:
-            prefix: the events so far. Those of them that the trace has lost are written again, without what happened
-                between them; if it is the trace of another run, or there is none, that is all of them.
-
-        Raises:
-            InvalidInput: it cannot be written; what was there is still there.
+            prefix: the events so far. Those that the trace has lost are written again, without what happened between
+                them; if it is the trace of another run, or there is none, that is all of them.
         """
         prefix = prefix[:events]
         left = [read_whole(file) for file in (part(path), path) if file.exists()]
@@ -114,11 +109,7 @@ class Recorder:
     # -- what happens -------------------------------------------------------------------------------
 
     def event(self, event: Event) -> None:
-        """Write an event; the first is RunStarted. `WentBack` has no place in a trace: see `cut`.
-
-        Raises:
-            InvalidInput: it cannot be written; this is said once, and nothing more is written.
-        """
+        """Write an event; the first is RunStarted. `WentBack` has no place in a trace: see `cut`."""
         if isinstance(event, WentBack):
             return
         self._catch_up()
@@ -141,30 +132,18 @@ class Recorder:
         self._waiting.append((period, self._frames.poses(), self._frames.there()))
 
     def flush(self) -> None:
-        """Everything so far is on the disk.
-
-        Raises:
-            InvalidInput: as `event`.
-        """
+        """Put everything so far on the disk."""
         self._catch_up()
         self._writing.file.sync()
 
     def cut(self, events: int) -> None:
-        """Take out everything after the first `events` events.
-
-        Raises:
-            InvalidInput: it cannot be written; the trace is as it was.
-        """
+        """Take out everything after the first `events` events."""
         if not self._writing.file.broken:
             self._rewrite(events)
         self._waiting.clear()
 
     def close(self) -> None:
-        """Put the trace in its place, whole. One that could not be written to its end stays where it grew.
-
-        Raises:
-            InvalidInput: it cannot be written, and this was not said before.
-        """
+        """Put the trace in its place, whole. One that could not be written to its end stays where it grew."""
         if self._writing.file.released:
             return
         try:
@@ -189,22 +168,14 @@ class Recorder:
             self._writing.frames(period.sensed.time, poses, there)
 
     def _rewrite(self, events: int | None) -> None:
-        """Replace the file by a new one with what it holds up to its event number `events`; None: with everything.
-
-        Raises:
-            InvalidInput: it cannot be written; nothing has changed.
-        """
+        """Replace the file by a new one with its content up to event number `events`; None: with everything."""
         old = self._writing
         old.file.sync()
         self._writing = self._copied(read_whole(old.file.file), events, old.head)
         old.file.release()
 
     def _copied(self, old: bytes, events: int | None, head: RunStarted | None) -> TraceWriter:
-        """Begin a new file with what the bytes of an old one hold up to an event; it takes the old one's place.
-
-        Raises:
-            InvalidInput: it cannot be written; nothing has changed.
-        """
+        """Begin a new file with the content of an old one up to an event; it replaces the old one."""
         file = GrowingFile(self._path.with_name(f".{self._path.name}.new"))
         writing = TraceWriter(file, self._frames, self._plan)
         try:

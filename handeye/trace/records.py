@@ -35,7 +35,7 @@ Kind = TypeVar("Kind", Attachment, Chunk, Metadata)
 
 
 class DamagedTrace(Exception):
-    """A file is not as it was written; the words say what is the matter with it."""
+    """A file is not as it was written; the words say how."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,29 +49,26 @@ class RawMessage:
 
 @dataclass(frozen=True, slots=True)
 class Front:
-    """Head of a trace, before all messages."""
+    """The beginning of a trace, before all messages."""
 
     metadata: dict[str, str]
     plan: bytes | None
 
 
 def is_mcap(data: bytes) -> bool:
-    """See whether a file begins as an MCAP file does."""
+    """True if a file begins as an MCAP file does."""
     return data.startswith(MCAP0_MAGIC)
 
 
 def is_ended(data: bytes) -> bool:
-    """See whether a file ends as an MCAP file does that was written to its end."""
+    """True if a file ends as an MCAP file does that was written to its end."""
     return data.endswith(MCAP0_MAGIC) and len(data) >= 2 * len(MCAP0_MAGIC) + _DATA_END + _FOOTER
 
 
 def check(data: bytes) -> None:
-    """See that an MCAP file is whole, and every bit of it as it was written.
+    """Raises DamagedTrace unless an MCAP file is whole, and every bit of it as it was written.
 
     Two check sums cover everything: one the records up to that of the end of the data, one those of the summary.
-
-    Raises:
-        DamagedTrace: it is not.
     """
     if not is_ended(data):
         raise DamagedTrace("is cut short")
@@ -87,11 +84,7 @@ def check(data: bytes) -> None:
 
 
 def front(data: bytes) -> Front:
-    """The trace's own metadata, empty if it has none, and its plan.
-
-    Raises:
-        DamagedTrace: the plan is packed, and is damaged.
-    """
+    """The trace's own metadata, empty if it has none, and its plan."""
     metadata: dict[str, str] = {}
     plan = None
     for opcode, body in _records(data):
@@ -107,7 +100,7 @@ def front(data: bytes) -> Front:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """What was packed. Raises DamagedTrace if it is damaged, or would fill the memory."""
+    """Unpacked bytes; raises DamagedTrace if they are damaged, or would fill the memory."""
     try:
         if not 0 <= frame_content_size(data) <= LARGEST:
             raise DamagedTrace("is damaged")
@@ -120,10 +113,7 @@ def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]
     """The messages of a file, in the order they were written, as far as whole chunks go.
 
     Args:
-        lenient: end before a damaged chunk, and before whatever follows it, without complaint.
-
-    Raises:
-        DamagedTrace: a chunk is damaged.
+        lenient: end before a damaged chunk, which else raises DamagedTrace.
     """
     topics: dict[int, str] = {}
     for opcode, body in _records(data):
@@ -190,7 +180,7 @@ def until(messages: Iterable[RawMessage], events: int | None) -> Iterator[RawMes
 
 
 def known(data: bytes, events: Sequence[Event]) -> int:
-    """Count of these events, from the first on, that a trace holds as they are here."""
+    """Number of these events, from the first on, that a trace holds as they are here."""
     written = (message.data for message in read_messages(data, lenient=True) if message.topic == EVENTS)
     count = 0
     for event, there in zip(events, written, strict=False):

@@ -1,4 +1,4 @@
-"""A recorded run at any time, without simulating it again."""
+"""A recorded run at any time, without simulating it again: motions, pictures, poses."""
 
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
@@ -31,11 +31,7 @@ class TakenPicture:
 
 
 def read_pictures(messages: Iterable[RawMessage]) -> Iterator[TakenPicture]:
-    """The pictures among messages, in order; the event that names one follows it.
-
-    Raises:
-        DecodeError, ValueError: a message is not what its channel says.
-    """
+    """The pictures among messages, in order; the event that names one follows it."""
     picture: Picture | None = None
     reader = EventReader()
     for message in messages:
@@ -59,7 +55,7 @@ class Motion:
     """Columns of n servo periods of an arm of m joints, by its sensors."""
 
     names: tuple[str, ...]
-    """Of the joints, in order."""
+    """Names of the joints, in order."""
     times: Array
     """Ends of the periods on the cell's clock, shape (n,), s."""
     joints: Array
@@ -73,11 +69,7 @@ class Motion:
 
 
 def read_motion(messages: Iterable[RawMessage]) -> Motion:
-    """The columns of messages about joints.
-
-    Raises:
-        DecodeError, ValueError: one of them is not such a message, or of another arm than the first.
-    """
+    """The columns of messages about joints; raises ValueError if one is of another arm than the first."""
     times, rows, names = [], [], None
     for message in messages:
         joints = JointStates.FromString(message.data).joints
@@ -136,7 +128,7 @@ class Moment:
     """A moment of a run."""
 
     time: float
-    """Of the servo period that is shown, s."""
+    """End of the servo period that is shown, s."""
     joints: Array
     """Positions by the sensors, shape (m,), rad and m."""
     gap: float
@@ -161,7 +153,7 @@ class _Telling:
 
 
 class Replay:
-    """A run made ready to be looked at from any time to any other; it has one servo period at least."""
+    """A run prepared for looking at any time; it has one servo period at least."""
 
     def __init__(
         self,
@@ -170,11 +162,7 @@ class Replay:
         events: Iterable[AnyEvent],
         pictures: Sequence[TakenPicture],
     ) -> None:
-        """Gather where everything was in each servo period.
-
-        Raises:
-            DecodeError: a message about frames is none.
-        """
+        """Gather the poses in each servo period."""
         self._motion, self._pictures = motion, pictures
         self._told = _tellings(events)
         self.names, self.poses = _placed(moves(messages), len(motion.times))
@@ -206,9 +194,6 @@ def moves(messages: Iterable[RawMessage]) -> Iterable[tuple[int, dict[str, Pose7
     """Frames as they were written: the number of the servo period they are of, and the pose of each.
 
     Those before the first servo period come with it.
-
-    Raises:
-        DecodeError: a message about frames is none.
     """
     row = -1
     for message in messages:

@@ -23,14 +23,14 @@ class Figures(msgspec.Struct, kw_only=True):
     seconds: float = 0.0
     """Simulated, s."""
     camera_s: float = 0.0
-    """Of these, what the camera's mechanism took."""
+    """Share of these that the camera's mechanism took, s."""
     steps: int = 0
     motions: int = 0
     """Steps that moved the arm."""
     guards: int = 0
     """Motions that a force or torque ended."""
     errors: dict[int, int] = msgspec.field(default_factory=dict)
-    """How often each error number was raised."""
+    """Count of each error number."""
     places: int = 0
     """Places that searches went on to."""
     pictures: int = 0
@@ -59,7 +59,7 @@ class StageFigures(Figures, kw_only=True):
 
     stage: str
     status: str = BROKEN_OFF
-    """How it ended last: done, stopped, skipped, or broken off."""
+    """Its last end: done, stopped, skipped, or broken off."""
 
 
 class Statistics(msgspec.Struct, kw_only=True):
@@ -68,7 +68,7 @@ class Statistics(msgspec.Struct, kw_only=True):
     stages: list[StageFigures]
     total: Figures
     operator: int
-    """How often the operator was called."""
+    """Calls of the operator."""
     experiments: int
     messages: dict[str, int]
     """On each channel of the trace."""
@@ -119,7 +119,7 @@ def _stages(events: Sequence[AnyEvent]) -> list[StageFigures]:
 
 
 def statistics_table(figures: Statistics, columns: int) -> RenderableType:
-    """The figures for a terminal of so many columns; times in simulated seconds."""
+    """The figures for a terminal of that many columns; times in simulated seconds."""
     table = _table(figures) if columns >= NARROW else _lines(figures)
     told = f"operator called: {figures.operator}; experiments: {figures.experiments}"
     parts: list[RenderableType] = [table, Text(), Text(told)]

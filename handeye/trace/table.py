@@ -1,4 +1,4 @@
-"""A table: named columns with units, which shows itself, and becomes a DataFrame where somebody wants one."""
+"""A table: named columns with units, which shows itself, and converts to a DataFrame."""
 
 from dataclasses import dataclass, replace
 from math import isnan
@@ -43,7 +43,7 @@ class Table:
 
     @property
     def rows(self) -> int:
-        """How many there are."""
+        """Number of rows."""
         return len(self.columns[0].values)
 
     def __len__(self) -> int:

@@ -30,13 +30,10 @@ EXPORT: Final = FolderKind(
 def export_tables(
     path: Path, trace: Callable[[], Trace], kind: Format, *, overwrite: bool
 ) -> tuple[Table, ...]:
-    """Write the tables of a trace to a folder, with a README that tells their columns; the tables that were written.
+    """Write the tables of a trace to a folder, with a README on their columns; the tables that were written.
 
     Args:
-        trace: asked for after the place has been looked at.
-
-    Raises:
-        InvalidInput: they cannot be written there, a package is missing, or the trace cannot be read.
+        trace: called once the folder has been checked.
     """
     check_folder(path, EXPORT, overwrite=overwrite)
     made = tables(trace())
@@ -45,23 +42,16 @@ def export_tables(
 
 
 def check_tables(path: Path, kind: Format) -> None:
-    """Look whether tables may be written to a folder, and can be.
-
-    Raises:
-        InvalidInput: they cannot be written there, or a package is missing.
-    """
+    """Raises CannotWrite or MissingExtra if tables cannot be written to a folder."""
     check_folder(path, EXPORT, overwrite=True)
     _WRITERS[kind](Table(name="", about="", columns=()))
 
 
 def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _SI) -> None:
-    """Write tables to a folder, in the place of tables that are there, with a README that tells their columns.
+    """Write tables to a folder, replacing those that are there, with a README on their columns.
 
     Args:
         units: a sentence on the units of figures.
-
-    Raises:
-        InvalidInput: they cannot be written there, or a package is missing.
     """
     check_folder(path, EXPORT, overwrite=True)
     written = _WRITERS[kind]
@@ -86,11 +76,7 @@ def _cells(column: Column) -> Iterable[object]:
 
 
 def parquet_bytes(table: Table) -> bytes:
-    """A table as Parquet; units and meanings are metadata of its fields.
-
-    Raises:
-        MissingExtra: the package that writes it is not installed.
-    """
+    """A table as Parquet; units and meanings are metadata of its fields."""
     try:
         import pyarrow as pa
         from pyarrow import parquet
@@ -111,7 +97,7 @@ _WRITERS: Final[Mapping[Format, Callable[[Table], bytes]]] = {"csv": csv_bytes, 
 
 
 def _readme(made: Iterable[Table], kind: Format, units: str) -> str:
-    """What the files hold, column by column."""
+    """The content of the files, column by column."""
     return "\n".join([_BEGINS, f"{units}; a cell without a figure is empty.", *_told(made, kind), ""])
 
 

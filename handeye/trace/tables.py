@@ -23,22 +23,14 @@ NO_STEP: Final = -1
 
 
 def table(trace: Trace, name: str) -> Table:
-    """One of the tables of a run, by its name.
-
-    Raises:
-        InvalidInput: there is none such; or as `tables`.
-    """
+    """One of the tables of a run, by its name; raises NoSuchName if there is none."""
     if name not in _TABLES:
         raise NoSuchName(f"there is no table {name!r}; there are {', '.join(_TABLES)}")
     return _TABLES[name](trace)
 
 
 def tables(trace: Trace) -> tuple[Table, ...]:
-    """Joints, forces and events of a run, and what its machines sensed on channels of their own, if any did.
-
-    Raises:
-        InvalidInput: a message is not what its channel says; or there are no forces, and the arm is not known here.
-    """
+    """Joints, forces and events of a run, and the channels of its machines, if they have any."""
     return tuple(make(trace) for name, make in _TABLES.items() if name != "channels" or trace.channels)
 
 

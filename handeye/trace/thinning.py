@@ -1,4 +1,4 @@
-"""The servo periods of a run that are enough to show it: the others lie nearly on the straight way between them."""
+"""Thinned traces: as few servo periods as show the run; the others lie nearly on the straight way between them."""
 
 from collections.abc import Iterator
 from math import radians
@@ -21,10 +21,9 @@ from handeye.trace.records import RawMessage
 from handeye.trace.trace import Trace
 from handeye.trace.writing import BOUNDARIES
 
-PLACE: Final = 2e-3
-"""How far a body may be off where it was, m."""
-TURN: Final = radians(1)
-"""How far it may be turned, rad."""
+PLACE_M: Final = 2e-3
+"""Allowed deviation of a body."""
+TURN_RAD: Final = radians(1)
 FELT: Final = {
     GuardKind.FORCE: 1.0,
     GuardKind.AGAINST: 1.0,
@@ -32,17 +31,17 @@ FELT: Final = {
     GuardKind.TORQUE: 0.04,
     GuardKind.TOUCH: 0.5,
 }
-"""How far what a guard looks at may be off what it was: N, N m, or switches."""
-APART: Final = 10.0
-"""How far two periods may be apart, s, whatever stands still: the second hand of a clock goes on."""
+"""Allowed deviation of the reading of a guard: N, N m, or switches."""
+LONGEST_GAP_S: Final = 10.0
+"""Between two periods, whatever stands still: the second hand of a clock goes on."""
 _NOWHERE: Final = np.array([0, 0, -1e3, 1, 0, 0, 0], dtype=np.float64)
 """Where a body is that is not there: far from where any is."""
 
 
 def kept_periods(trace: Trace) -> Rows:
-    """The servo periods that are enough, by their numbers, in order: of a run that has any.
+    """Numbers of the servo periods that are enough, in order, of a run that has any.
 
-    Those in which a guard begins and ceases to watch are among them, and that in which what it looks at is greatest.
+    Those in which a guard begins and ceases to watch are among them, and that in which its value is greatest.
     """
     times, forces = trace.times, trace.forces()
     offs = [*_bodies(times, trace.poses), _felt(times, forces)]
@@ -51,20 +50,20 @@ def kept_periods(trace: Trace) -> Rows:
         found: Array = np.maximum.reduce([each(first, row, last) for each in offs])
         return found
 
-    now_and_then = np.searchsorted(times, np.arange(times[0], times[-1], APART))
+    now_and_then = np.searchsorted(times, np.arange(times[0], times[-1], LONGEST_GAP_S))
     return needed_rows(off, np.unique([*now_and_then, len(times) - 1, *_watching(forces)]))
 
 
 def _bodies(times: Array, poses: dict[str, Poses]) -> Iterator[Off]:
-    """How far each body that moves is off."""
+    """Deviation of each body that moves."""
     for recorded in poses.values():
         there = np.where(np.isnan(recorded), _NOWHERE, recorded)
         if (there != there[0]).any():
-            yield off_poses(smooth(there), times, place=PLACE, turn=TURN)
+            yield off_poses(smooth(there), times, place=PLACE_M, turn=TURN_RAD)
 
 
 def _felt(times: Array, forces: Forces) -> Off:
-    """How far what guards look at is off."""
+    """Deviation of the values that guards look at."""
     allowed: NDArray[np.float64] = np.full(len(times), np.inf)
     for kind, most in FELT.items():
         allowed[forces.guard == kind] = most
@@ -72,7 +71,7 @@ def _felt(times: Array, forces: Forces) -> Off:
 
 
 def _watching(forces: Forces) -> Iterator[int]:
-    """The first and the last servo period of each guarded motion, and that in which most was felt."""
+    """First and last servo period of each guarded motion, and that in which the value was greatest."""
     watched = np.concatenate([[False], forces.guard != "", [False]])
     borders = np.flatnonzero(watched[1:] != watched[:-1]).reshape(-1, 2).tolist()
     for first, after in borders:
@@ -88,10 +87,7 @@ def write_thinned(trace: Trace, path: Path) -> int:
     """Write a thinned trace of a run; the number of servo periods that it keeps.
 
     Left out are joints, hand and frames of the other periods, and the looks of the bodies, which other programs show.
-    Frames are rounded. All else is as it was, to the byte.
-
-    Raises:
-        InvalidInput: it is thinned already, it holds no motion, or it cannot be written.
+    Frames are rounded. All else is as it was, to the byte. Raises Refused if it is thinned already or holds no motion.
     """
     _check(trace)
     kept = kept_periods(trace)
@@ -134,7 +130,7 @@ def _messages(trace: Trace, kept: frozenset[int]) -> Iterator[RawMessage]:
 
 
 class _Frames:
-    """Where bodies were, as messages that tell of those that have moved since they were told of last."""
+    """Poses as messages about the bodies that have moved since the last one."""
 
     def __init__(self, trace: Trace) -> None:
         self._poses = np.rint(np.stack(list(trace.poses.values()), axis=1) / STEP) * STEP

@@ -1,4 +1,4 @@
-"""Turns what happens into the messages of a trace, in the order in which they stand in it."""
+"""Converts events and servo periods to the messages of a trace, in the order in which they stand in it."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -45,14 +45,14 @@ BOUNDARIES: Final = (RunStarted, StageFinished)
 class TraceWriter:
     """Writes messages to a file.
 
-    All it remembers can be read off the file: whoever copies the messages of one file to another can go on there. What
-    comes with an event (sentence, picture, frames) stands before it, so that a trace can be cut after any event.
+    All it remembers can be read off the file: messages copied from another file can be continued. What comes with an
+    event (sentence, picture, frames) stands before it, so that a trace can be cut after any event.
     """
 
     def __init__(self, file: GrowingFile, frames: Frames, plan: bytes) -> None:
         self.file, self._frames, self._plan = file, frames, plan
         self.events = 0
-        """How many have been written."""
+        """Number of events written."""
         self.head: RunStarted | None = None
         self._reader = EventReader()
         self._place = "", 0  # required file and line of the step under way
@@ -108,8 +108,8 @@ class TraceWriter:
     def frames(self, time: float, poses: Poses, there: Mask, *, anew: bool = False) -> None:
         """Write the frames that moved since they were last written, and those that appeared; `anew`: all there are.
 
-        What lies put away is written anew only: where it lies matters to nobody, but that it does. What is not there
-        any more, as a screw in its thread when it has been driven out, is put away in the trace.
+        Bodies that are put away are written anew only: their place does not matter. A body that is no longer there, as
+        a screw in its thread when it has been driven out, is put away in the trace.
         """
         sent = self._sent
         gone = ~there & ~np.isnan(sent[:, 0])

@@ -151,7 +151,6 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (c.BackingOut(), "the driver has turned a screw out in the step; that is not undone"),
     (c.UndoUnknown(), "what the step has left for undoing it cannot be used"),
-    (c.Recorded(words="as it was said"), "as it was said"),
 ]
 
 
@@ -196,4 +195,3 @@ def test_a_call_of_the_operator_is_told_by_its_message_its_error_or_its_cause() 
 
 def test_an_inspection_without_a_cause_went_well() -> None:
     assert inspection_sentence(None) == "the gasket is on properly"
-    assert inspection_sentence(c.Recorded(words="off")) == "off"

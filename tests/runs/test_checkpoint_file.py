@@ -71,18 +71,8 @@ def test_a_flipped_bit_anywhere_is_refused(data: bytes) -> None:
 
 def test_a_newer_version_is_refused(data: bytes) -> None:
     rest = data.partition(b"\n")[2]
-    with pytest.raises(InvalidInput, match="checkpoint format version 5; this handeye reads up to version 4"):
+    with pytest.raises(InvalidInput, match="checkpoint format version 5; this handeye reads version 4"):
         decode(sealed(rest, version=5), "it")
-
-
-def test_a_checkpoint_of_before_is_refused_with_what_to_do(data: bytes) -> None:
-    rest = data.partition(b"\n")[2]
-    with pytest.raises(
-        InvalidInput,
-        match=r"^it was saved by an older handeye, in checkpoint format version 1; this one reads version 4: "
-        r"start the run again, or resume it there$",
-    ):
-        decode(sealed(rest, version=1), "it")
 
 
 def test_a_version_of_thousands_of_digits_is_no_version(data: bytes) -> None:

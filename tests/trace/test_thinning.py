@@ -75,7 +75,7 @@ def test_between_its_periods_no_body_is_far_off_the_straight_way(whole: Trace, t
         there = ~np.isnan(poses[:, 2]) & (poses[:, 2] > -1)
         shown = [np.interp(whole.times, thin.times, column) for column in thin.poses[name][:, :3].T]
         far = np.linalg.norm(np.column_stack(shown) - poses[:, :3], axis=1)[there]
-        assert (far <= thinning.PLACE + 2 * STEP).all(), name
+        assert (far <= thinning.PLACE_M + 2 * STEP).all(), name
 
 
 def test_a_body_that_becomes_another_is_there_until_it_is_not(whole: Trace, thin: Trace) -> None:
@@ -95,9 +95,9 @@ def test_where_a_guard_begins_and_ends_and_most_is_felt_is_kept(whole: Trace, th
 def test_periods_are_not_far_apart_however_still_all_stands(
     whole: Trace, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(thinning, "APART", 0.1)
+    monkeypatch.setattr(thinning, "LONGEST_GAP_S", 0.1)
     write_thinned(whole, tmp_path / "thin.mcap")
-    assert np.diff(read_trace(tmp_path / "thin.mcap").times).max() < 2 * thinning.APART
+    assert np.diff(read_trace(tmp_path / "thin.mcap").times).max() < 2 * thinning.LONGEST_GAP_S
 
 
 def test_the_same_trace_is_thinned_to_the_same_bytes(whole: Trace, tmp_path: Path) -> None:
