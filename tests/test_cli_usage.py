@@ -19,8 +19,6 @@ WRONG = {
     "assemble --seed 1 --seed 2": "--seed is given more than once (see `handeye assemble --help`)",
     "assemble --json=maybe": "--json takes no value; `maybe` is one (see `handeye assemble --help`)",
     "run p --camera film": "--camera is one of auto, gl, ray; `film` is none of them (see `handeye run --help`)",
-    "trials breaking dishes": "KIND is one of killed, interrupted, alone, stepped; `dishes` is none of them (see "
-    "`handeye trials breaking --help`)",
     "trials base 1.5": "COUNT: `1.5` is not a whole number (see `handeye trials base --help`)",
     "trials base 1_0": "COUNT: `1_0` is not a whole number (see `handeye trials base --help`)",
     "assemble --seed ١": "--seed: `١` is not a whole number (see `handeye assemble --help`)",

@@ -260,7 +260,7 @@ def test_the_result_of_a_run_that_was_left_says_what_broke_it_off() -> None:
     run = handeye.begin(SCRIPT, camera="ray")
     with pytest.raises(InvalidInput, match="nowhere"), run:
         run.until("nowhere")
-    said = "broken off by InvalidInput in the program that called handeye"
+    said = "broken off by NoSuchName in the program that called handeye"
     assert (run.result.message, run.result.paused) == (said, True)
 
 

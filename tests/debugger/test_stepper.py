@@ -658,7 +658,7 @@ def test_an_empty_line_says_nothing_where_nobody_is_asked(stepper: Stepper, runn
 
 def test_help_tells_all_commands_and_of_each_alone(say: Say) -> None:
     text = as_text(say("help")[0])
-    assert all(command.usage in text and command.help in text for command in COMMANDS)
+    assert all(c.usage in text and c.help in text for c in COMMANDS if c.name != "type")  # no console here
     assert say("help bs")[0].said.splitlines()[0].startswith("back [N], b: undo the last step")
     assert say("?")[0].said == say("h")[0].said == say("help")[0].said
 
