@@ -55,6 +55,21 @@ def main(words: Sequence[str] | None = None) -> NoReturn:
 
 
 @app.command
+def start(times: Annotated[WholeNumber, Parameter(help="How often each is measured.")] = 15, /) -> int:
+    """Measure how soon commands begin: CPU seconds beside those of importing what all of them rest on.
+
+    Exit code 0: none takes more than 1.6 times as long; 1: one does.
+    """
+    from benchmarks.start import MOST, starts
+
+    slow = 0
+    for command, cpu_s, factor in starts(times):
+        say(f"{command:24} {cpu_s:.3f} s  {factor:.2f} times")
+        slow += factor > MOST
+    return 1 if slow else 0
+
+
+@app.command
 def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
     """Assemble once and measure the cost of checkpoints and trace, as shares of that run.
 

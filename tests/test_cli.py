@@ -235,7 +235,7 @@ from runpy import run_module
 
 class Struck:
     def find_spec(self, name, path=None, target=None):
-        if name == "handeye.cli.runs":
+        if name == sys.argv[-1]:
             try:
                 signal.raise_signal(signal.SIGINT)
             except KeyboardInterrupt:
@@ -244,7 +244,8 @@ class Struck:
 signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.meta_path.insert(0, Struck())
 """
-"""Presses Ctrl-C in the middle of the import, in a module that takes a KeyboardInterrupt for a mistake of its own."""
+"""Presses Ctrl-C in the middle of the import of the module that is the last argument, as one that takes a
+KeyboardInterrupt for a mistake of its own."""
 ENTRY = tomllib.loads((Path(__file__).parent.parent / "pyproject.toml").read_text("utf-8"))["project"][
     "scripts"
 ]
@@ -256,8 +257,11 @@ ENTRY = tomllib.loads((Path(__file__).parent.parent / "pyproject.toml").read_tex
     [f"EntryPoint('', {ENTRY['handeye']!r}, '').load()()", "run_module('handeye', run_name='__main__')"],
 )
 def test_ctrl_c_while_the_command_is_still_being_imported_ends_it_without_a_traceback(start: str) -> None:
-    done = subprocess.run([sys.executable, "-c", STRUCK + start], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (130, "")
+    call = [sys.executable, "-c", STRUCK + start]
+    struck = {"handeye.cli.common": "", "handeye.cli.runs": "\nhandeye: interrupted\n"}
+    for module, said in struck.items():
+        done = subprocess.run([*call, "run", module], capture_output=True, text=True, check=False)
+        assert (done.returncode, done.stderr) == (130, said)
 
 
 @pytest.mark.slow
@@ -280,3 +284,34 @@ def test_it_is_started_as_a_module_too(tmp_path: Path) -> None:
     )
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "handeye: no.al: there is no such file\n"
+
+
+QUICK = """
+import sys
+from handeye.cli import app
+
+for line in sys.argv[1:]:
+    app(line.split(), result_action="return_value", exit_on_error=False)
+    heavy = {"mujoco", "cv2", "scipy", "mcap", "websockets", "importlib.metadata"} & {*sys.modules}
+    assert not heavy, (line, heavy)
+"""
+
+
+@pytest.mark.slow
+def test_commands_that_move_nothing_import_no_simulator_no_eye_and_no_solver(tmp_path: Path) -> None:
+    (tmp_path / "job.al").write_text("OPEN 1\nMOVE P\n", encoding="utf-8")
+    (tmp_path / "job.toml").write_text("[positions.P]\nat = [25, 38, 6, 90, 90, 0]\n", encoding="utf-8")
+    lines = (
+        "--version",
+        "--help",
+        "schema",
+        "explain 23",
+        "explain label-twice",
+        "trials --help",
+        "check job.al",
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", QUICK, *lines], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "job.al: no errors" in done.stdout

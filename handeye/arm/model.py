@@ -1,6 +1,5 @@
 """An arm as a value: a chain of joints with limits, masses and drives."""
 
-import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import lru_cache
@@ -120,6 +119,8 @@ _WORKING: Final = (ComplianceModel, GraspModel)
 
 def digest(arm: ArmModel) -> str:
     """A digest (12 hexadecimal digits) of all figures that a plan may depend on, whatever their field names."""
+    import hashlib
+
     return hashlib.sha256(repr(_figures(arm, _WORKING)).encode()).hexdigest()[:12]
 
 

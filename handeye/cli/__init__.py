@@ -11,7 +11,6 @@ from handeye.cli.commands import COMMANDS, add_commands
 from handeye.cli.common import complain, note, notes, screen
 from handeye.cli.panic_button import terminable
 from handeye.cli.streams import let_go_of_streams, prepare_streams
-from handeye.cli.usage import usage_sentence
 from handeye.core.entries import entries
 from handeye.core.errors import HandeyeError
 from handeye.core.versions import HANDEYE
@@ -61,6 +60,8 @@ def _carried_out() -> int:
         with terminable():
             code = app(result_action="return_value", exit_on_error=False, print_error=False)
     except CycloptsError as error:
+        from handeye.cli.usage import usage_sentence
+
         return _complained(usage_sentence(error))
     except HandeyeError as error:
         return _complained(error)

@@ -15,12 +15,28 @@ ENDING: Final = (signal.SIGINT, signal.SIGTERM)
 
 @contextmanager
 def terminable() -> Iterator[None]:
-    """While being told to end interrupts as Ctrl-C does, so that nothing half done stays behind."""
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    """While being told to end interrupts as Ctrl-C does, so that nothing half done stays behind.
+
+    It does so within an import too: modules written in C make an ImportError of a KeyboardInterrupt.
+    """
+    heard = []
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        heard.append(number)
+        raise KeyboardInterrupt
+
+    before = {signal.SIGTERM: signal.signal(signal.SIGTERM, interrupt)}
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # not where Ctrl-C is ignored
+        before[signal.SIGINT] = signal.signal(signal.SIGINT, interrupt)
     try:
         yield
+    except ImportError:
+        if heard:
+            raise KeyboardInterrupt from None
+        raise
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 class PanicButton:

@@ -7,7 +7,6 @@ import msgspec
 from cyclopts import Parameter
 
 from handeye.cli.common import Json, PlanFile, put, put_json, say
-from handeye.cli.programs import plan_at
 from handeye.core.errors import BadArgument
 from handeye.core.files import Kind, write_over
 
@@ -28,6 +27,7 @@ def inspect(
     json: Json = False,
 ) -> int:
     """Show what a plan does: stages, steps, times, guards, forces, and what each step depends on."""
+    from handeye.cli.programs import plan_at
     from handeye.debugger.breakpoints import stage_number
     from handeye.inspection.drawing import flow_svg
     from handeye.inspection.flow import flow, flow_dot
@@ -57,6 +57,7 @@ def diff(old: PlanFile, new: PlanFile, /, *, json: Json = False) -> int:
 
     Exit code 0: both do the same; 1: they do not; 2: bad input.
     """
+    from handeye.cli.programs import plan_at
     from handeye.inspection.difference import difference
     from handeye.inspection.difference_text import difference_text
 

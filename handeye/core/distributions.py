@@ -1,5 +1,7 @@
 """Distributions of the quantities that vary between worlds, in the quantity's own unit."""
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar, Final

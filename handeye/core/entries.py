@@ -5,12 +5,13 @@ A system is a folder of `handeye/systems`, or a package of somebody else's that 
 """
 
 from collections.abc import Iterator, Mapping
-from importlib import import_module, metadata
+from importlib import import_module
 from typing import Any, Final, Literal
 
 from msgspec import field
 
 from handeye.core.diagnostics import quoted
+from handeye.core.entry_points import entry_points
 from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.core.record import Record
 
@@ -84,7 +85,7 @@ def entries() -> Mapping[str, Entry]:
 def _installed() -> Iterator[Entry]:
     if not _found:
         _found.extend(loaded(place) for place in OWN)
-        _found.extend(_checked(point.name, point.load()) for point in metadata.entry_points(group=GROUP))
+        _found.extend(_checked(name, loaded(place)) for name, place in entry_points(GROUP).items())
     yield from _found
 
 

@@ -3,7 +3,6 @@
 import os
 import re
 import stat
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -61,7 +60,9 @@ def check_place(path: Path, kind: Kind) -> None:
                 front = file.read(_FRONT)
             if front and not re.match(kind.begins, front):
                 raise CannotWrite(f"{path} exists and is no {kind.name}; nothing was written")
-        with tempfile.TemporaryFile(dir=Path(os.path.realpath(path)).parent):
+        from tempfile import TemporaryFile  # slow to import, and nothing that only reads needs it
+
+        with TemporaryFile(dir=Path(os.path.realpath(path)).parent):
             pass
     except OSError as error:
         raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
@@ -86,7 +87,9 @@ def write_whole(path: Path, data: bytes) -> None:
     try:
         _check_file(place, path)
         mode = stat.S_IMODE(place.stat().st_mode) if place.exists() else 0o666 & ~_umask()
-        handle, temporary = tempfile.mkstemp(dir=place.parent, prefix=f".{place.name}.")
+        from tempfile import mkstemp
+
+        handle, temporary = mkstemp(dir=place.parent, prefix=f".{place.name}.")
         with os.fdopen(handle, "wb") as file:
             file.write(data)
             file.flush()

@@ -1,5 +1,7 @@
 """Random number streams by seed and name."""
 
+from __future__ import annotations
+
 from zlib import crc32
 
 import numpy as np

@@ -5,6 +5,8 @@ A quantity is one number with a dotted name, as `camera.place.x`; prefixes up to
 other, and one can be switched off or set while the others stay as they are.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property

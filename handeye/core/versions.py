@@ -1,7 +1,5 @@
 """Versions that a result depends on besides plan and seed."""
 
-import hashlib
-import platform
 from functools import cache
 from pathlib import Path
 from typing import Final
@@ -14,6 +12,8 @@ PACKAGES: Final = ("mujoco", "numpy", "scipy", "opencv-python-headless")
 
 def versions() -> dict[str, str]:
     """Versions of handeye, Python and the packages that results depend on."""
+    import platform
+
     found = {name: _installed(name) for name in PACKAGES}
     return {"handeye": HANDEYE, "python": platform.python_version(), **found}
 
@@ -37,6 +37,8 @@ def _installed(package: str) -> str:
 @cache
 def code_digest() -> str:
     """A digest (16 hexadecimal digits) of this program and its scenes, as on disk; raises BadFile."""
+    import hashlib
+
     package = Path(__file__).resolve().parents[1]
     files = [(package, path) for path in package.rglob("*.py")]
     files += [(scenes(), path) for path in scenes().rglob("*") if path.is_file()]

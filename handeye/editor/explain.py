@@ -13,11 +13,7 @@ from handeye.core.codes import CODES
 from handeye.core.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
 from handeye.core.errors import ERRORS, NoSuchName
 from handeye.core.source import Source
-from handeye.editor.checking import planning
-from handeye.editor.document import Document
 from handeye.editor.error_numbers import error_text
-from handeye.editor.fix import cured
-from handeye.editor.fixes import fixes
 from handeye.editor.samples import SAMPLE
 from handeye.program.language import own_languages
 
@@ -84,6 +80,11 @@ def _code(code: str) -> str:
         out += ["and so on", ""]
     source, diagnostic = example(code)
     if diagnostic is not None:
+        # none of this is needed for numbers and instructions
+        from handeye.editor.document import Document
+        from handeye.editor.fix import cured
+        from handeye.editor.fixes import fixes
+
         out += ["gives", "", *(f"    {line}".rstrip() for line in render(diagnostic, source).split("\n")), ""]
         cures = fixes(Document(source=source, taught=SAMPLE), diagnostic)
         if cures and not cures[0].choice:
@@ -103,6 +104,8 @@ def example(code: str) -> tuple[Source, Diagnostic | None]:
     source = sewn_of(Source(name="example.al", text=CODES[code].example), CODES[code].required)
     program, found = compile_text(source, SAMPLE)
     if program is not None:
+        from handeye.editor.checking import planning
+
         found = [*found, *planning(program)]
     if CODES[code].phase == "strict":
         found = [*found, *extensions(source)]

@@ -2,8 +2,6 @@
 script did to the arm. What is read is checked before anything uses it.
 """
 
-import hashlib
-import json
 from pathlib import Path
 from typing import Any, Final
 
@@ -46,6 +44,8 @@ def encode(plan: Plan) -> str:
 
 
 def _line(value: Any) -> str:
+    import json  # to write one, where a check of a script needs none
+
     return json.dumps(value, ensure_ascii=False)
 
 
@@ -113,4 +113,6 @@ def plan_digest(plan: Plan) -> str:
 
 def written_digest(data: bytes) -> str:
     """The digest of a plan by its bytes, as the handeye that wrote them took it."""
+    import hashlib
+
     return hashlib.sha256(data).hexdigest()[:16]

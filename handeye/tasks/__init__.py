@@ -16,6 +16,7 @@ import numpy as np
 from handeye.arm import robots
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.entries import entries, refusal
+from handeye.core.entry_points import entry_points
 from handeye.core.errors import BadArgument, InvalidInput, NoSuchName, Refused
 from handeye.tasks.interface import AnyTask, Task
 
@@ -161,9 +162,7 @@ def _ours() -> dict[str, str]:
 
 @cache
 def _entry_points() -> dict[str, str]:
-    from importlib.metadata import entry_points  # slow to import
-
-    return {point.name: point.value for point in entry_points(group=GROUP)}
+    return entry_points(GROUP)
 
 
 def _loaded(words: str) -> AnyTask:

@@ -12,22 +12,22 @@ from handeye.arm.model import ArmModel, digest
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import Refused
 from handeye.core.faults import Catalogue
-from handeye.core.pose import Array
 from handeye.core.units import INCHES, Measures
-from handeye.core.variation import Variation, WorldSpec
-from handeye.execution.calibration_look import CalibrationLook
-from handeye.judge.finding import Findings
-from handeye.planfile.plan import Plan
-from handeye.program.program import Fixture
-from handeye.tasks.trial import Trial
-from handeye.vision.camera_model import CameraModel
 
-if TYPE_CHECKING:  # a plan is made and checked without a simulator
+if TYPE_CHECKING:  # a plan is made and checked without a simulator, and soon
     import mujoco
 
     from handeye.cell.rendering import RendererMaker
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.truth import Truth
+    from handeye.core.pose import Array
+    from handeye.core.variation import Variation, WorldSpec
+    from handeye.execution.calibration_look import CalibrationLook
+    from handeye.judge.finding import Findings
+    from handeye.planfile.plan import Plan
+    from handeye.program.program import Fixture
+    from handeye.tasks.trial import Trial
+    from handeye.vision.camera_model import CameraModel
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,9 +1,24 @@
-"""Vision: the three primitives of 1973 as a public interface, and what is built on them."""
+"""Vision: the three primitives of 1973 as a public interface, and what is built on them.
 
-from handeye.vision.beam import beams
-from handeye.vision.blob import BoundingBox, localise
-from handeye.vision.characteriser import Blob, characterise
-from handeye.vision.edge import BRIGHTER, DARKER, Edges
-from handeye.vision.scan import Scan
+Names are loaded when they are first used: a plan knows a camera's model, and needs no primitive.
+"""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from handeye.vision.beam import beams
+    from handeye.vision.blob import BoundingBox, localise
+    from handeye.vision.characteriser import Blob, characterise
+    from handeye.vision.edge import BRIGHTER, DARKER, Edges
+    from handeye.vision.scan import Scan
 
 __all__ = ["BRIGHTER", "DARKER", "Blob", "BoundingBox", "Edges", "Scan", "beams", "characterise", "localise"]
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        if name in __all__:
+            from handeye.vision import beam, blob, characteriser, edge, scan
+
+            return next(vars(m)[name] for m in (beam, blob, characteriser, edge, scan) if name in vars(m))
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

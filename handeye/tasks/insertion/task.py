@@ -6,10 +6,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings, at_most
 from handeye.tasks.inserting import Inserting, Witnessed
-from handeye.tasks.insertion.world import VARIATION, BenchWorld
 from handeye.tasks.interface import Words
 from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.tasks.water_pump.world.nominal import PARK
@@ -20,6 +18,7 @@ if TYPE_CHECKING:
     from handeye.cell.rendering import RendererMaker
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.truth import Truth
+    from handeye.core.variation import Variation, WorldSpec
 
 
 class Insertion(Inserting):
@@ -34,15 +33,19 @@ class Insertion(Inserting):
     programs = MappingProxyType({"gentle": "insertion.al", "1973": "insertion_1973.al"})
 
     def variation(self, seed: int) -> Variation:
+        from handeye.tasks.insertion.world import VARIATION
+
         return VARIATION
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         from handeye.tasks.insertion.scene import build
+        from handeye.tasks.insertion.world import BenchWorld
 
         return build(BenchWorld.draw(spec))
 
     def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:
         from handeye.tasks.insertion.cell import InsertionCell
+        from handeye.tasks.insertion.world import BenchWorld
 
         return InsertionCell(BenchWorld.draw(spec))
 

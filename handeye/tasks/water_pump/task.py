@@ -3,20 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Final
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Final
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.core.faults import Catalogue
-from handeye.core.variation import Variation, WorldSpec
-from handeye.judge.finding import Findings
-from handeye.program.program import Fixture
 from handeye.tasks.interface import Disturbance, ExportedScene, Eye, Period, Task, Words
-from handeye.tasks.water_pump.trials.base import BaseTrial
-from handeye.tasks.water_pump.trials.gasket import GasketTrial
 from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS, PARK
-from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.stations import planned_fixtures
-from handeye.tasks.water_pump.world.variation import variation
 
 if TYPE_CHECKING:
     import mujoco
@@ -24,7 +17,12 @@ if TYPE_CHECKING:
     from handeye.cell.rendering import RendererMaker
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.truth import Truth
+    from handeye.core.faults import Catalogue
     from handeye.core.pose import Array
+    from handeye.core.variation import Variation, WorldSpec
+    from handeye.judge.finding import Findings
+    from handeye.program.program import Fixture
+    from handeye.tasks.trial import Trial
 
 PERIOD: Final = Period(
     year=1973,
@@ -58,13 +56,19 @@ class WaterPump(Task):
     period = PERIOD
     contacts = CONTACTS
 
-    def __init__(self) -> None:
-        self.trials = {"base": BaseTrial(), "gasket": GasketTrial()}
+    @cached_property
+    def trials(self) -> Mapping[str, Trial[Any]]:  # type: ignore[override]
+        from handeye.tasks.water_pump.trials.base import BaseTrial
+        from handeye.tasks.water_pump.trials.gasket import GasketTrial
+
+        return {"base": BaseTrial(), "gasket": GasketTrial()}
 
     def fixtures(self) -> Mapping[str, Fixture]:
         return planned_fixtures()
 
     def variation(self, seed: int) -> Variation:
+        from handeye.tasks.water_pump.world.variation import variation
+
         return variation(seed)
 
     def faults(self, seed: int) -> Catalogue:
@@ -74,16 +78,19 @@ class WaterPump(Task):
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         from handeye.tasks.water_pump.scene import dressed
+        from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
         return dressed(PumpWorld.draw(spec))
 
     def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:
         from handeye.tasks.water_pump.cell import build_cell
+        from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
         return build_cell(PumpWorld.draw(spec), camera=camera)
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
         from handeye.tasks.water_pump.exported import exported
+        from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
         return exported(PumpWorld.draw(world), truth, keyframe)
 
