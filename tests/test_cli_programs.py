@@ -74,3 +74,24 @@ def test_that_a_folder_holds_no_run_is_told_in_the_same_words(command: Command, 
     Path("empty").mkdir()
     given = words.replace(".", "empty").split() if "." in words else [*words.split(), "empty"]
     assert command(*given) == (2, "", "handeye: empty holds no run\n")
+
+
+@pytest.mark.slow
+def test_a_pin_that_was_put_in_is_put_back_into_its_holder(command: Command) -> None:
+    code, out, _ = command(
+        "trials", "dismantling", "--plan", "insertion", "--n", "1", "--camera", "ray", "--json"
+    )
+    assert (code, json.loads(out)["apart"]) == (0, 1)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("world --task palletise", ""),
+        ("trials disturbed --list --task insertion", "nothing can be disturbed in the work of this task"),
+        ("trials base 1 --task insertion", "the task `insertion` has no trial `base`"),
+    ],
+)
+def test_what_a_task_does_not_have_is_told_and_no_traceback(command: Command, words: str, said: str) -> None:
+    code, _, err = command(*words.split())
+    assert (code, said in err) == (2 if said else 0, True)

@@ -4,7 +4,6 @@ from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, pu
 from handeye.cli.photographs import PLAIN, FineOptions
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.files import check_place, write_over
-from handeye.tasks import planned
 
 
 def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
@@ -34,12 +33,15 @@ def render(
     """Render a picture of the work cell."""
     from handeye.cell.photograph import PNG, check_size, png
     from handeye.cell.posed import as_it_stands
+    from handeye.cell.posed import posed as drawn
+    from handeye.tasks.interface import Task
 
     check_place(output, PNG)
     check_size(width, height)
-    work = planned(world.work)
+    work = world.work
     spec = broken(world.spec, fault, work)
-    posed = as_it_stands(work.shown(spec), work.cell(spec, "ray").truth)
+    shown = work.shown(spec)
+    posed = as_it_stands(shown, work.cell(spec, "ray").truth) if isinstance(work, Task) else drawn(shown, {})
     write_over(output, png(how.take(posed, camera or work.camera, width, height)), PNG)
     say(f"{output}: {width} x {height}, camera {camera or work.camera}")
     return 0

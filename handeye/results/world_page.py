@@ -51,7 +51,9 @@ def world_page(table: Variation, world: World, columns: int) -> RenderableType:
     """The quantities of a world, for a terminal of so many columns; those of one source stand below it."""
     found = report(table, world).quantities
     parts: list[RenderableType] = [Text(fill(f"The world of {world.spec}", columns), "bold")]
-    width = min(max(len(quantity.name) for quantity in found), columns - 20)
+    if not found:
+        parts.append(Text("Worlds of this task differ in nothing that could be set."))
+    width = min(max((len(quantity.name) for quantity in found), default=0), columns - 20)
     for source, quantities in groupby(found, lambda quantity: quantity.source):
         parts += [
             Text(),

@@ -149,6 +149,11 @@ class AnyTask(ABC):
         """Findings of the referee where the arm has undone all it did; none by default. The cell is not touched."""
         return {}
 
+    @property
+    def judges_apart(self) -> bool:
+        """Its referee looks at what the arm has undone."""
+        return type(self).judge_apart is not AnyTask.judge_apart
+
 
 def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
     """Raises Refused if a scene lacks a camera that its task names, or has nothing that people are shown."""

@@ -84,9 +84,16 @@ def _add_holder(shaper: Shaper) -> None:
     holder = shaper.spec.worldbody.add_body(name="holder", pos=[x, y, 0.0])
     for wedge in shaper.ring(holder, "holder", hole, (0, 0, height - hole.height), lambda _: "bore"):
         wedge.group, wedge.material = SEEN, "enamel"
-    pin = shaper.spec.worldbody.add_body(name="pin", pos=[x, y, height + pin_seat(chamfer, radius)])
+    pin = shaper.spec.worldbody.add_body(name="pin", pos=in_holder().tolist())
     pin.add_freejoint(name="pin")
     _add_pin(shaper, pin)
+
+
+def in_holder() -> Array:
+    """Place of the pin's origin as it stands in its holder, m, W, shape (3,)."""
+    d = dimensions()
+    seat = pin_seat(d("pin_holder.chamfer"), d("pin_holder.hole_radius"))
+    return np.array([*HOLDER, d("pin_holder.height") + seat])
 
 
 def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:

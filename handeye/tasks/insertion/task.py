@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import degrees
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
@@ -21,13 +22,19 @@ if TYPE_CHECKING:
     from handeye.core.variation import Variation, WorldSpec
 
 
+HOLDER_PLACE: Final = 3.0
+"""mm that a pin put back may stand off its place: the holder's hole and its bevel, as in the pump's cell."""
+HOLDER_LEAN: Final = 10.0
+"""deg: it stands in the holder, and does not lean out."""
+
+
 class Insertion(Inserting):
     """Put one pin into one hole."""
 
     name = "insertion"
     arm = STANFORD
     park = PARK
-    words = Words(product="the pin", done="The pin is in its hole.")
+    words = Words(product="the pin", done="The pin is in its hole.", apart="The pin is back in its holder.")
     script = "insertion.al"
     other_scripts = ("insertion_1973.al",)
     programs = MappingProxyType({"gentle": "insertion.al", "1973": "insertion_1973.al"})
@@ -54,6 +61,15 @@ class Insertion(Inserting):
 
         high = shoulder(truth.data) * 1e3
         return {"seat": at_most(high, SEATED * 1e3, "mm", "height of the pin's shoulder over the face")}
+
+    def judge_apart(self, truth: Truth) -> Findings:
+        from handeye.tasks.insertion.witness import off_holder
+
+        away, leans = off_holder(truth.data)
+        return {
+            "pin_place": at_most(away * 1e3, HOLDER_PLACE, "mm", "pin from its place in the holder"),
+            "pin_lean": at_most(degrees(leans), HOLDER_LEAN, "deg", "lean of the pin"),
+        }
 
     def caught(self, clearance: float, chamfer: float) -> float:
         return clearance / 2 + chamfer + dimensions()("pin.nose_bevel")

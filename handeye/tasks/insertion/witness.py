@@ -8,7 +8,7 @@ import numpy as np
 
 from handeye.cell.physics_stepper import PhysicsStepper
 from handeye.core.pose import Array
-from handeye.tasks.insertion.scene import FACE, PUSH
+from handeye.tasks.insertion.scene import FACE, PUSH, in_holder
 from handeye.tasks.water_pump.world.dimensions import dimensions
 
 SEATED: Final = 2e-4
@@ -47,6 +47,12 @@ class Witness(PhysicsStepper):
 def shoulder(data: mujoco.MjData) -> float:
     """Height of the pin's shoulder over the face, m."""
     return float(data.body("pin").xpos[2]) - FACE
+
+
+def off_holder(data: mujoco.MjData) -> tuple[float, float]:
+    """How far the pin is from its place in the holder, m, and how far it leans, rad."""
+    pin = data.body("pin")
+    return float(np.linalg.norm(pin.xpos - in_holder())), math.acos(min(1.0, float(pin.xmat[8])))
 
 
 def tip(data: mujoco.MjData) -> Array:

@@ -140,7 +140,7 @@ def draw(
     place = chance.randrange(len(starts[which]))
     stage = stage_of[which][place]
     kinds = [kind for kind in catalogue.kinds.values() if not kind.from_start]
-    broken = chance.sample(kinds, chance.choices((0, 1, 2), (2, 5, 3))[0])
+    broken = chance.sample(kinds, min(len(kinds), chance.choices((0, 1, 2), (2, 5, 3))[0]))
     return Schedule(
         seed=worlds[which][0],
         level=worlds[which][1],
