@@ -81,7 +81,7 @@ def test_a_pin_that_was_put_in_is_put_back_into_its_holder(command: Command) -> 
     code, out, _ = command(
         "trials", "dismantling", "--plan", "insertion", "--n", "1", "--camera", "ray", "--json"
     )
-    assert (code, json.loads(out)["apart"]) == (0, 1)
+    assert (code, json.loads(out)["right"]) == (0, 1)
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,8 @@ from handeye.cli.common import Camera, Json, WholeNumber, positive, put_json, sc
 from handeye.cli.programs import plan_or_own
 from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
-from handeye.core.errors import BadArgument
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadArgument, Refused
 from handeye.runs.operator import parse_policy
 from handeye.tasks import DEFAULT, option, planned
 
@@ -171,6 +172,10 @@ def dismantling_trials(
     senses, errors = errors.senses, errors.errors()
     record = plan_or_own(plan, errors.task)
     errors = errors.of(record.task)
+    if not errors.work.judges_apart:
+        raise Refused(
+            f"the referee of the task {quoted(record.task)} does not look at what the arm has undone"
+        )
     errors.spec(seed + n - 1)
     world = broken(errors.spec(seed), fault, errors.work, record.program)
     stage = "" if to is None else record.program.stages[stage_number(to, record.program)]

@@ -14,7 +14,7 @@ from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import BadArgument, NoSuchName
+from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.core.variation import WorldSpec, checked_seed
 from handeye.tasks import planned
 from handeye.tasks import task as known_task
@@ -175,6 +175,8 @@ def disturbed_trials(
 def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[Disturbance]":
     """The disturbances of some names; all, if there are none."""
     names = [each.name for each in known]
+    if not names:
+        raise Refused("nothing can be disturbed in the work of this task")
     for name in only or ():
         if name not in names:
             near = suggestion(name, names) or "--list lists them"
