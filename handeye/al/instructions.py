@@ -30,6 +30,7 @@ from handeye.al.operand_kinds import (
     STEPS,
     TIMES,
     also,
+    count,
     gap,
     name_of,
     named_vector,
@@ -163,17 +164,7 @@ _TABLE = (
         group=MODIFIER_GROUP,
         help="end the next motion when a finger touches something: 1 is the finger on the side that angle O "
         "points to, 2 the other, 3 either; else error 25",
-        operands=(
-            Operand(
-                name="mask",
-                takes=(Number,),
-                units=(ONE,),
-                low=1,
-                high=3,
-                why="1 and 2 are the fingers, 3 is either",
-                whole=True,
-            ),
-        ),
+        operands=(count("mask", 1, 3, "1 and 2 are the fingers, 3 is either"),),
         role=Role.MODIFIER,
         fits=_ALL,
     ),
@@ -242,15 +233,7 @@ _TABLE = (
         help="set a counter",
         operands=(
             name_of("counter", Refers.NEW),
-            Operand(
-                name="value",
-                takes=(Number,),
-                units=(ONE,),
-                low=0,
-                high=MAX_COUNT,
-                why=f"a counter is set to 0 to {MAX_COUNT}",
-                whole=True,
-            ),
+            count("value", 0, MAX_COUNT, f"a counter is set to 0 to {MAX_COUNT}"),
         ),
     ),
     Instruction(

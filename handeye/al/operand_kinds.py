@@ -33,6 +33,15 @@ def number(
     return Operand(name=name, takes=(Number,), units=(unit,), low=low, why=why, optional=optional, ours=ours)
 
 
+def count(name: str, low: float, high: float, why: str, *, word: str = "") -> Operand:
+    """A whole number in a range; after a keyword of ours it is optional."""
+    ours = bool(word)
+    return Operand(
+        name=name, takes=(Number,), units=(ONE,), low=low, high=high, why=why, whole=True,
+        word=word, optional=ours, ours=ours,
+    )  # fmt: skip
+
+
 def gap(name: str, *, optional: bool = False, ours: bool = False) -> Operand:
     """An opening of the hand."""
     why = f"the hand opens from 0 to {MAX_GAP_IN:g} in"
@@ -77,15 +86,7 @@ def word(word: str, *, optional: bool = True, ours: bool = True) -> Operand:
 MOMENT: Final = Operand(
     name="moment", takes=(Vector, Name), units=(OZ_IN,) * 3, optional=True, nil=True, refers=Refers.VECTOR
 )
-ERROR: Final = Operand(
-    name="error",
-    takes=(Number,),
-    units=(ONE,),
-    low=1,
-    high=63,
-    why="errors have numbers from 1 to 63",
-    whole=True,
-)
+ERROR: Final = count("error", 1, 63, "errors have numbers from 1 to 63")
 LENS: Final = Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES_MM)
 STEP: Final = Operand(
     name="step",
@@ -95,30 +96,8 @@ STEP: Final = Operand(
     high=MAX_STEP_IN,
     why=f"a step is {MIN_POSITIVE:g} to {MAX_STEP_IN:g} in: a search extends several to each side",
 )
-STEPS: Final = Operand(
-    name="number",
-    takes=(Number,),
-    units=(ONE,),
-    low=1,
-    high=20,
-    why="a search extends 1 to 20 steps to each side",
-    whole=True,
-    word="STEPS",
-    optional=True,
-    ours=True,
-)
-TIMES: Final = Operand(
-    name="number",
-    takes=(Number,),
-    units=(ONE,),
-    low=1,
-    high=100,
-    why="a stage is undone 1 to 100 times",
-    whole=True,
-    word="TIMES",
-    optional=True,
-    ours=True,
-)
+STEPS: Final = count("number", 1, 20, "a search extends 1 to 20 steps to each side", word="STEPS")
+TIMES: Final = count("number", 1, 100, "a stage is undone 1 to 100 times", word="TIMES")
 ALONG: Final = Operand(
     name="direction", takes=(Number,), units=(DEG,), word="ALONG", optional=True, ours=True
 )

@@ -58,40 +58,21 @@ class Monitor(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ForceMonitor:
-    """Trips when the hand exerts more than a force (shape (3,), N, world axes) along it."""
+class VectorMonitor:
+    """Trips when the hand exerts more than a force (N) along it, or a moment (N m) about it; shape (3,), world axes."""
 
-    force: Array
-
-    def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        return (_active(GuardKind.FORCE, self.force),)
-
-    def check(self, reading: Reading) -> Trip | None:
-        return _along(GuardKind.FORCE, reading.force, self.force)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MomentMonitor:
-    """Trips when the hand exerts more than a moment (shape (3,), N m, world axes) about it."""
-
-    moment: Array
+    guard: GuardKind
+    vector: Array
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        return (_active(GuardKind.MOMENT, self.moment),)
+        limit = float(np.linalg.norm(self.vector))
+        return (ActiveGuard(guard=self.guard, limit=limit, axis=self.vector / limit),)
 
     def check(self, reading: Reading) -> Trip | None:
-        return _along(GuardKind.MOMENT, reading.moment, self.moment)
-
-
-def _active(guard: GuardKind, vector: Array) -> ActiveGuard:
-    limit = float(np.linalg.norm(vector))
-    return ActiveGuard(guard=guard, limit=limit, axis=vector / limit)
-
-
-def _along(guard: GuardKind, felt: Array, vector: Array) -> Trip | None:
-    limit = float(np.linalg.norm(vector))
-    value = float(felt @ vector) / limit
-    return Trip(guard=guard, value=value, limit=limit) if value > limit else None
+        felt = reading.force if self.guard is GuardKind.FORCE else reading.moment
+        limit = float(np.linalg.norm(self.vector))
+        value = float(felt @ self.vector) / limit
+        return Trip(guard=self.guard, value=value, limit=limit) if value > limit else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -162,9 +143,9 @@ class FirstOf:
 
 
 _MONITORS: Final[dict[type[g.Guard], Callable[[Any], Monitor]]] = {
-    g.Force: lambda guard: ForceMonitor(force=np.array(guard.force)),
+    g.Force: lambda guard: VectorMonitor(guard=GuardKind.FORCE, vector=np.array(guard.force)),
     g.Against: lambda guard: AgainstMonitor(limit=guard.force),
-    g.Moment: lambda guard: MomentMonitor(moment=np.array(guard.moment)),
+    g.Moment: lambda guard: VectorMonitor(guard=GuardKind.MOMENT, vector=np.array(guard.moment)),
     g.Torque: lambda guard: TorqueMonitor(limit=guard.torque),
     g.Touch: lambda guard: TouchMonitor(mask=guard.fingers),
 }
