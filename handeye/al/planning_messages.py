@@ -9,18 +9,16 @@ from handeye.al.scanner import scan
 from handeye.core.diagnostics import Diagnostic, Label, arranged, problem, quoted
 from handeye.core.source import Source, Span
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
-from handeye.program.findings import (
+from handeye.program.diagnosis.plan_findings import (
     GoalBelowTable,
     NoConfiguration,
-    PlanningFinding,
+    PlanFinding,
     RunsInto,
     TooFaint,
     TooHeavy,
     TooWeak,
 )
-from handeye.program.program import Program, SourcePlace, Step
-from handeye.program.reason_text import NamedArm, named, sentence
-from handeye.program.reasons import (
+from handeye.program.diagnosis.reach import (
     BelowTable,
     InLine,
     InnerCylinder,
@@ -29,6 +27,8 @@ from handeye.program.reasons import (
     TooFast,
     TooNear,
 )
+from handeye.program.diagnosis.reach_text import NamedArm, named, reach_sentence
+from handeye.program.program import Program, SourcePlace, Step
 
 RIDDLE: Final = (
     "in the print of 1973 the second stop of the pin insertion can be read as 60 or as 600 oz; "
@@ -39,7 +39,7 @@ _EIGHTHS: Final = 8
 
 
 def planning_diagnostics(
-    program: Program, arm: NamedArm, findings: Iterable[PlanningFinding]
+    program: Program, arm: NamedArm, findings: Iterable[PlanFinding]
 ) -> list[Diagnostic]:
     """Diagnostics for planning findings, by position; spans are offsets of the whole."""
     phrases = _Phrases(program, arm)
@@ -59,7 +59,10 @@ class _Phrases:
         if found.along is not None:
             return self.off_the_way(found, self.along(found.step, found.along))
         name, arm = found.position or self.word(found.step), self.arm.name
-        note, help = sentence(self.arm, found.reason), f"put it elsewhere, or turn it{self.counted(name)}"
+        note, help = (
+            reach_sentence(self.arm, found.reason),
+            f"put it elsewhere, or turn it{self.counted(name)}",
+        )
         match found.reason:
             case JointLimit() as reason:
                 word = self.word(found.step)
@@ -90,7 +93,7 @@ class _Phrases:
             case TooFast(joint=joint):
                 message = f"{named(self.arm, joint)} would have to move too fast {place}"
                 help = "move more slowly, or begin elsewhere"
-        return self.at_position(found, message, help=help, notes=(sentence(self.arm, found.reason),))
+        return self.at_position(found, message, help=help, notes=(reach_sentence(self.arm, found.reason),))
 
     def joint_limit(
         self, found: NoConfiguration, reason: JointLimit, motion: str, place: str | None = None
@@ -181,7 +184,7 @@ class _Phrases:
 
     def at_position(
         self,
-        found: PlanningFinding,
+        found: PlanFinding,
         message: str,
         *,
         help: str,
@@ -231,7 +234,7 @@ class _Phrases:
         return self.whole.span(words.file, words.line, words.span)
 
 
-_PHRASES: Final[dict[type[PlanningFinding], Callable[[_Phrases, Any], Diagnostic]]] = {
+_PHRASES: Final[dict[type[PlanFinding], Callable[[_Phrases, Any], Diagnostic]]] = {
     NoConfiguration: _Phrases.no_configuration,
     GoalBelowTable: _Phrases.below_table,
     RunsInto: _Phrases.runs_into,

@@ -8,7 +8,7 @@ from handeye.arm.ik import IKResult
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples, check_samples
 from handeye.core.pose import Array
-from handeye.program.reasons import HeldJoint
+from handeye.program.diagnosis.reach import HeldJoint
 
 _PEAK_SPEED: Final = 1.875
 """Peak rate of the quintic 10 s3 - 15 s4 + 6 s5, over its mean."""

@@ -11,7 +11,7 @@ from handeye.arm.kinematics import drift, forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples, length
 from handeye.core.pose import Array, Pose, displaced, rotation_z, translated
-from handeye.program.reasons import TooFast
+from handeye.program.diagnosis.reach import TooFast
 
 RAMP = 0.1  # s to reach and to leave cruising speed; chosen: six servo periods of 1973
 

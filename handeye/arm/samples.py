@@ -9,7 +9,7 @@ from handeye.arm.ik.choice import SLACK, beyond
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.core.pose import Array, Pose
-from handeye.program.reasons import BelowTable
+from handeye.program.diagnosis.reach import BelowTable
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -18,7 +18,7 @@ from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples
 from handeye.core.pose import Array, Pose, translated
 from handeye.core.units import INCH
-from handeye.program.reasons import BelowTable
+from handeye.program.diagnosis.reach import BelowTable
 
 DIRECT_KNOT: Final = 1 / 9
 """Fraction of the path at which a motion without departure or approach has its knots.

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 from handeye.comparison.pairing import CarriedOut, Turn, TwoRuns, side_by_side
 from handeye.comparison.place import Place
 from handeye.core.record import Record
-from handeye.program.causes import PlacesTried
+from handeye.program.diagnosis.causes import PlacesTried
 from handeye.program.events import AnyEvent, ErrorRaised, SearchAdvanced
 
 

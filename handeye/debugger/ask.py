@@ -10,7 +10,7 @@ from handeye.debugger.breakpoints import stage_number
 from handeye.debugger.formatting import shown_lines
 from handeye.debugger.listing import excerpt, excerpt_lines, numbered_stage
 from handeye.debugger.views import show
-from handeye.program.cause_text import call_sentence
+from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import Choice, OperatorCalled, StepStarted
 from handeye.runs.operator import Back, OperatorChoice, Unwind, beginnings
 from handeye.runs.runner import Runner

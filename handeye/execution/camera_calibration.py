@@ -24,7 +24,7 @@ from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState
 from handeye.ports.camera import DIGITISE, TvCamera
 from handeye.ports.workcell import Workcell
-from handeye.program.cause_text import error_sentence
+from handeye.program.diagnosis.cause_text import error_sentence
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
 from handeye.vision.lamp import find_spot

@@ -17,7 +17,7 @@ from handeye.execution.undo.done import Undoing
 from handeye.execution.undo.memory import before, noted
 from handeye.execution.undo.undoing import end, order, undo_last
 from handeye.execution.vision_actions import VISION_ACTIONS
-from handeye.program.causes import Cause, Looping
+from handeye.program.diagnosis.causes import Cause, Looping
 from handeye.program.events import (
     Choice,
     ErrorRaised,

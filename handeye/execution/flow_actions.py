@@ -5,7 +5,7 @@ from typing import Final
 from handeye.core import errors
 from handeye.execution.context import Action, Decision, ExecutionContext
 from handeye.execution.state import Fault, SearchState, vector
-from handeye.program.causes import NoSearch, PlacesTried
+from handeye.program.diagnosis.causes import NoSearch, PlacesTried
 from handeye.program.events import ErrorTested, HandTold, PositionDefined, Saved, SearchAdvanced
 from handeye.program.flow_operations import (
     Advance,

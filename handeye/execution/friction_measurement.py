@@ -23,7 +23,7 @@ from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.ports.workcell import Workcell
-from handeye.program.cause_text import cause_sentence
+from handeye.program.diagnosis.cause_text import cause_sentence
 
 RAMP: Final = 0.1  # s to the constant rate, and again until the servo has taken friction up; chosen
 MIN_TRAVEL: Final = 0.5  # fraction of its range that a joint must move, or it is stuck; chosen

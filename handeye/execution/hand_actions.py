@@ -9,7 +9,7 @@ from handeye.core import errors
 from handeye.core.pose import translated
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault
-from handeye.program.causes import (
+from handeye.program.diagnosis.causes import (
     Cause,
     GapAstray,
     GapStill,

@@ -24,7 +24,13 @@ from handeye.planning.motions import (
     move_trajectory,
     turn_samples,
 )
-from handeye.program.causes import CurrentSilent, GuardsUnmet, HeightOutside, HeightUnknown, TravelOutside
+from handeye.program.diagnosis.causes import (
+    CurrentSilent,
+    GuardsUnmet,
+    HeightOutside,
+    HeightUnknown,
+    TravelOutside,
+)
 from handeye.program.events import Adjusted, GuardFaint, GuardTripped, Restored
 from handeye.program.guards import GuardKind, Guards, unmet
 from handeye.program.motion_operations import Change, Height, Move, Travel, Turn

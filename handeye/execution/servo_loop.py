@@ -22,7 +22,7 @@ from handeye.core import errors
 from handeye.core.pose import Array, Pose, displaced, translated
 from handeye.execution.compliance import Course
 from handeye.execution.servo import Motion, Servo
-from handeye.program.causes import (
+from handeye.program.diagnosis.causes import (
     Cause,
     ForceInAir,
     HandAstray,

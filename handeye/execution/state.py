@@ -18,7 +18,7 @@ from handeye.execution.undo.done import ExecutedStep, Undoing
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
 from handeye.ports.workcell import Sensed
-from handeye.program.causes import Cause
+from handeye.program.diagnosis.causes import Cause
 from handeye.program.system_state import Natural, SystemState
 from handeye.program.world_model import WorldState
 from handeye.touch.spiral import SearchPattern, line

@@ -11,7 +11,7 @@ from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Shot, VisionResult
 from handeye.planning.grasp_state import first_grasp
 from handeye.ports.camera import DIGITISE, Picture, TvCamera
-from handeye.program.causes import NoGeneral, NoPicture, PictureBlank, PictureRepeated
+from handeye.program.diagnosis.causes import NoGeneral, NoPicture, PictureBlank, PictureRepeated
 from handeye.program.events import (
     CameraBusy,
     CameraStarted,

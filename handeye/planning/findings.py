@@ -3,17 +3,17 @@
 from dataclasses import dataclass, field
 
 from handeye.core.codes import CODES
-from handeye.program.findings import PlanningFinding
+from handeye.program.diagnosis.plan_findings import PlanFinding
 
 
 @dataclass(slots=True)
 class FindingList:
     """Findings in text order, one for each code and position."""
 
-    findings: list[PlanningFinding] = field(default_factory=list)
+    findings: list[PlanFinding] = field(default_factory=list)
     _reported: set[tuple[str, str]] = field(default_factory=set)
 
-    def add(self, finding: PlanningFinding) -> None:
+    def add(self, finding: PlanFinding) -> None:
         """Add a finding, unless its position has one of that code."""
         if finding.position is not None:
             if (finding.code, finding.position) in self._reported:

@@ -16,7 +16,7 @@ from handeye.core.record import Vector3
 from handeye.core.units import INCH
 from handeye.planning.findings import FindingList
 from handeye.planning.grasp_state import GraspState
-from handeye.program.findings import RunsInto, TooFaint, TooHeavy, TooWeak
+from handeye.program.diagnosis.plan_findings import RunsInto, TooFaint, TooHeavy, TooWeak
 from handeye.program.flow_operations import Load
 from handeye.program.guards import Exerted, Guards
 from handeye.program.motion_operations import Change

@@ -20,7 +20,7 @@ from handeye.planfile.plan import Joints, Plan, PlannedMotion
 from handeye.planning.findings import FindingList
 from handeye.planning.motion_checks import Checks, Demand, to_press, to_stop
 from handeye.planning.motions import Unreachable, change_samples, move_trajectory, turn_samples
-from handeye.program.findings import GoalBelowTable, NoConfiguration, PlanningFinding
+from handeye.program.diagnosis.plan_findings import GoalBelowTable, NoConfiguration, PlanFinding
 from handeye.program.flow_operations import Here
 from handeye.program.motion_operations import Change, Move, Turn
 from handeye.program.operation import Operation
@@ -41,7 +41,7 @@ _COLLISION_STRIDE = (
 
 def make_plan(
     program: Program, arm: ArmModel, *, task: str, speed: float = SPEED, start: Array | None = None
-) -> tuple[Plan | None, list[PlanningFinding]]:
+) -> tuple[Plan | None, list[PlanFinding]]:
     """The plan of a program for an arm, None if there are errors, and the findings.
 
     A position that only a `HERE` defines has the pose planned for it.

@@ -11,7 +11,7 @@ from handeye.core.source import line_name
 from handeye.core.units import Measures
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
-from handeye.program.causes import Cause, InspectionCause, JointName
+from handeye.program.diagnosis.causes import Cause, InspectionCause, JointName
 from handeye.program.guards import GuardKind
 from handeye.program.senses import Sense
 

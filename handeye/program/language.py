@@ -8,9 +8,9 @@ from pathlib import Path, PurePath
 from handeye.core.diagnostics import Diagnostic
 from handeye.core.entries import entries, entry_of_file, loaded, refusal
 from handeye.core.source import Source
-from handeye.program.findings import PlanningFinding
+from handeye.program.diagnosis.plan_findings import PlanFinding
+from handeye.program.diagnosis.reach_text import NamedArm
 from handeye.program.program import Program
-from handeye.program.reason_text import NamedArm
 from handeye.program.taught import Taught
 
 Compiled = tuple[Program | None, list[Diagnostic]]
@@ -25,7 +25,7 @@ class Language:
     read: Callable[[Path], Source]
     """Reads a script with all it requires; raises InvalidInput."""
     compile: Callable[[Source, Taught], Compiled]
-    phrase: Callable[[Program, NamedArm, Iterable[PlanningFinding]], list[Diagnostic]]
+    phrase: Callable[[Program, NamedArm, Iterable[PlanFinding]], list[Diagnostic]]
     """Diagnostics for planning findings, at their places in the text."""
 
 

@@ -10,7 +10,7 @@ from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.files import read_whole
 from handeye.planfile.store import written_digest
-from handeye.program.cause_text import call_sentence
+from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import (
     AnyEvent,
     OperatorCalled,

@@ -5,7 +5,7 @@ from typing import Literal
 
 from handeye.core.record import Record
 from handeye.execution.servo import Halted
-from handeye.program.causes import Cause
+from handeye.program.diagnosis.causes import Cause
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Snapshot
 from handeye.runs.stops import AfterSteps, AnyStop, PauseRequest

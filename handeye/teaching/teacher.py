@@ -22,7 +22,7 @@ from handeye.execution.servo import Halted
 from handeye.execution.servo_loop import Outcome
 from handeye.planning.motions import TURN_SPEED, change_samples
 from handeye.planning.planner import SPEED
-from handeye.program.cause_text import error_sentence
+from handeye.program.diagnosis.cause_text import error_sentence
 from handeye.program.motion_operations import Change
 from handeye.program.program import Position
 from handeye.program.taught import Taught

@@ -10,7 +10,12 @@ from handeye.core.plain_text import counted, distinct_digits, printable
 from handeye.core.units import DEGREE, INCH, INCHES, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH, Measures
 from handeye.ports.camera import Renderer
 from handeye.program import events as happened
-from handeye.program.cause_text import call_sentence, error_sentence, inspection_sentence, match_sentence
+from handeye.program.diagnosis.cause_text import (
+    call_sentence,
+    error_sentence,
+    inspection_sentence,
+    match_sentence,
+)
 from handeye.program.events import Event, SystemEvent
 from handeye.program.guards import GuardKind
 

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
-from handeye.program.causes import UndoResisted
+from handeye.program.diagnosis.causes import UndoResisted
 from handeye.program.events import UndoFinished, UndoStarted
 from handeye.results.finishing import finished
 from handeye.results.result import Result

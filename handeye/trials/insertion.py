@@ -24,7 +24,7 @@ from handeye.core.variation import Overrides, WorldSpec
 from handeye.execution.servo_period import ServoPeriod
 from handeye.planfile.plan import Plan
 from handeye.planning.scripts import plan_source
-from handeye.program.cause_text import call_sentence
+from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import SearchAdvanced
 from handeye.runs.advance import advance
 from handeye.runs.observer import Observer

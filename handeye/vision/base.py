@@ -14,7 +14,7 @@ import numpy as np
 from handeye.core.errors import BadArgument
 from handeye.core.units import INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
-from handeye.program.causes import NoHoles, NoOutline, OutsidePicture, SightCause
+from handeye.program.diagnosis.causes import NoHoles, NoOutline, OutsidePicture, SightCause
 from handeye.program.program import Part
 from handeye.vision.blob import BoundingBox, localise
 from handeye.vision.camera_model import View

@@ -16,7 +16,7 @@ from handeye.core.errors import BadArgument
 from handeye.core.pose import Array
 from handeye.core.units import INCH
 from handeye.ports.camera import Picture
-from handeye.program.causes import (
+from handeye.program.diagnosis.causes import (
     BaseHoleUnseen,
     GasketHoleOff,
     GasketHoleUnseen,

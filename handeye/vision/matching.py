@@ -13,7 +13,7 @@ import numpy as np
 from handeye.core.errors import BadArgument
 from handeye.core.units import INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
-from handeye.program.causes import OutsidePicture, PartAstray
+from handeye.program.diagnosis.causes import OutsidePicture, PartAstray
 from handeye.program.program import Part
 from handeye.vision.alignment import Points, changed, moved, shift, smooth
 from handeye.vision.base import Failure

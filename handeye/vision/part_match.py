@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from handeye.program.causes import PartAstray
+from handeye.program.diagnosis.causes import PartAstray
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

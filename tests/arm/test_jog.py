@@ -9,7 +9,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
 from handeye.core.pose import hand
 from handeye.core.units import INCH
-from handeye.program.reasons import BelowTable, OutOfReach
+from handeye.program.diagnosis.reach import BelowTable, OutOfReach
 from handeye.tasks.water_pump.world.nominal import PARK
 
 PERIOD = 1 / 60

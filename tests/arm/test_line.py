@@ -7,7 +7,7 @@ from handeye.arm.line import arc, pivot, straight
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import hand, rotation, rotation_z
 from handeye.core.units import DEGREE, INCH, JIFFY
-from handeye.program.reasons import InLine, JointLimit, OutOfReach
+from handeye.program.diagnosis.reach import InLine, JointLimit, OutOfReach
 
 PARK = np.array([-19.7 * DEGREE, 104 * DEGREE, 17.5 * INCH, 0, 76 * DEGREE, 70.3 * DEGREE])
 

@@ -12,7 +12,7 @@ from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
 from handeye.core.pose import hand, rotation, rotation_z
 from handeye.core.units import INCH
-from handeye.program.reasons import FixedDirection, FixedOrientation, HeldJoint, InLine, TooFast
+from handeye.program.diagnosis.reach import FixedDirection, FixedOrientation, HeldJoint, InLine, TooFast
 
 ANY = pytest.mark.parametrize("arm", [robot.arm for robot in ROBOTS.values()], ids=list(ROBOTS))
 

@@ -9,7 +9,7 @@ from handeye.arm.samples import check_samples
 from handeye.arm.trajectory import Trajectory, four_three_four, move
 from handeye.core.pose import hand
 from handeye.core.units import DEGREE, INCH, JIFFY
-from handeye.program.reasons import BelowTable, InnerCylinder, OutOfReach
+from handeye.program.diagnosis.reach import BelowTable, InnerCylinder, OutOfReach
 
 PARK = np.array([-19.7 * DEGREE, 104 * DEGREE, 17.5 * INCH, 0, 76 * DEGREE, 70.3 * DEGREE])
 STATIONS = [

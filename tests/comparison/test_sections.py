@@ -9,7 +9,7 @@ from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.parting import parting
 from handeye.comparison.searched import searches
 from handeye.program import events as happened
-from handeye.program.causes import PlacesTried
+from handeye.program.diagnosis.causes import PlacesTried
 from handeye.program.guards import GuardKind
 
 SEARCH, DOWN, NEXT = ("SEARCH", ()), "CHANGE  [0 0 -1]", "AOJ"

@@ -8,7 +8,7 @@ from synthetic import part
 from handeye.core.errors import GASKET_WRONG, PART_ASTRAY, SEARCH_EXHAUSTED, WRONG_TRAVEL
 from handeye.execution import executor
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.program.causes import Looping
+from handeye.program.diagnosis.causes import Looping
 from handeye.program.events import PartMatched, SearchAdvanced
 from handeye.program.program import Hole, Part
 

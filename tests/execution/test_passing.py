@@ -7,11 +7,11 @@ from pump_bench import Bench, bench, written
 from handeye.core.errors import NO_SOLUTION
 from handeye.core.pose import Array, planar
 from handeye.core.units import INCH
-from handeye.program.causes import BeyondArm
+from handeye.program.diagnosis.causes import BeyondArm
+from handeye.program.diagnosis.reach import InnerCylinder
 from handeye.program.event_reading import EventReader
 from handeye.program.events import Adjusted, ErrorRaised, to_line
 from handeye.program.program import Part, Position
-from handeye.program.reasons import InnerCylinder
 
 pytestmark = pytest.mark.slow
 

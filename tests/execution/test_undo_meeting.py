@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from handeye.execution.undo.resistance import EarlyContact
-from handeye.program.causes import MetEarly
+from handeye.program.diagnosis.causes import MetEarly
 from handeye.touch.guards import Reading
 from handeye.touch.hold import OFF_MIDDLE
 

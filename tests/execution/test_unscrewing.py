@@ -19,7 +19,7 @@ from handeye.execution.state import ExecutionState
 from handeye.execution.undo.done import Undoing
 from handeye.execution.undo.resistance import Resistance
 from handeye.execution.undo.way import RecordedPath, packed, unpacked
-from handeye.program.causes import ScrewFast, ScrewLost, UndoResisted
+from handeye.program.diagnosis.causes import ScrewFast, ScrewLost, UndoResisted
 from handeye.program.guards import GuardKind
 from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.touch.guards import Reading, Trip

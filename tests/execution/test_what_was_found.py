@@ -8,7 +8,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import VisionResult
 from handeye.execution.vision_actions import just_found
-from handeye.program.causes import NoGasket, PartAstray
+from handeye.program.diagnosis.causes import NoGasket, PartAstray
 from handeye.tasks.water_pump.world.nominal import PARK
 from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
 from handeye.vision.blob import BoundingBox

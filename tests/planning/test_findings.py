@@ -13,24 +13,24 @@ from handeye.core.source import Source, Span
 from handeye.core.units import INCH, OUNCE_FORCE
 from handeye.planning.planner import make_plan
 from handeye.planning.scripts import plan_source
-from handeye.program.findings import (
+from handeye.program.diagnosis.plan_findings import (
     GoalBelowTable,
     NoConfiguration,
-    PlanningFinding,
+    PlanFinding,
     RunsInto,
     TooHeavy,
     TooWeak,
 )
+from handeye.program.diagnosis.reach import OutOfReach
+from handeye.program.diagnosis.reach_text import NamedArm
 from handeye.program.language import language_of
 from handeye.program.program import Program
-from handeye.program.reason_text import NamedArm
-from handeye.program.reasons import OutOfReach
 from handeye.program.taught import Taught
 
 T = "TRANS T [25 38 4 90 90 0]\nMOVE T\n"
 
 
-def found(text: str) -> list[PlanningFinding]:
+def found(text: str) -> list[PlanFinding]:
     program, diagnostics = compile_text(Source(name="test.al", text=text), Taught())
     assert program is not None, diagnostics
     return make_plan(program, STANFORD, task="water_pump")[1]
@@ -74,7 +74,7 @@ def test_a_wrong_position_is_found_once_however_often_it_is_gone_to() -> None:
     assert len(found("TRANS T [25 38 -1 90 90 0]\nMOVE T\nMOVE T")) == 1
 
 
-def tersely(program: Program, arm: NamedArm, findings: Iterable[PlanningFinding]) -> list[Diagnostic]:
+def tersely(program: Program, arm: NamedArm, findings: Iterable[PlanFinding]) -> list[Diagnostic]:
     at = Label(span=Span(start=0, end=1))
     return [Diagnostic(code=f.code, message=f"{arm.name}: step {f.step}", primary=at) for f in findings]
 

@@ -8,10 +8,15 @@ import pytest
 
 from handeye.core import errors
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
-from handeye.program import causes as c
-from handeye.program.cause_text import call_sentence, cause_sentence, error_sentence, inspection_sentence
+from handeye.program.diagnosis import causes as c
+from handeye.program.diagnosis.cause_text import (
+    call_sentence,
+    cause_sentence,
+    error_sentence,
+    inspection_sentence,
+)
+from handeye.program.diagnosis.reach import HeldJoint, InnerCylinder, JointLimit, ReachFailure
 from handeye.program.guards import GuardKind
-from handeye.program.reasons import HeldJoint, InnerCylinder, JointLimit, Reason
 
 ARM = c.ArmNames(
     name="toy",
@@ -169,13 +174,13 @@ def test_a_cause_goes_to_disk_and_comes_back(cause: c.Cause) -> None:
     assert msgspec.msgpack.decode(msgspec.msgpack.encode(cause), type=c.Cause) == cause
 
 
-@pytest.mark.parametrize("kind", get_args(Reason))
-def test_every_reason_has_a_tag_of_its_own(kind: type[Reason]) -> None:
+@pytest.mark.parametrize("kind", get_args(ReachFailure))
+def test_every_reason_has_a_tag_of_its_own(kind: type[ReachFailure]) -> None:
     assert kind.__struct_config__.tag == kind.__name__
 
 
 @pytest.mark.parametrize("reason", [HeldJoint(2, 0.1), HeldJoint(-1, 0.1), JointLimit(7, math.pi, 1.0)])
-def test_a_cause_tells_of_no_joint_that_its_arm_lacks(reason: Reason) -> None:
+def test_a_cause_tells_of_no_joint_that_its_arm_lacks(reason: ReachFailure) -> None:
     with pytest.raises(ValueError, match=r"^the toy arm has 2 joints$"):
         c.BeyondArm(reason=reason, arm=ARM)
 

@@ -10,7 +10,7 @@ from report_pages import Node, page_of, recorded, tree
 from results import result
 
 from handeye.program import events as happened
-from handeye.program.causes import NothingBetween
+from handeye.program.diagnosis.causes import NothingBetween
 from handeye.program.events import AnyEvent
 from handeye.report.facts.outcome import Kind, outcome
 from handeye.report.recorded import Recorded

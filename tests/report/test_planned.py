@@ -10,7 +10,7 @@ from short_runs import plan_of
 
 from handeye.planfile.store import encode
 from handeye.program import events as happened
-from handeye.program.causes import PlacesTried
+from handeye.program.diagnosis.causes import PlacesTried
 from handeye.program.events import AnyEvent
 from handeye.report.facts.corrections import By, corrections
 from handeye.report.facts.planned import Why, ends

@@ -15,7 +15,7 @@ from handeye.core.units import DEGREE, INCH
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.planning.planner import make_plan
-from handeye.program.cause_text import call_sentence
+from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import ErrorRaised, Event, StepStarted
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught

@@ -25,7 +25,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.execution.friction_measurement import measure_joints
 from handeye.planning.planner import make_plan
-from handeye.program.cause_text import call_sentence
+from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import ErrorRaised, Event, OperatorCalled, SearchAdvanced
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught, load_taught

@@ -3,7 +3,7 @@
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.program import events as happened
-from handeye.program.causes import GapTooSmall
+from handeye.program.diagnosis.causes import GapTooSmall
 from handeye.program.events import AnyEvent
 from handeye.trace.account import account
 

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.program import events as happened
-from handeye.program.causes import ArmNames, BeyondArm, JointName
+from handeye.program.diagnosis.causes import ArmNames, BeyondArm, JointName
+from handeye.program.diagnosis.reach import BelowTable, HeldJoint, JointLimit
 from handeye.program.events import CommonEvent, Event
-from handeye.program.reasons import BelowTable, HeldJoint, JointLimit
 from handeye.trace.sentences import LEVELS, inches, sentence
 
 KINDS = typing.get_args(CommonEvent)

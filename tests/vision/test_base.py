@@ -11,7 +11,7 @@ from synthetic import FINE, Canvas, draw_base, part, view
 from handeye.core.errors import InvalidInput
 from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.program.causes import NoHoles, NoOutline, OutsidePicture
+from handeye.program.diagnosis.causes import NoHoles, NoOutline, OutsidePicture
 from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific
 
 PART = part()

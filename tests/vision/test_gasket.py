@@ -8,7 +8,13 @@ import pytest
 from synthetic import FACE, GASKET, Canvas, draw_base, part, view
 
 from handeye.core.units import DEGREE, INCH
-from handeye.program.causes import BaseHoleUnseen, GasketHoleOff, GasketHoleUnseen, GasketWrong, NoGasket
+from handeye.program.diagnosis.causes import (
+    BaseHoleUnseen,
+    GasketHoleOff,
+    GasketHoleUnseen,
+    GasketWrong,
+    NoGasket,
+)
 from handeye.vision import gasket
 from handeye.vision.characteriser import Blob, characterise
 from handeye.vision.drawing import annotate

@@ -5,7 +5,7 @@ import pytest
 from synthetic import Canvas, draw_base, part, view
 
 from handeye.core.units import DEGREE, INCH
-from handeye.program.causes import OutsidePicture, PartAstray
+from handeye.program.diagnosis.causes import OutsidePicture, PartAstray
 from handeye.vision.base import Failure
 from handeye.vision.matching import MOVED, match
 from handeye.vision.part_match import PartMatch

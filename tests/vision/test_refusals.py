@@ -8,7 +8,7 @@ from synthetic import HOLE, Canvas, draw_base, part, view
 
 from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.program.causes import GasketHoleOff, NoHoles, NoOutline
+from handeye.program.diagnosis.causes import GasketHoleOff, NoHoles, NoOutline
 from handeye.vision.base import Failure, GeneralLocation, locate_general, locate_specific
 from handeye.vision.characteriser import Blob, fit_circle
 from handeye.vision.edge import BRIGHTER

@@ -14,7 +14,7 @@ from handeye.arm.ik.result import IKResult
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.core.pose import Array, Pose
-from handeye.program.reasons import FixedDirection, FixedOrientation, InLine
+from handeye.program.diagnosis.reach import FixedDirection, FixedOrientation, InLine
 
 _ROUNDING: Final = 1e-5  # m or rad, left by rounding of written positions
 

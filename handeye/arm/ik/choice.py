@@ -7,7 +7,7 @@ import numpy as np
 
 from handeye.arm.ik.result import IKResult
 from handeye.arm.model import ArmModel, Joint
-from handeye.program.reasons import JointLimit, OutOfReach
+from handeye.program.diagnosis.reach import JointLimit, OutOfReach
 
 SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, rad or m
 

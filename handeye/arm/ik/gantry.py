@@ -21,7 +21,7 @@ from handeye.arm.ik.result import IKResult
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array, Pose, rotation_x
-from handeye.program.reasons import InLine
+from handeye.program.diagnosis.reach import InLine
 
 _COLLINEAR: Final = 1e-9  # sine of the middle wrist joint below which the others are one axis
 _EXACT: Final = 1e-6  # round-off of a twist, m/s or rad/s

@@ -10,7 +10,7 @@ from handeye.arm.ik import cartesian, gantry, spherical_wrist
 from handeye.arm.ik.result import IKResult
 from handeye.arm.model import ArmModel, Structure
 from handeye.core.pose import Array, Pose
-from handeye.program.reasons import InLine
+from handeye.program.diagnosis.reach import InLine
 
 
 class Solver(Protocol):

@@ -16,7 +16,7 @@ from handeye.arm.ik.choice import choose, nearest_turn
 from handeye.arm.ik.result import IKResult
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array, Pose, inverse
-from handeye.program.reasons import InLine, InnerCylinder, OutOfReach, TooNear
+from handeye.program.diagnosis.reach import InLine, InnerCylinder, OutOfReach, TooNear
 
 _KINDS: Final = ("revolute", "revolute", "prismatic", "revolute", "revolute", "revolute")
 _TWISTS: Final = (-math.pi / 2, math.pi / 2, 0.0, -math.pi / 2, math.pi / 2, 0.0)

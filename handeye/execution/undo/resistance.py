@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from handeye.core.pose import Array
-from handeye.program.causes import MetEarly
+from handeye.program.diagnosis.causes import MetEarly
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard, Reading, Trip
 from handeye.touch.hold import too_early

@@ -23,7 +23,15 @@ from handeye.execution.undo.standing import stands, where_the_hand_is
 from handeye.execution.undo.unscrewing import LOWER, lower, taken_by, unscrew
 from handeye.execution.undo.way import RecordedPath, packed, unpacked
 from handeye.planning.motions import Unreachable, directions, move_trajectory
-from handeye.program.causes import BackingOut, Cause, HoldOff, ScrewFast, ScrewLost, UndoResisted, UndoUnknown
+from handeye.program.diagnosis.causes import (
+    BackingOut,
+    Cause,
+    HoldOff,
+    ScrewFast,
+    ScrewLost,
+    UndoResisted,
+    UndoUnknown,
+)
 from handeye.program.events import GuardTripped, StageUndone, UndoEnded, UndoFinished, UndoStarted
 from handeye.program.guards import GuardKind
 from handeye.program.motion_operations import Center, Close, Move, Open

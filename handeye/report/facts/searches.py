@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from handeye.program.causes import PlacesTried
+from handeye.program.diagnosis.causes import PlacesTried
 from handeye.program.events import AnyEvent, ErrorRaised, SearchAdvanced, StepStarted
 from handeye.report.recorded import Recorded
 

@@ -6,7 +6,7 @@ from typing import Final
 from handeye.core.markup import Markup
 from handeye.core.plain_text import counted
 from handeye.core.units import INCH
-from handeye.program.cause_text import call_sentence
+from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import (
     CameraBusy,
     CameraStarted,

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from handeye.core.markup import Markup
 from handeye.core.plain_text import counted
 from handeye.core.units import MILLIMETRE
-from handeye.program.cause_text import error_sentence
+from handeye.program.diagnosis.cause_text import error_sentence
 from handeye.program.events import ErrorRaised
 from handeye.report.facts.seen import Finding, SeenPicture
 from handeye.report.page.elements import data_address, element, note, section, to_moment

@@ -33,7 +33,7 @@ from handeye.execution.undo.undoing import order
 from handeye.execution.vision_actions import just_found
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode, plan_digest
-from handeye.program.causes import ArmNames
+from handeye.program.diagnosis.causes import ArmNames
 from handeye.program.events import AnyEvent, Choice, FrictionMeasured, JointFriction, RunStarted
 from handeye.program.program import Position
 from handeye.program.system_state import SystemState

@@ -19,7 +19,7 @@ from handeye.debugger.view_records import (
     SearchView,
 )
 from handeye.debugger.views import last_picture
-from handeye.program.cause_text import error_sentence
+from handeye.program.diagnosis.cause_text import error_sentence
 from handeye.program.events import GuardTripped
 from handeye.program.world_model import planned_pose
 from handeye.runs.runner import Runner

@@ -13,7 +13,7 @@ from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, Joint, ServoModel
 from handeye.core.pose import Array, pose, rotation_z, translated
 from handeye.core.units import DEGREE, INCH
-from handeye.program.reasons import FixedDirection, FixedOrientation
+from handeye.program.diagnosis.reach import FixedDirection, FixedOrientation
 
 AXES = {"x": np.array([1.0, 0.0, 0.0]), "y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, -1.0])}
 SUBSETS = [names for count in (1, 2, 3) for names in combinations("xyz", count)]

@@ -8,7 +8,7 @@ from robots import ROBOTS
 from handeye.arm.ik import branches, solve
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, constants
-from handeye.program.reasons import OutOfReach
+from handeye.program.diagnosis.reach import OutOfReach
 
 pytestmark = pytest.mark.parametrize("arm", [robot.arm for robot in ROBOTS.values()], ids=list(ROBOTS))
 

@@ -8,9 +8,9 @@ from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import hand, pose, rotation_z
 from handeye.core.units import DEGREE, INCH
-from handeye.program.cause_text import cause_sentence
-from handeye.program.causes import BeyondArm
-from handeye.program.reasons import InnerCylinder, JointLimit, OutOfReach, TooNear
+from handeye.program.diagnosis.cause_text import cause_sentence
+from handeye.program.diagnosis.causes import BeyondArm
+from handeye.program.diagnosis.reach import InnerCylinder, JointLimit, OutOfReach, TooNear
 
 
 def at(x: float, y: float, z: float, yaw: float = 90.0) -> np.ndarray:

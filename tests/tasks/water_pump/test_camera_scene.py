@@ -7,7 +7,7 @@ import pytest
 
 from handeye.core.units import INCH
 from handeye.core.variation import WorldSpec
-from handeye.program.cause_text import cause_sentence
+from handeye.program.diagnosis.cause_text import cause_sentence
 from handeye.tasks.water_pump.trials.base import BaseTrial
 from handeye.tasks.water_pump.trials.gasket import ABSENT, RIGHT, SHIFTED, GasketTrial
 from handeye.tasks.water_pump.trials.still_pump import StillPump, locate, look, pump_base

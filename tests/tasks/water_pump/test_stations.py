@@ -13,7 +13,7 @@ from handeye.core.source import Source
 from handeye.core.units import INCH
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.planning.planner import make_plan
-from handeye.program.findings import RunsInto
+from handeye.program.diagnosis.plan_findings import RunsInto
 from handeye.program.taught import Taught
 from handeye.runs.scripts import taught
 from handeye.tasks import task

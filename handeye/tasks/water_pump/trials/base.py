@@ -12,7 +12,7 @@ from handeye.core.pose import Array
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
-from handeye.program.cause_text import cause_sentence
+from handeye.program.diagnosis.cause_text import cause_sentence
 from handeye.tasks.trial import Attempt, Count, Known, Trial
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 

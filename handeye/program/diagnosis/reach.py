@@ -3,7 +3,7 @@
 from handeye.core.record import Record
 
 
-class ReasonRecord(Record, frozen=True, tag_field="reason", tag=True):
+class ReachFailureRecord(Record, frozen=True, tag_field="reason", tag=True):
     """Base of the reach failures."""
 
     @property
@@ -12,7 +12,7 @@ class ReasonRecord(Record, frozen=True, tag_field="reason", tag=True):
         return ()
 
 
-class BeyondRange(ReasonRecord, frozen=True):
+class BeyondRange(ReachFailureRecord, frozen=True):
     """Base of failures with a joint at `amount`, beyond the end `limit` of its range (rad, m)."""
 
     joint: int
@@ -41,7 +41,7 @@ class JointLimit(BeyondRange, frozen=True):
     """A turning joint beyond its range."""
 
 
-class InnerCylinder(ReasonRecord, frozen=True):
+class InnerCylinder(ReachFailureRecord, frozen=True):
     """The wrist nearer to the column's axis (m) than the shoulder's offset allows."""
 
     radius: float
@@ -53,13 +53,13 @@ class InnerCylinder(ReasonRecord, frozen=True):
         return self.least - self.radius
 
 
-class FixedOrientation(ReasonRecord, frozen=True):
+class FixedOrientation(ReachFailureRecord, frozen=True):
     """The hand turned by `angle` (rad), which no joint can do."""
 
     angle: float
 
 
-class FixedDirection(ReasonRecord, frozen=True):
+class FixedDirection(ReachFailureRecord, frozen=True):
     """The hand `off` (m) the line or plane spanned by the sliding joints."""
 
     joints: tuple[int, ...]
@@ -70,7 +70,7 @@ class FixedDirection(ReasonRecord, frozen=True):
         return self.joints
 
 
-class HeldJoint(ReasonRecord, frozen=True):
+class HeldJoint(ReachFailureRecord, frozen=True):
     """A joint that would have to move, held at `at` (rad, m)."""
 
     joint: int
@@ -81,13 +81,13 @@ class HeldJoint(ReasonRecord, frozen=True):
         return (self.joint,)
 
 
-class InLine(ReasonRecord, frozen=True):
+class InLine(ReachFailureRecord, frozen=True):
     """Two joint axes that come into line on the way, where the orientation cannot be kept."""
 
     joints: tuple[int, int]
 
 
-class TooFast(ReasonRecord, frozen=True):
+class TooFast(ReachFailureRecord, frozen=True):
     """A joint that would exceed its rate limit (rad/s, m/s)."""
 
     joint: int
@@ -99,13 +99,13 @@ class TooFast(ReasonRecord, frozen=True):
         return (self.joint,)
 
 
-class BelowTable(ReasonRecord, frozen=True):
+class BelowTable(ReachFailureRecord, frozen=True):
     """The hand `depth` (m) below the table top."""
 
     depth: float
 
 
-Reason = (
+ReachFailure = (
     OutOfReach | TooNear | JointLimit | InnerCylinder | FixedOrientation | FixedDirection
     | HeldJoint | InLine | TooFast | BelowTable
 )  # fmt: skip

@@ -5,10 +5,10 @@ from typing import assert_never
 from handeye.core.errors import ERRORS
 from handeye.core.plain_text import distinct_digits
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
-from handeye.program import causes as c
-from handeye.program.causes import Cause
+from handeye.program.diagnosis import causes as c
+from handeye.program.diagnosis.causes import Cause
+from handeye.program.diagnosis.reach_text import reach_sentence
 from handeye.program.guards import GuardKind
-from handeye.program.reason_text import sentence as reason_sentence
 
 
 def error_sentence(number: int, cause: Cause | None) -> str:
@@ -28,11 +28,11 @@ def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
 
 
 def cause_sentence(cause: Cause) -> str:
-    """The sentence of a cause; empty if its error's meaning says it all."""
+    """The reach_sentence of a cause; empty if its error's meaning says it all."""
     match cause:
         case c.BeyondArm():
             goal = f"{cause.goal}: " if cause.goal else ""
-            return goal + reason_sentence(cause.arm, cause.reason)
+            return goal + reach_sentence(cause.arm, cause.reason)
         case c.JointBehind():
             return f"{cause.joint} stayed behind its set-point"
         case c.HandAstray():
@@ -135,10 +135,10 @@ def _met_early(cause: c.MetEarly) -> str:
     gap, kept = _apart(cause.gap, cause.kept)
     then = "held something" if cause.holding else "stood"
     touching = f"{touching_fingers(cause.fingers)} something at {gap} in already"
-    sentence = f"{touching}; when the step was executed the fingers {then} at {kept} in"
+    reach_sentence = f"{touching}; when the step was executed the fingers {then} at {kept} in"
     if all(cause.fingers) or not cause.holding:
-        return sentence
-    return f"{sentence}: it lies {_inches((cause.gap - cause.kept) / 2)} off the middle of the hand"
+        return reach_sentence
+    return f"{reach_sentence}: it lies {_inches((cause.gap - cause.kept) / 2)} off the middle of the hand"
 
 
 def _not_found(cause: c.SightCause) -> str:

@@ -3,9 +3,9 @@
 from typing import Literal
 
 from handeye.core.record import Record, Vector3
+from handeye.program.diagnosis.reach import ReachFailure
+from handeye.program.diagnosis.reach_text import NamedArm
 from handeye.program.guards import GuardKind
-from handeye.program.reason_text import NamedArm
-from handeye.program.reasons import Reason
 
 LargeHole = Literal["largest", "second"]  # holes that vision locates a part by
 
@@ -41,7 +41,7 @@ class BeyondArm(CauseRecord, frozen=True, kw_only=True):
     """The arm cannot reach a pose, or cannot move there; `goal` is the position's name, if it has one."""
 
     goal: str = ""
-    reason: Reason
+    reason: ReachFailure
     arm: ArmNames
 
     def __post_init__(self) -> None:

@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass
 
-from handeye.program.guards import Exerted
-from handeye.program.reasons import (
+from handeye.program.diagnosis.reach import (
     BelowTable,
     InLine,
     JointLimit,
-    Reason,
+    ReachFailure,
     TooFast,
 )
+from handeye.program.guards import Exerted
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -18,7 +18,7 @@ class NoConfiguration:
 
     step: int
     position: str | None  # the goal or via point; None: the finding is about the motion
-    reason: Reason
+    reason: ReachFailure
     along: float | None = None
 
     @property
@@ -109,4 +109,4 @@ class TooFaint:
         return "faint-moment" if self.exerted.turning else "faint-force"
 
 
-PlanningFinding = NoConfiguration | GoalBelowTable | RunsInto | TooHeavy | TooWeak | TooFaint
+PlanFinding = NoConfiguration | GoalBelowTable | RunsInto | TooHeavy | TooWeak | TooFaint

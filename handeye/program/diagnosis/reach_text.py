@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Protocol, assert_never
 
 from handeye.core.units import DEGREE, INCH
-from handeye.program.reasons import (
+from handeye.program.diagnosis.reach import (
     BelowTable,
     FixedDirection,
     FixedOrientation,
@@ -13,7 +13,7 @@ from handeye.program.reasons import (
     InnerCylinder,
     JointLimit,
     OutOfReach,
-    Reason,
+    ReachFailure,
     TooFast,
     TooNear,
 )
@@ -47,8 +47,8 @@ class NamedArm(Protocol):
         ...
 
 
-def sentence(arm: NamedArm, reason: Reason) -> str:
-    """The sentence of a reach failure: inches and degrees, joints by number and name."""
+def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
+    """The reach_sentence of a reach failure: inches and degrees, joints by number and name."""
     match reason:
         case OutOfReach() | TooNear() | JointLimit():
             return _beyond(arm, reason)
