@@ -86,6 +86,8 @@ def _decides(event: AnyEvent) -> Any:
             return event.choice
         case happened.ExperimentMade():
             return event.what, event.name, event.value
+        case happened.LineTyped():
+            return event.task, event.text
         case happened.PanicStopped():
             return "panic"
         case happened.RunFinished():

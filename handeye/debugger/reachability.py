@@ -1,4 +1,4 @@
-"""Stop conditions that a run can still come to."""
+"""Stop conditions that a run can still meet."""
 
 from handeye.program.graph import reachable
 from handeye.runs.snapshot import Checkpoint
@@ -8,23 +8,23 @@ from handeye.runs.systems import listing_of
 
 
 def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
-    """A run that begins at `start` can come to a place to stop at; an error may always come."""
+    """True if a task of a run that begins at `start` can reach a place to stop at; an error may always occur."""
     listing = listing_of(start.setup)
     wanted = _steps(stop, listing)
     if wanted is None:
         return True
-    at = 0 if start.snapshot is None else start.snapshot.state.at
-    return at is not None and not wanted.isdisjoint(_ahead(listing, at))
+    places = [0] if start.snapshot is None else [place.step for place in start.snapshot.state.places]
+    return any(not wanted.isdisjoint(_ahead(listing, step)) for step in places)
 
 
 def _ahead(listing: Listing, first: int) -> set[int]:
-    """The steps that can come after one."""
+    """The steps that can follow one."""
     ways = [step.ways for step in listing.steps]
     return reachable(ways[first], ways)
 
 
 def _steps(stop: AnyStop, listing: Listing) -> frozenset[int] | None:
-    """The steps that a place to stop at is before; None: it is no place."""
+    """The steps before which a condition stops; None: it is no place."""
     match stop:
         case AtSteps():
             return frozenset(stop.steps)

@@ -54,7 +54,7 @@ def _summary(group: Sequence[AnyEvent], program: Listing, measures: Measures) ->
         if isinstance(first, happened.UndoStarted):
             text = f"undo {text}"
         return StepSummary(line=first.line, file=first.file, text=text, outcome=outcome)
-    return StepSummary(line=None, text=sentence(first), outcome="")
+    return StepSummary(line=None, text=sentence(first, measures), outcome="")
 
 
 def _outcome(
@@ -68,7 +68,7 @@ def _outcome(
         elif isinstance(event, happened.OperatorCalled) and event.error is not None:
             said.append("the operator is called")
         elif not isinstance(event, _SILENT):
-            said.append(sentence(event))
+            said.append(sentence(event, measures))
     busy = sum(event.seconds for event in group if isinstance(event, happened.CameraBusy))
     if busy:
         said.append(f"the camera took {busy:.1f} s")

@@ -15,6 +15,7 @@ from handeye.program.events import (
     ExperimentMade,
     FrictionMeasured,
     GuardFaint,
+    LineTyped,
     OperatorAnswered,
     RunStarted,
     StageFinished,
@@ -87,7 +88,7 @@ def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
         when = f"at {event.time - begun:.1f} s"
         if isinstance(event, OperatorAnswered):
             yield f"{when} the operator chose: {event.choice}"
-        elif isinstance(event, UndoOrdered) and event.asked_by == "person":
+        elif isinstance(event, LineTyped) or (isinstance(event, UndoOrdered) and event.asked_by == "person"):
             yield f"{when} {sentence(event)}"
         elif isinstance(event, ExperimentMade):
             yield f"{when} {event.what} {event.name} was set by hand"

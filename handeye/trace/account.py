@@ -9,8 +9,8 @@ import numpy as np
 from handeye.core.pose import Array
 from handeye.core.units import INCH
 from handeye.program import events as happened
-from handeye.program.events import AnyEvent, beginning
-from handeye.trace.sentences import inches, sentence
+from handeye.program.events import AnyEvent, SystemEvent, beginning
+from handeye.trace.sentences import inches, measures_of, sentence
 
 ASTRAY: Final = 0.02 * INCH
 """A motion that ends farther than this from where it was to end is worth a word; free ones end nearer."""
@@ -35,6 +35,7 @@ class _Teller:
     _origin: float
     """The cell's clock when the run began, s."""
     lines: list[str] = field(default_factory=list)
+    _task: str = ""
     _heading: int | None = None
     """The line with the heading of the stage under way, once there is one."""
     _begun: float = 0.0
@@ -56,7 +57,8 @@ class _Teller:
         """Tell one event."""
         match event:
             case happened.RunStarted():
-                self.lines += [f"{sentence(event)}", _versions(event)]
+                self._task = event.task
+                self.lines += [sentence(event), _versions(event)]
             case happened.FrictionMeasured():
                 self.lines.append(sentence(event))
             case happened.StageStarted():
@@ -100,6 +102,8 @@ class _Teller:
                 | happened.UndoOrdered()
             ):
                 self.lines.append(f"{self.clock(event)}  *** {sentence(event)}")
+            case SystemEvent():
+                self._beneath(sentence(event, measures_of(self._task)))
             case _:
                 self._beneath(sentence(event))
 

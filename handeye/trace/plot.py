@@ -11,11 +11,12 @@ from handeye.core.errors import Refused
 from handeye.core.extras import MissingExtra
 from handeye.core.files import Kind
 from handeye.core.pose import Array
-from handeye.core.units import DEGREE, INCHES, Measures
+from handeye.core.units import DEGREE
 from handeye.program import events as happened
 from handeye.program.events import AnyEvent
 from handeye.program.stage_names import stage_index
 from handeye.tasks import known_any
+from handeye.trace.sentences import measures_of
 from handeye.trace.stages import Stage
 from handeye.trace.steps import Span
 from handeye.trace.trace import Trace
@@ -110,7 +111,7 @@ def _stages(trace: Trace) -> Iterator[Stage]:
 
 def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
     """A panel for the joints that turn, one for those that slide and the fingers; SI where the arm is not known."""
-    task, measures = known_any(trace.head.task), _measures(trace)
+    task, measures = known_any(trace.head.task), measures_of(trace.head.task)
     kinds = {} if task is None else task.joint_kinds
     times = trace.times[rows] - trace.head.time
     motion, length = trace.motion, measures.length
@@ -133,13 +134,8 @@ def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
             yield Panel(name=name, unit=unit, curves=tuple(curves))
 
 
-def _measures(trace: Trace) -> Measures:
-    task = known_any(trace.head.task)
-    return INCHES if task is None else task.measures
-
-
 def _forces(trace: Trace, rows: slice) -> Panel:
-    forces, unit = trace.forces(), _measures(trace).force
+    forces, unit = trace.forces(), measures_of(trace.head.task).force
     times = forces.times[rows] - trace.head.time
     curves = (
         Curve(name=axis, times=times, values=forces.force[rows, number] / unit.size)

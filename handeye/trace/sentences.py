@@ -18,6 +18,7 @@ from handeye.program.diagnosis.cause_text import (
 )
 from handeye.program.events import Event, SystemEvent
 from handeye.program.guards import GuardKind
+from handeye.tasks import known_any
 
 _IMPORTANCE: Final[dict[happened.Importance, Log.Level.ValueType]] = {
     "debug": Log.DEBUG,
@@ -81,6 +82,12 @@ _ASKING: Final[dict[happened.AskedBy, str]] = {
 }
 _PLACES: Final = ("saved", "position")
 """Kinds of experiments whose values are differences or places."""
+
+
+def measures_of(task: str) -> Measures:
+    """The units in which people see runs of a task, by its name; those of the arm language if it is not known here."""
+    found = known_any(task)
+    return INCHES if found is None else found.measures
 
 
 def inches(vector: Sequence[float], places: int = 2) -> str:

@@ -8,12 +8,11 @@ import numpy as np
 
 from handeye.core.errors import NoSuchName
 from handeye.core.pose import Array
-from handeye.core.units import INCHES
 from handeye.program.events import AnyEvent, StageStarted, StepStarted
 from handeye.tasks import known_any
 from handeye.tasks.interface import AnyTask
 from handeye.trace.records import event_data
-from handeye.trace.sentences import sentence
+from handeye.trace.sentences import measures_of, sentence
 from handeye.trace.steps import CLOCKS
 from handeye.trace.table import Column, Table
 from handeye.trace.trace import Trace
@@ -102,8 +101,7 @@ def _channels(trace: Trace) -> Table:
 
 
 def _events(trace: Trace) -> Table:
-    events, task = trace.events, known_any(trace.head.task)
-    measures = INCHES if task is None else task.measures
+    events, measures = trace.events, measures_of(trace.head.task)
     times = np.array([event.time for event in events])
     columns = (
         _since(trace, times),

@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
+from handeye.core.units import INCHES
 from handeye.execution.servo_period import ServoPeriod
 from handeye.ports.camera import Picture
 from handeye.program.event_reading import EventReader
@@ -30,7 +31,7 @@ from handeye.trace.machine_channels import channels_message
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
 from handeye.trace.records import RawMessage, event_data
-from handeye.trace.sentences import level_of, sentence
+from handeye.trace.sentences import level_of, measures_of, sentence
 from handeye.vision.marks import Mark
 
 MOVED: Final = 1e-6
@@ -54,6 +55,7 @@ class TraceWriter:
         self.events = 0
         """Number of events written."""
         self.head: RunStarted | None = None
+        self._measures = INCHES
         self._reader = EventReader()
         self._place = "", 0  # required file and line of the step under way
         self._taken: dict[str, int] = {}  # when the picture of each name was taken last, ns
@@ -65,7 +67,7 @@ class TraceWriter:
 
     def begin(self, head: RunStarted) -> None:
         """Write what stands before all messages."""
-        self.head = head
+        self.head, self._measures = head, measures_of(head.task)
         self.file.begin(head, self._plan)
 
     def event(self, event: Event) -> None:
@@ -80,7 +82,7 @@ class TraceWriter:
         if level is not None:
             name = self.head.program
             file, line = self._place[0] or name, self._place[1]
-            said = messages.log(time, level, sentence(event), name=name, file=file, line=line)
+            said = messages.log(time, level, sentence(event, self._measures), name=name, file=file, line=line)
             self.file.write(LOG, time, said)
         self.file.write(EVENTS, time, event_data(event), boundary=isinstance(event, BOUNDARIES))
         self.events += 1

@@ -12,6 +12,7 @@ from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.program.event_reading import EventReader, own_kinds, read_packed
 from handeye.program.events import AnyEvent, RunFinished, RunStarted, SystemEvent, to_line
+from handeye.trace.account import account
 from handeye.trace.eventlist import read_events
 from handeye.trace.sentences import level_of, sentence
 
@@ -108,3 +109,7 @@ def test_no_system_can_give_another_meaning_to_a_common_kind(monkeypatch: pytest
     monkeypatch.setattr(entries, "_registered", {"machine": entry("WRONG")})
     with pytest.raises(InvalidInput, match=r"WRONG calls a kind of event Saved, which all systems have$"):
         own_kinds("machine")
+
+
+def test_the_account_of_a_run_tells_them_in_words() -> None:
+    assert "the limit of 0.79 in is crossed" in "\n".join(account(EVENTS))

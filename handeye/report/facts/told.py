@@ -16,6 +16,7 @@ SENSED: Final = (
     happened.GuardFaint,
     happened.GuardTripped,
     happened.HandTold,
+    happened.LineTyped,
     happened.OperatorAnswered,
     happened.OperatorCalled,
     happened.PanicStopped,
@@ -26,6 +27,7 @@ SENSED: Final = (
     happened.PositionDefined,
     happened.Saved,
     happened.SearchAdvanced,
+    happened.SystemEvent,
 )
 """Events worth a caption."""
 

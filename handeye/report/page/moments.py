@@ -13,13 +13,14 @@ from handeye.report.facts.told import Told
 from handeye.report.page.elements import element
 from handeye.report.page.source import line_id
 from handeye.report.recorded import Recorded
-from handeye.trace.sentences import sentence
+from handeye.trace.sentences import measures_of, sentence
 
 
 def moments(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Markup:
     """The data, as an element that is not shown."""
     files = ("", *run.program.required)
     steps = [event for event in run.trace.events if isinstance(event, StepStarted)]
+    measures = measures_of(run.trace.head.task)
     data = {
         "begin": run.begins,
         "end": run.ends,
@@ -30,7 +31,7 @@ def moments(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Markup:
             [run.seconds(each.begin), run.seconds(each.end), printable(each.name)]
             for each in run.trace.stages
         ],
-        "told": [[each.time, printable(sentence(each.event))] for each in told],
+        "told": [[each.time, printable(sentence(each.event, measures))] for each in told],
     }
     return element("script", json_markup(data), id="moments", type="application/json")
 

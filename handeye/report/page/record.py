@@ -6,7 +6,7 @@ from handeye.core.errors import InvalidInput
 from handeye.core.markup import Markup
 from handeye.core.variation import World
 from handeye.core.versions import HANDEYE
-from handeye.program.events import ExperimentMade, OperatorAnswered
+from handeye.program.events import ExperimentMade, LineTyped, OperatorAnswered
 from handeye.program.senses import ASSUMPTIONS
 from handeye.report.facts.again import command
 from handeye.report.facts.faults import told_faults
@@ -43,7 +43,7 @@ def _again(run: Recorded) -> Iterator[Markup]:
         )
         return
     yield element("pre", element("code", typed), class_="command")
-    if any(isinstance(event, OperatorAnswered | ExperimentMade) for event in run.trace.events):
+    if any(isinstance(event, OperatorAnswered | ExperimentMade | LineTyped) for event in run.trace.events):
         yield note("Somebody took a hand in this run; `handeye trace verify` repeats that, too.")
     if "plan.json" in typed:
         yield note("plan.json is the plan in the folder of the run.")
