@@ -57,6 +57,10 @@ class ArmDrive(ServoLoop):
         """One period towards a pose close by."""
         return self._pass(self.shifting(here, X_WT))
 
+    def zero(self) -> Outcome:
+        """Hold still, and take what is felt then as zero force. See `zeroing`."""
+        return self._pass(self.zeroing())
+
     def hold(self, ticks: int) -> None:
         """Hold the set-point for some servo periods."""
         self._pass(self.holding(ticks))

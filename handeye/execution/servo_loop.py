@@ -192,14 +192,14 @@ class ServoLoop(Servo):
         goal = self.state.q if ahead.q is None else ahead.q
         return sliding(self.arm, (goal - self.state.q) / self.period)
 
-    def shifting(self, here: Dynamics, X_WT: Pose) -> Motion[Outcome]:
-        """One period towards a pose close by."""
+    def shifting(self, here: Dynamics, X_WT: Pose, *, feeling: bool = False) -> Motion[Outcome]:
+        """One period towards a pose close by; force on the hand is estimated at its end if it is `feeling`."""
         self.state.met = None
         step = solve(self.arm, X_WT, self.state.q)
         if step.q is None:
             return Outcome(error=errors.JOINT_LIMIT, cause=step.cause(self.arm))
         sense = sliding(self.arm, (step.q - self.state.q) / self.period)
-        yield from self._approach(here, step.q, estimate=False, sense=sense)
+        yield from self._approach(here, step.q, estimate=feeling, sense=sense)
         return CUT if self.state.cut else REACHED
 
     def holding(self, ticks: int) -> Motion[None]:

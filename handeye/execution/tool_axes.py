@@ -1,0 +1,112 @@
+"""An arm whose servo is closed in the computer as a machine of axes: those of its tool, and the gap of its hand."""
+
+from dataclasses import replace
+from math import pi
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.kinematics import forward
+from handeye.core.errors import ERRORS, BadArgument, Refused
+from handeye.core.pose import Array, hand, hand_angles
+from handeye.execution.drive import ArmDrive
+from handeye.execution.servo import Motion
+from handeye.execution.servo_loop import Outcome
+from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel
+
+SPEED: Final = 0.2  # m/s. At it up to 7 N are felt in the air; at .025 m/s, 2.5 N.
+TURNING: Final = 1.0  # rad/s. Chosen.
+FORCE: Final = Channel(name="force", unit="N", width=3)
+MOMENT: Final = Channel(name="moment", unit="N m", width=3)
+TOUCH: Final = Channel(name="touch", width=2)
+TOOL_TORQUE: Final = Channel(name="tool_torque", unit="N m")
+_AXES: Final = ("x", "y", "z", "o", "a", "t")
+
+
+class ToolAxes(Axes):
+    """Axes x, y, z (m, in W), O, A, T (rad) and the gap of the hand (m); what the hand exerts on the world is felt.
+
+    The arm is driven a servo period for each goal that is put, towards it with at most the speed of each axis, and no
+    path is planned: whoever names goals does so every period, or the watchdog sets the brakes. Force is felt well
+    where the drive knows its joints' friction (`measure_joints`), and counts from where `tare` was called last.
+    """
+
+    def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
+        """Take an arm that is held where it is.
+
+        Args:
+            reach: how far from the origin of W goals may be, m; where in it the arm gets to, its kinematics tell.
+        """
+        self.name, self._drive = name, drive
+        self._goal = self._pose(drive.state.q)
+        self._motion: Motion[Outcome] | None = None
+        gap, grip = drive.arm.hand.gap_max, drive.arm.hand.grip
+        self._specs = (
+            *(_axis(axis, -reach, reach) for axis in _AXES[:3]),
+            *(replace(_axis(axis, -pi, pi), kind="revolute", speed=TURNING) for axis in _AXES[3:]),
+            replace(_axis("gap", 0.0, gap), speed=drive.arm.hand.gap_speed, force=grip),
+        )
+
+    @property
+    def specs(self) -> tuple[AxisSpec, ...]:
+        return self._specs
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        return FORCE, MOMENT, TOUCH, TOOL_TORQUE
+
+    @property
+    def period(self) -> float:
+        return self._drive.period
+
+    def tare(self) -> None:
+        """Hold still for some periods, and take what is felt then as no force."""
+        self._finish()
+        self._drive.zero()
+
+    def read(self) -> AxesReading:
+        self._finish()
+        state, sensed = self._drive.state, self._drive.sensed
+        values = (*-state.wrench, *map(float, sensed.touch), sensed.tool_torque)
+        parts = [part for channel in self.channels for part in channel.parts]
+        q = np.append(self._pose(state.here), sensed.gap)
+        return AxesReading(time=sensed.time, q=q, channels=dict(zip(parts, map(float, values), strict=True)))
+
+    def put(self, goal: Array) -> None:
+        """Drive the arm for a period towards a goal; raises Refused where it cannot go there."""
+        if not np.isfinite(goal).all():
+            raise BadArgument("a goal of an axis is not a finite number")
+        self._finish()
+        most = np.array([spec.speed for spec in self._specs[:-1]]) * self.period
+        way = goal[:-1] - self._goal
+        way[3:] = (way[3:] + pi) % (2 * pi) - pi
+        self._goal = self._goal + np.clip(way, -most, most)
+        self._drive.state.gap = float(goal[-1])
+        self._motion = self._drive.shifting(self._drive.dynamics(), hand(*self._goal), feeling=True)
+        try:
+            next(self._motion)
+        except StopIteration as end:
+            self._end(end.value)
+
+    def _finish(self) -> None:
+        """Take in what the arm felt in the period that has passed."""
+        if self._motion is not None:
+            try:
+                next(self._motion)
+            except StopIteration as end:
+                self._end(end.value)
+
+    def _end(self, outcome: Outcome) -> None:
+        self._motion = None
+        if outcome.error is not None:
+            self._goal = self._pose(self._drive.state.q)
+            raise Refused(f"{self.name} does not go there: {ERRORS[outcome.error]}")
+
+    def _pose(self, q: Array) -> Array:
+        """x, y, z, O, A, T of the tool where the joints are at `q`, shape (6,)."""
+        X_WT = forward(self._drive.arm, q)
+        return np.array([*X_WT[:3, 3], *hand_angles(X_WT)])
+
+
+def _axis(name: str, lower: float, upper: float) -> AxisSpec:
+    return AxisSpec(name=name, kind="prismatic", lower=lower, upper=upper, speed=SPEED)
