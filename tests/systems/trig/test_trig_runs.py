@@ -359,5 +359,14 @@ def test_each_answer_to_a_taught_program_does_what_is_said(
     assert (runner.at, runner.call) == (at, None)
 
 
+def test_physics_that_fails_on_the_bench_ends_the_run_and_calls_nobody() -> None:
+    runner = low_job(0, seed=1)
+    advance(runner, steps=1)
+    runner.system.cell.truth.data.qvel[:] = 5000.0
+    pause = advance(runner)
+    assert (pause.kind == "operator", runner.call) == (False, None)
+    assert str(runner.trouble).startswith("the simulated cell broke down (")
+
+
 def _refused(*_: object) -> None:
     raise Refused("the arm cannot go there")
