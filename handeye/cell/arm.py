@@ -1,5 +1,6 @@
 """A simulated arm: torque motors, brakes, potentiometers, tachometers, and a watchdog."""
 
+from dataclasses import dataclass
 from typing import Final
 
 import mujoco
@@ -9,16 +10,61 @@ from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.cell.converter import Converters
 from handeye.cell.device_errors import ArmErrors
-from handeye.cell.joint_sensors import JointSensors
-from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.sleep import allow, wake
 from handeye.cell.state import figures, finite
-from handeye.cell.watchdog import Watchdog
 from handeye.core.errors import BadArgument
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.ports.arm import ArmPort, ArmReading
+
+_LATE: Final = 1e-6
+"""Share of a period lost to rounding."""
+
+
+@dataclass(slots=True)
+class Watchdog:
+    """Cuts the drives of an arm whose computer does not answer, until the program sets the brakes itself."""
+
+    period: float
+    """s"""
+    tripped: bool = False
+    unanswered: float = 0.0
+    """s since the arm was driven."""
+
+    def answer(self, *, braked: bool) -> None:
+        """The computer has put something out; brakes acknowledge that a period was missed."""
+        self.unanswered = 0.0
+        self.tripped = self.tripped and not braked
+
+    def wait(self, seconds: float) -> None:
+        """Time (s) is about to pass in which the drives hold what was put out last; too much of it trips at once."""
+        self.unanswered += seconds
+        self.tripped = self.tripped or self.unanswered > self.period * (1 + _LATE)
+
+
+class JointSensors:
+    """The sensors of n joints, behind lines called `potentiometer.N` and `tachometer.N`."""
+
+    def __init__(self, errors: ArmErrors, noise: np.random.Generator, lines: SignalLines) -> None:
+        """Sensors that are off by errors and by what a generator draws."""
+        self._errors, self._noise, self._lines = errors, noise, lines
+        self._joints = len(errors.offset)
+        self._sigma = np.concatenate((errors.pot_noise, errors.tachometer_noise))
+        self._converters = Converters(np.concatenate((errors.pot_step, errors.tachometer_step)))
+
+    def read(self, q: Array, qd: Array) -> tuple[Array, Array]:
+        """Positions and rates as they are told, for true ones; shape (n,), rad or m."""
+        n, lines = self._joints, self._lines
+        told = np.concatenate((self._errors.readings(q), qd))
+        told += self._sigma * self._noise.standard_normal(2 * n)
+        if lines.defects:
+            told[:n] = lines.carried_each("potentiometer", told[:n])
+            told[n:] = lines.carried_each("tachometer", told[n:])
+        told = self._converters(told)
+        return told[:n], told[n:]
+
 
 _BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))
 """It creeps under .01 deg in 10 s, until the arm sleeps."""
@@ -56,7 +102,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         posture: Array,
         errors: ArmErrors,
         noise: np.random.Generator,
-        lines: Lines = SOUND,
+        lines: SignalLines = SOUND,
     ) -> None:
         """An arm that stands at a posture with its brakes set.
 
@@ -105,9 +151,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
                 raise BadArgument(
                     f"torques of shape {np.shape(torque)} were put out to an arm of {joints} joints"
                 )
-            torque = finite(
-                np.array(torque, dtype=float), "the torque"
-            )  # a copy, which nobody else can change
+            torque = finite(np.array(torque, dtype=float), "the torque")  # a copy of its own
             if not self._lines.carried("servo", 1.0):
                 return
         self._torque = torque
@@ -132,7 +176,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         )
 
     def _driven(self, torque: Array) -> Array:
-        """What the drives make of a torque that is put out, shape (n,)."""
+        """Torque that the drives produce when one is put out, shape (n,)."""
         torque = self._torque_converters(torque) * self._errors.drive_gain
         if not self._lines.defects:
             return torque
@@ -145,7 +189,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._read(q, qd, braked=self._braked)
 
     def _read(self, q: Array, qd: Array, *, braked: bool) -> None:
-        """Keep readings, nobody else's, until time has passed again; who has them cannot change them."""
+        """Keep readings, which cannot be changed, until time passes again."""
         q.setflags(write=False)
         qd.setflags(write=False)
         self._reading = ArmReading(q=q, qd=qd, braked=braked)

@@ -62,7 +62,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         """Called whenever time is about to pass, for 1/60 s at most unless everything sleeps."""
         self.after_period: list[Callable[[], None]] = []
         self.handlers: dict[str, Callable[[], None]] = {}
-        """What is done about events that are due, by their names."""
+        """Handlers of events, by name."""
         self._tick = Fraction(model.opt.timestep).limit_denominator(_FINEST)
         self._parts: list[Mechanism[Any]] = []
         self._steps, self._stretch = 0, max(1, int(_STRETCH / self._tick))
@@ -124,7 +124,7 @@ class Bench(Clock, Mechanism[BenchTime]):
             self.handlers[self._due.pop(0).name]()
 
     def _pass(self, most: int) -> None:
-        """Make some physics steps, at most so many: for a stretch, or all of them if everything sleeps."""
+        """Let at most `most` physics steps pass: a stretch of them, or all of them if everything sleeps."""
         steps = min(most, self._stretch)
         for part in self._parts:
             part.before(float(steps * self.tick))

@@ -16,7 +16,7 @@ from handeye.ports.clock import whole_steps
 from handeye.ports.outputs import Outputs
 
 Sense = Callable[[mujoco.MjModel, mujoco.MjData], Sequence[float] | Array]
-"""What a channel shows of a scene: as many numbers as it has components."""
+"""Reads the components of a channel off a scene."""
 
 
 def sensor(name: str) -> Sense:

@@ -8,11 +8,11 @@ import mujoco
 import numpy as np
 
 from handeye.cell.device_errors import CameraErrors
-from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.raster import HALF
 from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
+from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.state import check_noise, finite, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.core.errors import Refused
@@ -59,7 +59,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         rng: np.random.Generator,
         renderer: SceneRenderer,
         drawing: CameraModel,
-        lines: Lines = SOUND,
+        lines: SignalLines = SOUND,
     ) -> None:
         """A camera that looks at the state `data`, as it is when a picture is taken, and never changes it.
 

@@ -14,7 +14,7 @@ class Converters:
     """A row of converters, one to a number."""
 
     def __init__(self, steps: Array) -> None:
-        """Of steps, shape (n,); where one is 0, there is none."""
+        """Converters with these steps, shape (n,); 0 passes a number on as it is."""
         self._steps, self._there = steps, steps > 0
         self._divisors = np.where(self._there, steps, 1.0)
 

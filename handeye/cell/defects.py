@@ -15,13 +15,13 @@ PICTURE: Final = "picture"
 
 
 class Effect(ABC):
-    """What a defect does to what a line carries: a number, or the points of a picture."""
+    """Effect of a defect on the values of a line: a number, or the points of a picture."""
 
     __slots__ = ()
 
     @abstractmethod
     def on(self, values: Values, first: Values, seconds: float) -> Values:
-        """What arrives in the place of some values, SI.
+        """Values that arrive in place of those sent, SI.
 
         Args:
             first: what the line carried when the defect set in.
@@ -71,7 +71,7 @@ class Scaled(Effect):
 
 @dataclass(frozen=True, slots=True)
 class Missing(Effect):
-    """Nothing arrives for so many seconds."""
+    """Nothing arrives for some seconds."""
 
     seconds: float
 

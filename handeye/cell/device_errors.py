@@ -19,21 +19,21 @@ class ArmErrors:
     wave: Array
     """Amplitude of the waviness of a potentiometer."""
     period: Array
-    """Of the waviness."""
+    """Wave number of the waviness."""
     phase: Array
-    """Of the waviness, rad."""
+    """Phase of the waviness, rad."""
     centre: Array
     """Posture at which `scale` makes no error."""
     pot_noise: Array
     """Sigma, before the converter."""
     pot_step: Array
-    """Of the converter of the potentiometer; 0: there is none."""
+    """Step of the potentiometer's converter; 0: it has none."""
     tachometer_noise: Array
     """Sigma before the converter, rad/s, m/s."""
     tachometer_step: Array
-    """Of the converter of the tachometer, rad/s, m/s; 0: there is none."""
+    """Step of the tachometer's converter, rad/s, m/s; 0: it has none."""
     torque_step: Array
-    """Of the converter that the drive gets its torque from, N m, N; 0: there is none."""
+    """Step of the converter that gives the drive its torque, N m, N; 0: it has none."""
     drive_gain: Array
     """True torque over the torque that is put out."""
 
@@ -86,7 +86,7 @@ class HandErrors:
     gap_noise: float
     """Sigma before the converter, m."""
     gap_step: float
-    """Of the converter, m; 0: there is none."""
+    """Step of the converter, m; 0: it has none."""
     switch_force: tuple[float, float]
     """Force at which the +y and the -y finger's switch fires, N."""
     torque_noise: float

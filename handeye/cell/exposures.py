@@ -6,18 +6,109 @@ screen, has soft shadows, what is out of focus blurred, and smooth edges.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, Self
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.cell.film_stock import FILMS, GAMMA
-from handeye.cell.gloss import polish
-from handeye.cell.lens import Lens
 from handeye.cell.photograph import Near, Photograph, Photographer, check_size, smooth_photograph
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.pose import Array
+
+_TOLD: Final = "gloss/"
+"""Begins the names of the figures in which a scene tells how metallic and how rough a material is."""
+
+
+def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
+    """Give the shapes of a prepared scene the gloss that is told of their materials."""
+    told = _told(model)
+    for shape in scene.geoms[: scene.ngeom]:
+        if shape.matid in told:
+            metallic, roughness = told[shape.matid]
+            shape.specular = 0.1 + 0.8 * metallic * (1 - 0.3 * roughness)
+            shape.shininess = 0.7 * (1 - roughness)
+
+
+def _told(model: mujoco.MjModel) -> dict[int, tuple[float, float]]:
+    """How metallic and how rough, by the number of the material."""
+    figures = {
+        model.numeric(number).name: tuple(model.numeric(number).data.tolist())
+        for number in range(model.nnumeric)
+    }
+    return {
+        number: figures[name]
+        for number in range(model.nmat)
+        if (name := _TOLD + model.material(number).name) in figures
+    }
+
+
+APERTURE: Final = 0.008
+"""Radius of the opening, m: of a 50 mm lens at f/3.1."""
+_NEAR, _FAR = 0.1, 14.0
+"""Clipping planes, m."""
+_MIDDLE: Final = 20
+"""The focus is measured in the middle of the picture, 1/20 of its sides to either side."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lens:
+    """A lens that looks from a place, upright in the picture."""
+
+    eye: Array
+    """Its middle in W, m."""
+    forward: Array
+    up: Array
+    slopes: tuple[float, float]
+    """Half the width and half the height of what it sees, over the distance."""
+    size: tuple[int, int]
+    """Points of the picture, width and height."""
+    focus: float = 1.0
+    """Distance at which things are sharp, m."""
+
+    @classmethod
+    def of(cls, scene: mujoco.MjvScene, size: tuple[int, int]) -> Self:
+        """The lens of the camera that a scene was prepared for."""
+        left, right = scene.camera  # two, for two eyes; they stand beside the camera
+        high = (left.frustum_top - left.frustum_bottom) / 2 / left.frustum_near
+        wide = left.frustum_width / left.frustum_near or high * size[0] / size[1]
+        return cls(
+            eye=(left.pos + right.pos) / 2.0,
+            forward=left.forward.astype(float),
+            up=left.up.astype(float),
+            slopes=(float(wide), float(high)),
+            size=size,
+        )
+
+    def aim(self, scene: mujoco.MjvScene, at: Array, shift: Array) -> None:
+        """Look through a point of the lens; what is in focus stays where it is in the picture.
+
+        Args:
+            at: the point, in radii of the aperture to the right and up; shape (2,).
+            shift: how far the picture is shifted, in its points to the right and up; shape (2,).
+        """
+        right = np.cross(self.forward, self.up)
+        aside = APERTURE * at
+        across = -aside / self.focus + 2 * np.array(self.slopes) * shift / np.array(self.size)
+        for camera in scene.camera:
+            camera.pos[:] = self.eye + aside[0] * right + aside[1] * self.up
+            camera.forward[:], camera.up[:] = self.forward, self.up
+            camera.frustum_near, camera.frustum_far = _NEAR, _FAR
+            camera.frustum_width = _NEAR * self.slopes[0]
+            camera.frustum_center = _NEAR * across[0]
+            camera.frustum_top = _NEAR * (across[1] + self.slopes[1])
+            camera.frustum_bottom = _NEAR * (across[1] - self.slopes[1])
+
+    @staticmethod
+    def looked_at(depth: NDArray[np.float32]) -> float:
+        """Distance (m) of what is in the middle of a picture through the middle of a lens, from its depth buffer."""
+        rows, columns = (
+            slice(side // 2 - side // _MIDDLE, side // 2 + side // _MIDDLE + 1) for side in depth.shape
+        )
+        return float(_NEAR * _FAR / (_FAR - np.median(depth[rows, columns]) * (_FAR - _NEAR)))
+
 
 USUAL: Final = 24
 MOST: Final = 1000
@@ -42,7 +133,7 @@ class Exposing:
     film: str = "colour"
 
     def __post_init__(self) -> None:
-        """Raises InvalidInput if there is no such film, or so many exposures cannot be."""
+        """Raises InvalidInput if there is no such film, or the number of exposures is out of range."""
         if self.film not in FILMS:
             raise NoSuchName(f"there is no film {quoted(self.film)}; there are {', '.join(FILMS)}")
         whole = isinstance(self.exposures, (int, np.integer))
@@ -51,11 +142,7 @@ class Exposing:
 
 
 def exposing(*, fine: bool, film: str | None, exposures: int | None) -> Exposing | None:
-    """How a photograph is made by what was asked for; None: plainly. Film and exposures are of fine ones only.
-
-    Raises:
-        InvalidInput: as `Exposing`.
-    """
+    """How a photograph is made by what was asked for, None: plainly; raises as `Exposing`. A plain one has no film."""
     if not (fine or film is not None or exposures is not None):
         return None
     return Exposing(
@@ -65,7 +152,7 @@ def exposing(*, fine: bool, film: str | None, exposures: int | None) -> Exposing
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Exposure:
-    """What one exposure is seen from and lit from, points of unit discs, and its shift, in points; shape (2,) each."""
+    """Points of unit discs from which an exposure is seen and lit, and its shift in pixels; shape (2,) each."""
 
     lens: Array
     lamp: Array
@@ -79,8 +166,7 @@ def photographed(
 ) -> Photograph:  # fmt: skip
     """A photograph by a camera of the scene: a fine one, or a plain one.
 
-    Raises:
-        InvalidInput: no such camera, the size cannot be, or no OpenGL on this machine.
+    Raises InvalidInput if there is no such camera, size or OpenGL.
     """
     if how is None:
         return smooth_photograph(model, data, camera=camera, width=width, height=height)

@@ -20,7 +20,7 @@ from handeye.core.pose import Array, Pose, inverse, pose
 FRAME: Final = "scene"
 """The node of the world frame, z up."""
 _OUTSIDE: Final = "world"
-"""What trimesh calls the frame of a file."""
+"""Name of a file's frame in trimesh."""
 _Y_UP: Final = trimesh.transformations.rotation_matrix(-np.pi / 2, (1.0, 0.0, 0.0))
 _ROUGH: Final = 0.7
 

@@ -8,8 +8,8 @@ import numpy as np
 from handeye.arm.hand import HandModel
 from handeye.cell.converter import converted
 from handeye.cell.device_errors import HandErrors
-from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.sleep import wake
 from handeye.cell.state import finite
 from handeye.core.record import Record
@@ -25,7 +25,7 @@ class HandState(Record, frozen=True, kw_only=True):
     gap: float
     touch: tuple[bool, bool]
     set_point: float
-    """Of the finger servo, m."""
+    """Set-point of the finger servo, m."""
     command: tuple[float, float] | None
     """Gap (m) and grip (N) that it was told."""
 
@@ -49,7 +49,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         hand: HandModel,
         errors: HandErrors,
         noise: np.random.Generator,
-        lines: Lines = SOUND,
+        lines: SignalLines = SOUND,
     ) -> None:
         """A hand at rest.
 
@@ -134,7 +134,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         )
 
     def _told(self, finger: str, number: int) -> bool:
-        """What the switch of a finger tells."""
+        """State of a finger's switch as it is read."""
         closed = self._data.sensordata[self._switches[number]] > self._errors.switch_force[number]
         return bool(self._lines.carried(f"finger_switch.{finger}", float(closed)))
 

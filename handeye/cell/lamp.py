@@ -4,8 +4,8 @@ from typing import Final
 
 import mujoco
 
-from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.core.record import Record
 from handeye.ports.lamp import LampPort
 
@@ -24,7 +24,7 @@ class SimulatedLamp(Mechanism[LampState], LampPort):
 
     _LIT: Final = ((1.0, 0.96, 0.85, 1.0), 1.0)
 
-    def __init__(self, model: mujoco.MjModel, material: str, lines: Lines = SOUND) -> None:
+    def __init__(self, model: mujoco.MjModel, material: str, lines: SignalLines = SOUND) -> None:
         """A lamp that is off; its line is `lamp`."""
         self.name = material
         self._lines = lines

@@ -41,8 +41,7 @@ class Mechanism(ABC, Generic[S]):
     def check(self, state: S) -> None:
         """See that a state can be one of this mechanism.
 
-        Raises:
-            InvalidInput, ValueError, KeyError, TypeError: it cannot.
+        Raises InvalidInput, ValueError, KeyError, TypeError if it cannot.
         """
 
     @abstractmethod

@@ -120,7 +120,7 @@ def _replaced(record: Any, values: Mapping[str, int]) -> Iterator[None]:
 
 @cache
 def driver() -> str:
-    """What draws here, by its own words. Raises what `context` does."""
+    """Names that the OpenGL library here gives itself; raises what `context` does."""
     context()
     gl = importlib.import_module("OpenGL.GL")  # which MuJoCo needs, too
     return ", ".join(gl.glGetString(name).decode() for name in (gl.GL_RENDERER, gl.GL_VERSION))
@@ -131,9 +131,7 @@ def context() -> tuple[str, Any]:
     """The platform's name and the one OpenGL context of this program.
 
     Every renderer shares it, so that the objects of one are never freed in the context of another.
-
-    Raises:
-        InvalidInput: OpenGL does not work here.
+    Raises InvalidInput if OpenGL does not work here.
     """
     for name, module, *libraries in PLATFORMS:
         if not all(_loads(alternatives) for alternatives in libraries if alternatives):

@@ -76,10 +76,9 @@ class Photographer:
         return self.exposed()
 
     def aimed(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvScene:
-        """What is exposed: shapes, camera and lights of a view, which may be changed before.
+        """Shapes, camera and lights of a view, which may be changed before it is exposed.
 
-        Raises:
-            InvalidInput: no such camera.
+        Raises InvalidInput if there is no such camera.
         """
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
         mujoco.mjv_updateScene(model, data, self._option, None, _eye(model, data, view), every, self._scene)
@@ -108,21 +107,13 @@ class Photographer:
 def photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
 ) -> Photograph:
-    """Photograph by a camera of the scene.
-
-    Raises:
-        InvalidInput: no such camera, or no OpenGL on this machine.
-    """
+    """Photograph by a camera of the scene; raises InvalidInput if there is no such camera or no OpenGL."""
     _number(model, camera)
     return Photographer(model, width=width, height=height).take(model, data, camera)
 
 
 def _number(model: mujoco.MjModel, camera: str) -> int:
-    """The number of a camera of the scene.
-
-    Raises:
-        InvalidInput: there is no such camera.
-    """
+    """The number of a camera of the scene; raises InvalidInput if there is no such camera."""
     names = [model.camera(i).name for i in range(model.ncam)]
     if camera not in names:
         there = f"there are {', '.join(names)}" if names else "the scene has none"
@@ -144,11 +135,7 @@ def _eye(model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco
 
 
 def photograph_png(model: mujoco.MjModel, data: mujoco.MjData, camera: str, width: int, height: int) -> bytes:
-    """A smooth photograph as a PNG file.
-
-    Raises:
-        InvalidInput: as `smooth_photograph`.
-    """
+    """A smooth photograph as a PNG file; raises as `smooth_photograph`."""
     return png(smooth_photograph(model, data, camera=camera, width=width, height=height))
 
 
@@ -157,8 +144,7 @@ def smooth_photograph(
 ) -> Photograph:
     """A photograph that is drawn at twice the size and averaged.
 
-    Raises:
-        InvalidInput: as `photograph`, or the size cannot be.
+    Raises as `photograph`, and if the size cannot be.
     """
     check_size(width, height)
     fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
@@ -166,11 +152,7 @@ def smooth_photograph(
 
 
 def check_size(width: int, height: int) -> None:
-    """See that a photograph can have a size.
-
-    Raises:
-        InvalidInput: it cannot.
-    """
+    """See that a photograph can have a size; raises InvalidInput if it cannot."""
     whole = all(isinstance(side, (int, np.integer)) for side in (width, height))
     if not (whole and SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
         raise BadArgument(

@@ -9,10 +9,9 @@ from handeye.core.errors import InvalidInput, NoSuchName
 
 
 def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:
-    """A renderer: `gl`, `ray`, or `auto`: OpenGL where it works, rays elsewhere; or one that somebody else makes.
+    """A renderer: `gl`, `ray`, or `auto`: OpenGL where it works, rays elsewhere; or one made by the given function.
 
-    Raises:
-        InvalidInput: another `kind`, or OpenGL is asked for and does not work here.
+    Raises InvalidInput if there is no such `kind`, or OpenGL is asked for and does not work here.
     """
     if not isinstance(kind, str):
         return kind(model)

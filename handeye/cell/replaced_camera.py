@@ -1,4 +1,4 @@
-"""A camera whose pictures somebody else's code makes: it sees copies, and what it gives back is checked."""
+"""A camera whose pictures are made by user code: it sees copies, and what it gives back is checked."""
 
 from collections.abc import Callable
 from copy import copy
@@ -35,7 +35,7 @@ CameraMaker = Callable[[mujoco.MjModel], PictureMaker]
 
 
 class ReplacedCamera(SceneRenderer):
-    """A maker of pictures that somebody brought; it sees copies, so that nothing it does changes the run."""
+    """A user's maker of pictures; it sees copies, so that nothing it does changes the run."""
 
     def __init__(self, name: str, camera: CameraMaker, model: mujoco.MjModel) -> None:
         """For a scene.

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
-from handeye.cell.lines import SOUND, Lines
+from handeye.cell.arm import Watchdog
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.state import finite
-from handeye.cell.watchdog import Watchdog
 from handeye.core.record import Record
 from handeye.ports.screwdriver import ScrewdriverPort
 
@@ -38,7 +38,7 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         torque_noise: float,
         noise: np.random.Generator,
         watchdog: Watchdog,
-        lines: Lines = SOUND,
+        lines: SignalLines = SOUND,
     ) -> None:
         """A screwdriver that is off.
 

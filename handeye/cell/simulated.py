@@ -10,10 +10,10 @@ from handeye.cell.arm import SimulatedArm
 from handeye.cell.camera import SimulatedCamera
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.lamp import SimulatedLamp
-from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.physics_stepper import PhysicsStepper, check_physics
 from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.sleep import asleep
 from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.ports.camera import Renderer
@@ -38,7 +38,7 @@ class SimulatedCell(Clock, SnapshotCell):
         lamp: SimulatedLamp | None = None,
         camera: SimulatedCamera | None = None,
         mechanisms: Sequence[Mechanism[Any]] = (),
-        lines: Lines = SOUND,
+        lines: SignalLines = SOUND,
         stepper: PhysicsStepper | None = None,
         noise: np.random.Generator,
     ) -> None:

@@ -78,9 +78,7 @@ class SnapshotCell:
 
         Sleep is not part of a state: everything wakes, and falls asleep again where it stands still. Therefore a run
         is the same with and without a stop only if its cell is put into its own state wherever it might be stopped.
-
-        Raises:
-            InvalidInput: it is the state of another kind of cell, or no state at all.
+        Raises InvalidInput if it is the state of another kind of cell, or no state at all.
         """
         try:
             self._check(state)

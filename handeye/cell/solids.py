@@ -18,7 +18,7 @@ from handeye.cell.mjcf import mesh_of
 from handeye.core.pose import Array, Pose, pose
 
 SIDES: Final = 64
-"""Of what stands for a cylinder."""
+"""Sides of the prism that stands for a cylinder."""
 _RGB: Final = int(mujoco.mjtTextureRole.mjTEXROLE_RGB)
 
 
@@ -34,7 +34,7 @@ class Solid:
     """In its own frame, m."""
     X_BS: Pose
     colours: Array
-    """Of its corners, shape (n, 4), or of all of it, shape (4,): red, green, blue, opacity, as a screen shows them."""
+    """Red, green, blue and opacity on a screen: of each corner, shape (n, 4), or of the whole solid, shape (4,)."""
 
 
 def placed(solid: Solid) -> trimesh.Trimesh:

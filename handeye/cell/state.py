@@ -40,8 +40,7 @@ def noise_state(rng: np.random.Generator) -> str:
 def set_noise(rng: np.random.Generator, state: str) -> None:
     """Put a generator into a state.
 
-    Raises:
-        ValueError, KeyError, TypeError, OverflowError, RecursionError: it is not one.
+    Raises what `json.loads` and numpy raise if it is not one.
     """
     rng.bit_generator.state = json.loads(state)
 
@@ -49,8 +48,7 @@ def set_noise(rng: np.random.Generator, state: str) -> None:
 def check_noise(state: str) -> None:
     """See that a generator can be put into a state.
 
-    Raises:
-        ValueError, KeyError, TypeError, OverflowError, RecursionError: it cannot.
+    Raises as `set_noise` if it cannot.
     """
     set_noise(np.random.Generator(np.random.PCG64(0)), state)
 
@@ -61,11 +59,7 @@ def figures(values: Array) -> tuple[float, ...]:
 
 
 def finite(values: V, what: str) -> V:
-    """The same values; `what` names them.
-
-    Raises:
-        InvalidInput: one of them is not a finite number.
-    """
+    """The same values; `what` names them; raises InvalidInput if one of them is not a finite number."""
     if not all(map(math.isfinite, values)):
         raise BadFile(f"{what} holds a value that is not a finite number")
     return values

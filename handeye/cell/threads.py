@@ -24,8 +24,8 @@ import mujoco
 import numpy as np
 
 from handeye.cell.carriers import Carriers
-from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.sleep import wake
 from handeye.cell.state import finite
 from handeye.cell.truth import Truth
@@ -83,7 +83,7 @@ class Driver(Protocol):
 
     @property
     def speed(self) -> float:
-        """Of its spindle, rad/s, positive drives a screw in."""
+        """Speed of its spindle, rad/s; positive drives a screw in."""
 
     @property
     def magnet(self) -> bool:
@@ -118,7 +118,7 @@ class Threads(Mechanism[ThreadsState]):
         data: mujoco.MjData,
         driver: Driver,
         figures: ThreadFigures,
-        lines: Lines = SOUND,
+        lines: SignalLines = SOUND,
     ) -> None:
         """Empty holes; `lines`: `magnet`, the force of the bit's."""
         self._model, self._data, self._driver, self._lines = model, data, driver, lines

@@ -18,9 +18,9 @@ class Drawn:
     """Drawn state of a scene, before anything happened in it."""
 
     groups: NDArray[np.int32]
-    """Of the shapes."""
+    """Group of each shape."""
     colours: NDArray[np.float32]
-    """Of the materials: red, green, blue, alpha, shape (n, 4)."""
+    """Red, green, blue and alpha of each material, shape (n, 4)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

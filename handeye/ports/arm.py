@@ -34,6 +34,5 @@ class ArmPort(ABC):
     def drive(self, torque: Array | None) -> None:
         """Put out joint torques, shape (n,), N m or N, held for a servo period; None: drives off, brakes set.
 
-        Raises:
-            InvalidInput: there are more or fewer torques than joints, or one is not a finite number.
+        Raises InvalidInput if there are more or fewer torques than joints, or one is not a finite number.
         """

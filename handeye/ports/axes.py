@@ -96,15 +96,13 @@ class Axes(ABC):
     def power(self, on: bool) -> None:
         """Switch its servos on, which hold where they are then, or off.
 
-        Raises:
-            Refused: its power cannot be switched.
+        Raises Refused if its power cannot be switched.
         """
         raise Refused(f"the power of {self.name} cannot be switched")
 
     def clear(self, channel: str) -> None:
         """Let a latched channel show again what is sensed.
 
-        Raises:
-            InvalidInput: it has no such channel, or it is not latched.
+        Raises InvalidInput if it has no such channel, or it is not latched.
         """
         raise NoSuchName(f"{self.name} has no latched channel {channel}")

@@ -47,25 +47,19 @@ class TvCamera(ABC):
     def lens(self, focal_length: float) -> float:
         """Turn the turret to the lens of that focal length (m, one of LENSES); seconds it takes (0: already there).
 
-        Raises:
-            InvalidInput: no such lens.
+        Raises InvalidInput if there is none.
         """
 
     @abstractmethod
     def aim(self, pan: float, tilt: float) -> float:
         """Slew to these potentiometer readings (rad); seconds it takes.
 
-        Raises:
-            InvalidInput: one of them is not a finite number.
+        Raises InvalidInput if one of them is not a finite number.
         """
 
     @abstractmethod
     def focus(self, distance: float) -> float:
-        """Set the focus for a distance (m); seconds it takes.
-
-        Raises:
-            InvalidInput: no lens can be focused so near.
-        """
+        """Set the focus for a distance (m); seconds it takes; raises InvalidInput if no lens can be focused so near."""
 
     @abstractmethod
     def pots(self) -> tuple[float, float]:

@@ -12,7 +12,7 @@ LONGEST: Final = 86400.0
 _ROUNDING: Final = 1e-6
 """Share of a step by which a period may miss a whole number of steps: what floating-point numbers lose."""
 _DIGITS: Final = ".12g"
-"""Of a period in a message: a period that is given as it is written there is taken."""
+"""Digits of a period in a message, so that what is written there can be typed."""
 
 
 class Clock(ABC):
@@ -34,18 +34,13 @@ class Clock(ABC):
 
     @abstractmethod
     def advance(self, seconds: float) -> None:
-        """Let time pass.
-
-        Raises:
-            InvalidInput: not a whole number of the cell's physics steps, or not one of them.
-        """
+        """Let time pass; raises InvalidInput unless it is a whole number of physics steps, one at least."""
 
 
 def whole_steps(seconds: float, step: float) -> int:
     """The number of physics steps (s each) in a period (s).
 
-    Raises:
-        InvalidInput: not a whole number of them, or not one, or longer than `LONGEST`.
+    Raises InvalidInput unless it is a whole number of them, from one to `LONGEST` s.
     """
     if not (math.isfinite(seconds) and seconds > 0):
         raise BadArgument(f"time cannot pass by {seconds:g} s; the shortest period is {step:{_DIGITS}} s")

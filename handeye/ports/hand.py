@@ -25,6 +25,5 @@ class HandPort(ABC):
     def drive(self, gap: float, grip: float) -> None:
         """Set where the fingers are to go (gap, m) and the most force each may press with (grip, N).
 
-        Raises:
-            InvalidInput: one of them is not a finite number.
+        Raises InvalidInput if one of them is not a finite number.
         """

@@ -15,6 +15,5 @@ class Outputs(ABC):
     def set(self, name: str, value: float) -> None:
         """Set an output: a switch to 0 or 1, anything else in SI units.
 
-        Raises:
-            InvalidInput: there is no such output, or the value is not a finite number.
+        Raises InvalidInput if there is no such output, or the value is not a finite number.
         """

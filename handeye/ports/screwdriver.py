@@ -18,10 +18,9 @@ class ScrewdriverPort(ABC):
     def drive(self, speed: float) -> None:
         """Set the speed of the spindle, rad/s, positive drives a right-hand screw in; 0 is off.
 
-        Raises:
-            InvalidInput: not a finite number.
+        Raises InvalidInput if it is not a finite number.
         """
 
     @abstractmethod
     def attract(self, on: bool) -> None:
-        """Switch the magnet of the bit, which is on until it is told otherwise."""
+        """Switch the magnet of the bit, which is on at first."""

@@ -11,11 +11,9 @@ import pytest
 from conftest import Command
 from numpy.typing import NDArray
 
-from handeye.cell import exposures, lens
-from handeye.cell.exposures import Exposing, exposing, photographed
+from handeye.cell import exposures
+from handeye.cell.exposures import APERTURE, Exposing, Lens, exposing, photographed, polish
 from handeye.cell.film_stock import FILMS
-from handeye.cell.gloss import polish
-from handeye.cell.lens import APERTURE, Lens
 from handeye.cell.opengl import OpenGlRenderer, context
 from handeye.core.errors import InvalidInput
 from handeye.core.pose import pose
@@ -170,7 +168,9 @@ def test_a_shift_is_counted_in_points_of_the_picture() -> None:
 
 def test_it_is_focused_on_what_is_in_the_middle() -> None:
     deep = np.full((48, 64), 1.0, dtype=np.float32)
-    deep[20:28, 28:36] = (1 / lens._NEAR - 1 / 1.5) / (1 / lens._NEAR - 1 / lens._FAR)  # 1.5 m away
+    deep[20:28, 28:36] = (1 / exposures._NEAR - 1 / 1.5) / (
+        1 / exposures._NEAR - 1 / exposures._FAR
+    )  # 1.5 m away
     assert Lens.looked_at(deep) == pytest.approx(1.5, rel=1e-4)
 
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from thread_bench import HEAD, LENGTH, MOUTH, SPEED, STOP, Outcome, ThreadBench, drive_screw, scene
 
+from handeye.cell.arm import Watchdog
 from handeye.cell.bench import Bench
 from handeye.cell.bench_axes import BenchAxes, BenchOutputs
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.threads import ThreadFigures, Threads
-from handeye.cell.watchdog import Watchdog
 from handeye.core.units import JIFFY
 from handeye.ports.axes import AxisSpec, Channel
 

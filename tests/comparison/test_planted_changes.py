@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from compared_runs import SCRIPT, block_start, kept
 
-from handeye.cell.joint_sensors import JointSensors
+from handeye.cell.arm import JointSensors
 from handeye.comparison.comparison import Comparison, comparison
 from handeye.comparison.first import First
 from handeye.comparison.place import Place, place_of

@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from short_runs import begin, history, through
 
-from handeye.cell.lines import DefectState, LinesState
+from handeye.cell.signal_lines import DefectState, LinesState
 from handeye.core.errors import InvalidInput
 from handeye.core.faults import Fault
 from handeye.program.events import RunStarted

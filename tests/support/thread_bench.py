@@ -7,9 +7,9 @@ from math import acos, cos, degrees, pi, sin, tan
 import mujoco
 import numpy as np
 
+from handeye.cell.arm import Watchdog
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.threads import Thread, ThreadFigures, Threads
-from handeye.cell.watchdog import Watchdog
 from handeye.core.pose import Pose, pose
 from handeye.core.units import JIFFY
 

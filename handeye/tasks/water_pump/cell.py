@@ -7,10 +7,10 @@ from handeye.cell.arm import SimulatedArm
 from handeye.cell.camera import SimulatedCamera
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.lamp import SimulatedLamp
-from handeye.cell.lines import Lines
 from handeye.cell.renderers import make_renderer
 from handeye.cell.rendering import RendererMaker
 from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.signal_lines import SignalLines
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.threads import THREAD_FRICTION, ThreadFigures, Threads
 from handeye.tasks.water_pump.clamping import Clamping
@@ -32,7 +32,7 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
     """
     model = build(world)
     data = mujoco.MjData(model)
-    noise, lines = world.generator("sensors"), Lines(defects(world.drawn.spec.faults))
+    noise, lines = world.generator("sensors"), SignalLines(defects(world.drawn.spec.faults))
     arm = SimulatedArm(
         model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise, lines=lines
     )

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from driving import Drive, tick
 
-from handeye.cell.lines import LinesState
+from handeye.cell.signal_lines import SignalLinesState
 from handeye.cell.sleep import asleep
 from handeye.core.errors import ERRORS
 from handeye.core.faults import UNKNOWN, Fault
@@ -42,7 +42,7 @@ def carried() -> list[tuple[str, bool]]:
     cell.devices.camera.lens(0.05)
     cell.devices.camera.digitise()
     state = cell.truth.states["lines"]
-    assert isinstance(state, LinesState)
+    assert isinstance(state, SignalLinesState)
     broken = zip(defects(FAULTS), state.defects, strict=True)
     return [(defect.line, own.first is not None) for defect, own in broken]
 
@@ -60,7 +60,7 @@ def test_a_fault_goes_on_while_everything_in_the_cell_is_asleep() -> None:
     cell.advance(2.0)
     assert asleep(cell.truth.data)
     state = cell.truth.states["lines"]
-    assert isinstance(state, LinesState)
+    assert isinstance(state, SignalLinesState)
     assert state.defects[0].seconds == pytest.approx(2.0)
 
 

@@ -29,20 +29,20 @@ class DefectState(Record, frozen=True, kw_only=True):
     seconds: float | None = None
     """Since it set in; None: it has not."""
     first: bytes | None = None
-    """What its line carried then, a number or the points of a picture; None: nothing yet."""
+    """Value on its line then, a number or the points of a picture; None: none yet."""
 
 
-class LinesState(Record, frozen=True, kw_only=True):
+class SignalLinesState(Record, frozen=True, kw_only=True):
     """States of all defects, in their order."""
 
     defects: tuple[DefectState, ...]
 
 
-class Lines(Mechanism[LinesState]):
+class SignalLines(Mechanism[SignalLinesState]):
     """The lines of a cell; defects on one act one after the other."""
 
     name = "lines"
-    kind = LinesState
+    kind = SignalLinesState
 
     def __init__(self, defects: Sequence[Defect] = ()) -> None:
         self.defects = tuple(defects)
@@ -64,17 +64,17 @@ class Lines(Mechanism[LinesState]):
         self.before(seconds)  # what is broken drifts on
 
     def carried(self, line: str, value: float) -> float:
-        """What arrives of a number, SI."""
+        """The number that arrives when one is sent, SI."""
         return float(self._arriving(line, np.array(value, dtype=float))) if self.defects else value
 
     def carried_each(self, line: str, values: Array) -> Array:
-        """What arrives on `line.1`, `line.2` and so on, shape (n,)."""
+        """Numbers that arrive on `line.1`, `line.2` and so on, shape (n,)."""
         if not self.defects:
             return values
         return np.array([self.carried(f"{line}.{number}", value) for number, value in enumerate(values, 1)])
 
     def carried_picture(self, picture: Picture) -> Picture:
-        """What arrives of a picture."""
+        """The picture that arrives when one is sent."""
         return np.asarray(self._arriving(PICTURE, picture), dtype=picture.dtype)
 
     def _arriving(self, line: str, values: Values) -> Values:
@@ -85,7 +85,7 @@ class Lines(Mechanism[LinesState]):
         return values
 
     def _first(self, place: int, values: Values) -> Values:
-        """What the line of a defect carried when it set in, if that was not now."""
+        """Values on the line of a defect when it set in."""
         state = self._states[place]
         if state.first is None:
             self._states[place] = msgspec.structs.replace(state, first=values.tobytes())
@@ -94,10 +94,10 @@ class Lines(Mechanism[LinesState]):
 
     # -- state ----------------------------------------------------------------------------------------
 
-    def state(self) -> LinesState:
-        return LinesState(defects=tuple(self._states))
+    def state(self) -> SignalLinesState:
+        return SignalLinesState(defects=tuple(self._states))
 
-    def check(self, state: LinesState) -> None:
+    def check(self, state: SignalLinesState) -> None:
         if len(state.defects) != len(self.defects):
             raise ValueError("it has other defects")
         for defect, own in zip(self.defects, state.defects, strict=True):
@@ -111,9 +111,9 @@ class Lines(Mechanism[LinesState]):
             if not 0 <= (own.seconds or 0.0) < np.inf:
                 raise ValueError(f"the defect of the line {defect.line} set in when it cannot have")
 
-    def restore(self, state: LinesState) -> None:
+    def restore(self, state: SignalLinesState) -> None:
         self._states = list(state.defects)
 
 
-SOUND: Final = Lines()
+SOUND: Final = SignalLines()
 """Lines on which nothing is broken."""

@@ -10,7 +10,7 @@ from handeye.arm.kinematics import jacobian
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.defects import DEAD, PICTURE, Defect, Drifting, Effect, Scaled, Shifted, Stuck
-from handeye.cell.lines import DefectState, Lines, LinesState
+from handeye.cell.signal_lines import DefectState, SignalLines, SignalLinesState
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.errors import InvalidInput
 from handeye.core.resources import scenes
@@ -29,7 +29,7 @@ EFFECTS = {
 }
 
 
-def arrived(lines: Lines) -> list[float]:
+def arrived(lines: SignalLines) -> list[float]:
     """What arrives of 5, 6 and 7, a second each apart."""
     found = []
     for value in (5.0, 6.0, 7.0):
@@ -41,12 +41,12 @@ def arrived(lines: Lines) -> list[float]:
 @pytest.mark.parametrize("name", EFFECTS)
 def test_a_defect_changes_what_its_line_carries_and_no_other(name: str) -> None:
     effect, expected = EFFECTS[name]
-    assert arrived(Lines([Defect(line="a", effect=effect)])) == expected
-    assert arrived(Lines([Defect(line="b", effect=effect)])) == [5.0, 6.0, 7.0]
+    assert arrived(SignalLines([Defect(line="a", effect=effect)])) == expected
+    assert arrived(SignalLines([Defect(line="b", effect=effect)])) == [5.0, 6.0, 7.0]
 
 
 def test_defects_of_one_line_act_one_after_the_other() -> None:
-    both = Lines([Defect(line="a", effect=Shifted(1.0)), Defect(line="a", effect=Scaled(2.0))])
+    both = SignalLines([Defect(line="a", effect=Shifted(1.0)), Defect(line="a", effect=Scaled(2.0))])
     assert both.carried("a", 5.0) == 12.0
 
 
@@ -54,13 +54,13 @@ def test_defects_of_one_line_act_one_after_the_other() -> None:
 def test_a_defect_sets_in_with_its_stage_or_with_a_later_one_where_that_was_passed_over(
     stage: int, reading: float
 ) -> None:
-    lines = Lines([Defect(line="a", effect=DEAD, stage=2)])
+    lines = SignalLines([Defect(line="a", effect=DEAD, stage=2)])
     lines.begin_stage(stage)
     assert lines.carried("a", 5.0) == reading
 
 
 def test_a_defect_that_has_set_in_stays_when_an_earlier_stage_is_done_again() -> None:
-    lines = Lines([Defect(line="a", effect=Stuck(), stage=2)])
+    lines = SignalLines([Defect(line="a", effect=Stuck(), stage=2)])
     lines.begin_stage(2)
     lines.carried("a", 5.0)
     lines.begin_stage(1)
@@ -69,14 +69,14 @@ def test_a_defect_that_has_set_in_stays_when_an_earlier_stage_is_done_again() ->
 
 
 def test_a_frozen_picture_is_the_first_one_whatever_is_seen() -> None:
-    lines = Lines([Defect(line=PICTURE, effect=Stuck())])
+    lines = SignalLines([Defect(line=PICTURE, effect=Stuck())])
     first, second = (np.full((ROWS, COLUMNS), level, dtype=np.uint8) for level in (3, 9))
     assert [lines.carried_picture(each).max() for each in (first, second)] == [3, 3]
 
 
 def test_lines_go_on_as_from_the_state_they_are_put_into() -> None:
     defects = [Defect(line="a", effect=effect) for effect in (Stuck(), Drifting(0.5))]
-    lines, other = Lines(defects), Lines(defects)
+    lines, other = SignalLines(defects), SignalLines(defects)
     arrived(lines)
     other.restore(lines.state())
     assert arrived(other) == arrived(lines)
@@ -94,9 +94,9 @@ STATES: dict[str, tuple[str, tuple[DefectState, ...]]] = {
 @pytest.mark.parametrize("words", STATES)
 def test_a_state_that_lines_cannot_be_in_is_refused(words: str) -> None:
     line, states = STATES[words]
-    lines = Lines([Defect(line=line, effect=Stuck())])
+    lines = SignalLines([Defect(line=line, effect=Stuck())])
     with pytest.raises((ValueError, InvalidInput), match=words):
-        lines.check(LinesState(defects=states))
+        lines.check(SignalLinesState(defects=states))
 
 
 # -- an arm alone -------------------------------------------------------------------------------------
@@ -106,7 +106,11 @@ def arm(line: str, effect: Effect) -> tuple[SimulatedCell, SimulatedArm]:
     """An arm in its park position, with something broken."""
     model = mujoco.MjModel.from_xml_path(str(scenes() / "stanford_arm" / "stanford.xml"))
     model.opt.timestep = JIFFY / 16
-    data, world, lines = mujoco.MjData(model), PumpWorld.nominal(), Lines([Defect(line=line, effect=effect)])
+    data, world, lines = (
+        mujoco.MjData(model),
+        PumpWorld.nominal(),
+        SignalLines([Defect(line=line, effect=effect)]),
+    )
     noise = world.generator("sensors")
     made = SimulatedArm(
         model, data, "", arm=STANFORD, posture=PARK, errors=world.arm, noise=noise, lines=lines
