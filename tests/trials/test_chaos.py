@@ -167,7 +167,7 @@ def test_a_state_that_is_not_put_back_whole_is_found_and_shrunk(
 
     def forgetting(self: RunningPlan, state: SystemState) -> None:
         whole(self, state)
-        self.run.state.saved.clear()
+        self.context.state.saved.clear()
 
     monkeypatch.setattr(RunningPlan, "restore", forgetting)
     schedule = parse_schedule("seed=3 start=0 faults=lamp.dead@1 breaks=panic:10,pause:2")
