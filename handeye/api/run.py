@@ -21,8 +21,7 @@ from handeye.core.arguments import given_count, given_file, given_place
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.files import check_place
 from handeye.core.plain_text import counted
-from handeye.debugger.breakpoints import breakpoint, stage_number
-from handeye.debugger.reachability import is_ahead
+from handeye.debugger.breakpoints import breakpoint, is_ahead, stage_number
 from handeye.debugger.reply import Break
 from handeye.debugger.stepper import Stepper
 from handeye.debugger.views import last_picture
@@ -79,8 +78,8 @@ class Run:
 
     def __init__(self, stepper: Stepper, keeping: Keeping, why: str) -> None:
         """Use `handeye.begin`."""
-        self._stepper, self._hands = stepper, stepper.hands
-        self._runner, self._keeping = stepper.hands.runner, keeping
+        self._stepper, self._session = stepper, stepper.session
+        self._runner, self._keeping = stepper.session.runner, keeping
         self._why: str | None = why
         self._closed: Result | None = None
         self._outcome: tuple[int, Result] | None = None
@@ -132,7 +131,7 @@ class Run:
             position = self._runner.position - given_count(steps, "steps")
             if position < 0:
                 raise Refused(f"{steps} steps cannot be undone; {self._runner.position} are done")
-        self._hands.back_to(position)
+        self._session.back_to(position)
         return self._stand("gone back")
 
     def undo(self, steps: Place = 1) -> State:
@@ -163,7 +162,7 @@ class Run:
             left = len(executed) - given_count(steps, "steps")
             if left < 0:
                 raise Refused(f"{steps} steps cannot be undone; {len(executed)} were executed")
-        return self._stand(reason(self._hands.have_undone(left)))
+        return self._stand(reason(self._session.have_undone(left)))
 
     def dismantle(self) -> State:
         """Have the arm undo all that it did; the run ends there, and `result.apart` is the word of the referee.
@@ -172,7 +171,7 @@ class Run:
             InvalidInput: nothing was done that it could undo.
         """
         self._check_open()
-        pause = self._hands.have_undone(0, halts=True)
+        pause = self._session.have_undone(0, halts=True)
         self._keeping = replace(self._keeping, judged=True)
         return self._stand(reason(pause))
 
@@ -186,7 +185,7 @@ class Run:
             InvalidInput: there is no such place, or the run is closed.
         """
         self._check_open()
-        return self._hands.add_break(given_place(place))
+        return self._session.add_break(given_place(place))
 
     def say(self, line: str) -> Answer:
         """Say a command of the stepper (`handeye run --step`), as `"show force"`, `"set saved H 0 0 .1"`, `"retry"`.
@@ -215,7 +214,7 @@ class Run:
     def _go(self, stops: list[AnyStop] | None = None, steps: int | None = None) -> State:
         self._check_open()
         self._why = None
-        return self._stand(reason(self._hands.go(stops or [], steps)))
+        return self._stand(reason(self._session.go(stops or [], steps)))
 
     def reach(self, stage: int) -> State:
         """Go on until a stage, given by its index, is about to begin; a run that is there already stays.
@@ -242,7 +241,7 @@ class Run:
         """Go on to the end, with somebody or a rule to answer when the operator is called."""
         self._check_open()
         try:
-            pause = attend(self._runner, operator, [], self._hands.kept)
+            pause = attend(self._runner, operator, [], self._session.kept)
         except BaseException:
             self._runner.rollback()
             raise
@@ -262,9 +261,9 @@ class Run:
     @property
     def state(self) -> State:
         """Where the run now pauses."""
-        stage = self._hands.stage
+        stage = self._session.stage
         name = None if stage is None else self._runner.stages[stage]
-        why = reason(self._hands.pause) if self.ended else self._why
+        why = reason(self._session.pause) if self.ended else self._why
         return state_of(self._runner, name, why or "paused")
 
     @property
@@ -384,7 +383,7 @@ class Run:
 
     def _ended(self, make: Callable[..., Result], **more: Any) -> Result:
         """The result of the run as it now pauses."""
-        keeping, pause = self._keeping, self._hands.pause
+        keeping, pause = self._keeping, self._session.pause
         if self._broken is not None and pause.kind == "break":
             pause = msgspec.structs.replace(pause, met=self._broken)
         return make(

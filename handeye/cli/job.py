@@ -18,7 +18,7 @@ from handeye.core.host_time import HostTimer
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.command_table import commands_of
-from handeye.debugger.formatting import MOST
+from handeye.debugger.formatting import MAX_STEPS_SHOWN
 from handeye.debugger.live import Live
 from handeye.debugger.stepper import Stepper, interact
 from handeye.execution.servo import Halted
@@ -236,7 +236,7 @@ class _Work:
         lines, live = self._lines(words)
         if self.folder is None and self.job.checkpoints is None:
             note("nothing is kept without --out FOLDER; `checkpoint FILE` keeps a state")
-        most = MOST if screen.is_terminal else None
+        most = MAX_STEPS_SHOWN if screen.is_terminal else None
         try:
             write, prompt = put_line if self.job.json else say, sys.stdin.isatty()
             return interact(stepper, lines, write, json=self.job.json, prompt=prompt, most=most, live=live)
@@ -248,7 +248,7 @@ class _Work:
 
         with self.progress.aside():
             note("making the page")
-            server.show(stepping_page(stepper.hands.runner, newest), newest)
+            server.show(stepping_page(stepper.session.runner, newest), newest)
             say(server.access.address, whole=True)
             return drive(stepper, server.link, self.panic.aside)
 

@@ -325,8 +325,7 @@ def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str])
     Raises:
         InvalidInput: the step does at which it is to stop; it would run on to its end.
     """
-    from handeye.debugger.breakpoints import breakpoint
-    from handeye.debugger.reachability import is_ahead
+    from handeye.debugger.breakpoints import breakpoint, is_ahead
     from handeye.runs.stops import BeforeStep
     from handeye.runs.systems import listing_of
 

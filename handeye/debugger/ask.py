@@ -44,11 +44,7 @@ class Ask:
         return "abort"
 
     def _understood(self, runner: Runner, word: str, rest: str) -> OperatorChoice | None:
-        """The answer in a line; None if it only wanted to see something.
-
-        Raises:
-            InvalidInput: it is none.
-        """
+        """The answer in a line; None if it only wanted to see something; raises InvalidInput if it is none."""
         if word in ("b", "back"):
             return Back(stage=_begun(runner, rest))
         if word in ("u", "unwind"):

@@ -8,10 +8,13 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.core.diagnostics import nearest, quoted
 from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.core.source import line_name
-from handeye.debugger.source_places import Place, named_place
+from handeye.debugger.listing import Place, named_place
+from handeye.program.graph import reachable
 from handeye.program.stage_names import stage_called, stage_index
-from handeye.runs.stops import AnyStop, AtInstruction, AtLabel, AtLine, AtStage, OnError
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.stops import AnyStop, AtInstruction, AtLabel, AtLine, AtStage, AtSteps, OnError
 from handeye.runs.system import Listing
+from handeye.runs.systems import listing_of
 
 _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", re.IGNORECASE)
@@ -20,12 +23,11 @@ _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", r
 def breakpoint(text: str, listing: Listing) -> AnyStop:
     """Read a breakpoint.
 
+    Raises InvalidInput if there is nothing of that name, more than one stage, or an error that no step can raise.
+
     Args:
         text: `error:23`; a line of the source, or `pins.al:3` (its first step, or the first after it); a label; an
             instruction word (every step that begins with it); a stage, by its name or a piece of it.
-
-    Raises:
-        InvalidInput: there is nothing of that name, more than one stage, or an error that no step can raise.
     """
     text = text.strip()
     if not text:
@@ -47,20 +49,14 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
 
 def stage_number(text: str, listing: Listing) -> int:
-    """The index of a stage given by its number from 1, its name, or a piece of it that no other name has.
-
-    Raises:
-        InvalidInput: there is no such stage, or more than one.
-    """
+    """The index of a stage given by its number from 1, its name, or a piece of it that no other name has. Raises
+    InvalidInput if there is no such stage, or more than one."""
     return stage_index(text, listing.stages)
 
 
 def step_number(text: str, listing: Listing) -> int:
-    """The index of a step given by its number in the plan, or by a label that stands for one step.
-
-    Raises:
-        InvalidInput: there is no such step.
-    """
+    """The index of a step given by its number in the plan, or by a label that stands for one step. Raises InvalidInput
+    if there is no such step."""
     text, steps = text.strip(), listing.steps
     if _NUMBER.fullmatch(text):
         if int(text) >= len(steps):
@@ -129,3 +125,26 @@ def _at_word(text: str, listing: Listing) -> AnyStop | None:
 def _at_stage(text: str, listing: Listing) -> AnyStop | None:
     stage = stage_called(text, listing.stages)
     return None if stage is None else AtStage(stage=stage, name=listing.stages[stage])
+
+
+# -- reaching one ---------------------------------------------------------------------------------------
+
+
+def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
+    """True if a task of a run that begins at `start` can reach a place to stop at; an error may always occur."""
+    listing = listing_of(start.setup)
+    wanted, ways = _steps(stop, listing), [step.ways for step in listing.steps]
+    if wanted is None:
+        return True
+    places = [0] if start.snapshot is None else [place.step for place in start.snapshot.state.places]
+    return any(not wanted.isdisjoint(reachable(ways[step], ways)) for step in places)
+
+
+def _steps(stop: AnyStop, listing: Listing) -> frozenset[int] | None:
+    """The steps before which a condition stops; None: it is no place."""
+    match stop:
+        case AtSteps():
+            return frozenset(stop.steps)
+        case AtStage():
+            return frozenset(i for i, step in enumerate(listing.steps) if step.stage == stop.stage)
+    return None

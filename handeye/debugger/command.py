@@ -43,13 +43,10 @@ class Command(Generic[Act]):
 
 
 def check_bare(named: Iterable[Command[Any]], rest: str) -> None:
-    """See that nothing follows a command that takes nothing.
+    """See that nothing follows a command that takes nothing; raises InvalidInput if something does.
 
     Args:
         named: the commands of one name.
-
-    Raises:
-        InvalidInput: something does.
     """
     commands = list(named)
     if rest and all(command.bare for command in commands):

@@ -17,11 +17,8 @@ StepperCommand = Command[Callable[[DebugSession, str], CommandResult]]
 
 
 def find(line: str) -> tuple[StepperCommand, str]:
-    """The command that a line says, and what follows its word.
-
-    Raises:
-        InvalidInput: there is none, or it takes nothing after it.
-    """
+    """The command that a line says, and what follows its word. Raises InvalidInput if there is none, or it takes
+    nothing after it."""
     word, _, rest = line.strip().partition(" ")
     name, _, more = _SHORT.get(word.casefold(), word.casefold()).partition(" ")
     rest = f"{more} {rest}".strip()
@@ -60,13 +57,13 @@ def manual(runner: Runner) -> str:
     )
 
 
-def _help(hands: DebugSession, rest: str) -> CommandResult:
+def _help(session: DebugSession, rest: str) -> CommandResult:
     if not rest:
-        return CommandResult(said=manual(hands.runner))
+        return CommandResult(said=manual(session.runner))
     name = find(rest.partition(" ")[0])[0].name
-    told = [f"{each.shown}: {each.help}" for each in commands_of(hands.runner) if each.name == name]
+    told = [f"{each.shown}: {each.help}" for each in commands_of(session.runner) if each.name == name]
     if not told:
-        raise Refused(f"`{name}` does nothing in a run of {hands.runner.kind.entry.title}")
+        raise Refused(f"`{name}` does nothing in a run of {session.runner.kind.entry.title}")
     return CommandResult(said="\n".join(told))
 
 

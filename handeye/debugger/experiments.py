@@ -10,16 +10,12 @@ from handeye.debugger.breakpoints import meant
 from handeye.runs.runner import Runner
 from handeye.runs.system import Settable
 
-FARTHEST: Final = 1000.0
-"""No number of an experiment is greater."""
+MAX_NUMBER: Final = 1000.0
 
 
 def experiment(runner: Runner, text: str) -> None:
-    """Set something: its kind, its name and numbers, as in `saved H 0 0 .1`.
-
-    Raises:
-        InvalidInput: the system has no such thing, or these are not the numbers for it.
-    """
+    """Set something: its kind, its name and numbers, as in `saved H 0 0 .1`. Raises InvalidInput if the system has no
+    such thing, or these are not the numbers for it."""
     kind, _, rest = text.strip().partition(" ")
     settables = runner.system.settables()
     settable = settables.get(kind.casefold())
@@ -47,8 +43,8 @@ def _number(word: str) -> float:
         value = float(word)
     except ValueError:
         value = math.nan
-    if not abs(value) <= FARTHEST:
-        raise BadArgument(f"{quoted(word)} is not a number from {-FARTHEST:g} to {FARTHEST:g}")
+    if not abs(value) <= MAX_NUMBER:
+        raise BadArgument(f"{quoted(word)} is not a number from {-MAX_NUMBER:g} to {MAX_NUMBER:g}")
     return value
 
 

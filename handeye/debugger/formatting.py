@@ -12,27 +12,18 @@ from handeye.debugger.listing import excerpt_lines
 from handeye.debugger.reply import CommandResult, Reply
 from handeye.debugger.step_summary import StepSummary
 from handeye.debugger.view_records import (
-    HandView,
-    JointView,
     PartPose,
     PartShown,
-    PictureShown,
     PositionView,
-    SearchView,
     Shown,
     TaskView,
 )
 from handeye.results.pauses import pause_sentence, stop_name
 
-MOST: Final = 24
-"""Steps that a terminal is told of a long way; all of them are in the trace."""
-STATEMENT: Final = 30
-"""Columns for a statement."""
-_ROW: Final = 3
-"""Joints told on a line."""
-
+MAX_STEPS_SHOWN: Final = 24  # of a long way, on a terminal; all of them are in the trace
+STATEMENT_COLUMNS: Final = 30
 _ORDER: Final = sorted(Reply.__struct_fields__, key=lambda name: name in CommandResult.__struct_fields__)
-"""Of the fields of an answer: the command and where the run stands first."""
+"""Fields of an answer, the command and where the run stands first."""
 
 
 def as_json(reply: Reply) -> str:
@@ -86,7 +77,7 @@ def told_row(step: StepSummary) -> str:
     """A step that was done, or something between two steps, as a line of text."""
     if step.line is None:
         return f"      — {step.text}"
-    return f"{line_name(step.line, step.file):>5} {step.text:{STATEMENT}} {step.outcome}".rstrip()
+    return f"{line_name(step.line, step.file):>5} {step.text:{STATEMENT_COLUMNS}} {step.outcome}".rstrip()
 
 
 # -- what is shown --------------------------------------------------------------------------------------
@@ -95,8 +86,8 @@ def told_row(step: StepSummary) -> str:
 def shown_lines(shown: Shown) -> list[str]:
     """Show what was asked for, as lines of text."""
     lines: list[str] = []
-    for field, (title, tell) in _TITLES.items():
-        value = getattr(shown, field)
+    for field, tell in _LINES.items():
+        value, title = getattr(shown, field), field.partition("_")[0]
         if value is UNSET:
             continue
         told = [_NOTHING.get(field, "none")] if value is None or value == {} else tell(value)
@@ -106,27 +97,6 @@ def shown_lines(shown: Shown) -> list[str]:
 
 def _vector(values: Sequence[float], places: int) -> str:
     return "(" + ", ".join(f"{x:z.{places}f}" for x in values) + ")"
-
-
-def _joints(joints: tuple[JointView, ...]) -> list[str]:
-    told = [f"{joint.name} {joint.value:z.2f} {joint.unit}" for joint in joints]
-    return [", ".join(told[i : i + _ROW]) for i in range(0, len(told), _ROW)]
-
-
-def _hand(hand: HandView) -> list[str]:
-    return [f"at {_vector(hand.at_in, 3)} in, O A T {_vector(hand.angles_deg, 2)} deg"]
-
-
-def _force(force: Sequence[float]) -> list[str]:
-    return [f"the hand presses with {_vector(force, 1)} oz"]
-
-
-def _switches(switches: tuple[bool, bool]) -> list[str]:
-    return [", ".join("closed" if switch else "open" for switch in switches)]
-
-
-def _search(search: SearchView) -> list[str]:
-    return [f"place {search.place} of {search.places}, {_vector(search.offset_in, 2)} in from the first"]
 
 
 def _named(table: dict[str, tuple[float, ...]]) -> list[str]:
@@ -147,10 +117,6 @@ def _parts(parts: dict[str, PartShown]) -> list[str]:
 
 def _pose(pose: PartPose) -> str:
     return f"{_vector(pose.at_in, 3)} in, {pose.yaw_deg:z.2f} deg"
-
-
-def _picture(picture: PictureShown) -> list[str]:
-    return [picture.name if picture.file is None else f"{picture.name}, in {picture.file}"]
 
 
 def _tasks(tasks: tuple[TaskView, ...]) -> list[str]:
@@ -174,22 +140,30 @@ def _positions(positions: dict[str, PositionView]) -> list[str]:
 
 
 _NOTHING: Final = {"force_oz": "not estimated here: no guard has just stopped the hand"}
-"""What is said of a field in which there is nothing."""
-_TITLES: Final[dict[str, tuple[str, Callable[[Any], list[str]]]]] = {
-    "time_s": ("time", lambda seconds: [f"{seconds:.2f} s"]),
-    "joints": ("joints", _joints),
-    "hand": ("hand", _hand),
-    "force_oz": ("force", _force),
-    "gap_in": ("gap", lambda gap: [f"{gap:z.3f} in"]),
-    "switches": ("switches", _switches),
-    "error": ("error", lambda error: [f"{error.number}: {one_line(error.sentence)}"]),
-    "saved_in": ("saved", _named),
-    "restored_in": ("restored", _named),
-    "search": ("search", _search),
-    "parts": ("parts", _parts),
-    "picture": ("picture", _picture),
-    "positions": ("positions", _positions),
-    "tasks": ("tasks", _tasks),
-    "state": ("state", lambda state: [f"{name} {value}" for name, value in state.items()]),
+"""Text of a field without a value."""
+_JOINTS_PER_LINE: Final = 3
+_LINES: Final[dict[str, Callable[[Any], Sequence[str]]]] = {
+    "time_s": lambda seconds: [f"{seconds:.2f} s"],
+    "joints": lambda joints: [
+        ", ".join(
+            f"{joint.name} {joint.value:z.2f} {joint.unit}" for joint in joints[i : i + _JOINTS_PER_LINE]
+        )
+        for i in range(0, len(joints), _JOINTS_PER_LINE)
+    ],
+    "hand": lambda hand: [f"at {_vector(hand.at_in, 3)} in, O A T {_vector(hand.angles_deg, 2)} deg"],
+    "force_oz": lambda force: [f"the hand presses with {_vector(force, 1)} oz"],
+    "gap_in": lambda gap: [f"{gap:z.3f} in"],
+    "switches": lambda switches: [", ".join("closed" if switch else "open" for switch in switches)],
+    "error": lambda error: [f"{error.number}: {one_line(error.sentence)}"],
+    "saved_in": _named,
+    "restored_in": _named,
+    "search": lambda search: [
+        f"place {search.place} of {search.places}, {_vector(search.offset_in, 2)} in from the first"
+    ],
+    "parts": _parts,
+    "picture": lambda shown: [shown.name if shown.file is None else f"{shown.name}, in {shown.file}"],
+    "positions": _positions,
+    "tasks": _tasks,
+    "state": lambda state: [f"{name} {value}" for name, value in state.items()],
 }
-"""Of each field: its title, and how to tell it."""
+"""Lines of text of each field; its title is its name without the unit."""

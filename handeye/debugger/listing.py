@@ -1,13 +1,21 @@
-"""The program to look at: its stages and steps, its labels, and the source around a line."""
+"""The program as people see it: its stages and steps, the source around a line, and places that they name."""
 
+import re
 from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
 
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import NoSuchName
 from handeye.core.plain_text import counted, one_line, printable
 from handeye.core.record import Record
 from handeye.core.source import Source, line_name
-from handeye.debugger.source_places import text_of
 from handeye.debugger.view_records import TaskView
 from handeye.runs.system import Listing
+
+Place = tuple[str, int]
+"""A required file, or the script itself if that is empty, and a line of it."""
+_PLACE: Final = re.compile(r"(?:(?P<file>[^:]+):)?(?P<line>[0-9]{1,9})")
 
 
 class ListedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
@@ -130,3 +138,26 @@ def _stage(number: int, name: str, steps: list[ListedStep], own: set[int]) -> Li
     lines = [step.line for step in here if step.file == file]
     extent = (min(lines), max(lines)) if lines else None
     return ListedStage(number=number, name=name, file=file, lines=extent, steps=tuple(steps))
+
+
+def text_of(program: Listing, file: str) -> str:
+    """The text of a required file, or of the script itself."""
+    return program.required[file] if file else program.source
+
+
+def named_place(text: str, program: Listing) -> Place | None:
+    """The place a user means by `12`, `pins.al:12` or `lib/pins.al:12`; None if that is not the form of one. Raises
+    InvalidInput if the script is not sewn of such a file."""
+    given = _PLACE.fullmatch(text.strip())
+    if given is None:
+        return None
+    file, line = given["file"] or "", int(given["line"])
+    if not file or (file not in program.required and file in (program.name, f"{program.name}.al")):
+        return "", line
+    found = [key for key in program.required if key == file or key.endswith(f"/{file}")]
+    if not found and Path(file).name == f"{program.name}.al":
+        return "", line
+    if not found:
+        known = ", ".join(map(quoted, program.required)) or "none"
+        raise NoSuchName(f"the script requires no file {quoted(file)}; it requires: {known}")
+    return (file if file in found else found[0]), line

@@ -1,4 +1,4 @@
-"""A run while it goes: its lines are told as they begin, and what people say meanwhile is answered at once."""
+"""A run while it goes: its steps are printed as they begin, and lines typed meanwhile are answered at once."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,25 +15,24 @@ from handeye.program.events import AnyEvent, StepStarted
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 
-_BENEATH: Final = 8
-"""Columns that an outcome is set in by, where it has a line of its own."""
+_OUTCOME_INDENT: Final = 8  # columns, where it has a line of its own
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Live:
-    """The way to those who look on while a run goes."""
+    """The terminal of a run while it goes."""
 
     typed: Callable[[], str | None]
-    """A line that they have typed already; None: there is none."""
+    """A line that was typed already; None: there is none."""
     put: Callable[[str], None]
     """Puts out a piece of a line."""
     width: int
-    """Columns that a line has room for."""
+    """Columns of a line."""
 
 
 @dataclass(slots=True, eq=False)
-class Ear(Observer):
-    """Hears lines while a run goes, at every servo period and step."""
+class LineInput(Observer):
+    """Takes lines typed while a run goes, at every servo period and step."""
 
     typed: Callable[[], str | None]
     answer: Callable[[str], None]
@@ -53,7 +52,7 @@ class Ear(Observer):
 
 @dataclass(slots=True, eq=False)
 class LiveJson(Observer):
-    """Tells each step as it begins, as a JSON object on one line."""
+    """Prints each step as it begins, as a JSON object on one line."""
 
     runner: Runner
     write: Callable[[str], None]
@@ -65,7 +64,7 @@ class LiveJson(Observer):
 
 @dataclass(slots=True, eq=False)
 class LiveText(Observer):
-    """Tells each line as it begins, and what came of it when the next begins, on the same line where there is room."""
+    """Prints each step as it begins, and its outcome when the next begins, on the same line where there is room."""
 
     runner: Runner
     write: Callable[[str], None]
@@ -74,12 +73,12 @@ class LiveText(Observer):
     """Puts out a piece of a line."""
     width: int
     told: int = 0
-    """Events that have been told."""
+    """Events printed so far."""
     _open: str = ""
-    """What stands on a line that has not ended."""
+    """Text of a line that has not ended."""
 
     def begin(self) -> None:
-        """Tell what happens from now on."""
+        """Print what happens from now on."""
         self.told = len(self.runner.events)
 
     def event(self, event: AnyEvent) -> None:
@@ -92,19 +91,19 @@ class LiveText(Observer):
             self.put(self._open)
 
     def leave_line(self, *, ended: bool = False) -> None:
-        """End a line that is open, so that something else can be said; `ended`: somebody's typing has ended it."""
+        """End a line that is open; `ended`: the user's typing has ended it."""
         if self._open and not ended:
             self.put("\n")
         self._open = ""
 
     def end(self) -> None:
-        """Tell what is left to be told; a step that was undone leaves its line as it is."""
+        """Print what is left; a step that was rolled back leaves its line as it is."""
         self._tell(self.runner.events[self.told :])
         self.leave_line()
         self.begin()
 
     def _tell(self, events: list[AnyEvent]) -> None:
-        """Tell whole steps."""
+        """Print whole steps."""
         for summary in step_summaries(events, self.runner.listing, self.runner.task.measures):
             row = told_row(summary)
             outcome = row.removeprefix(self._open)
@@ -112,7 +111,7 @@ class LiveText(Observer):
                 self.put(outcome)
                 outcome = ""
             elif self._open:
-                outcome = f"{'':{_BENEATH}}{outcome.strip()}"
+                outcome = f"{'':{_OUTCOME_INDENT}}{outcome.strip()}"
             self.leave_line()
             if outcome:
                 self.write(outcome)

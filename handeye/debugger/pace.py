@@ -1,4 +1,4 @@
-"""Pace: how fast a run goes beside the clock of those who look on. This computer waits; the run knows nothing of it."""
+"""Pace of a run against the clock on the wall. This computer waits; the run knows nothing of it."""
 
 import re
 import time
@@ -11,12 +11,12 @@ from handeye.core.errors import BadArgument
 from handeye.execution.servo_period import ServoPeriod
 from handeye.runs.observer import Observer
 
-FREE: Final = "free"
-"""The word for as fast as it goes."""
+FREE: Final = "free"  # as fast as it goes
 SLOWEST: Final = 0.25
 FASTEST: Final = 100.0
-_LATE: Final = 0.1
-"""s by which a run may be late and still catch up; one that is later, as after a picture, goes on from there."""
+_LATE_S: Final = (
+    0.1  # up to which a run catches up; one that is later, as after a picture, goes on from there
+)
 
 
 @dataclass(slots=True, eq=False)
@@ -50,16 +50,12 @@ class Pace(Observer):
         early = since + (time - begun) / factor - now
         if early > 0:
             self.sleep(early)
-        elif early < -_LATE:
+        elif early < -_LATE_S:
             self._kept = factor, now, time
 
 
 def factor(text: str) -> float | None:
-    """Read a pace: `1x`, `4x`, `.5x`, or `free`, which is None.
-
-    Raises:
-        InvalidInput: it is none.
-    """
+    """Read a pace: `1x`, `4x`, `.5x`, or `free`, which is None; raises InvalidInput if it is none."""
     if text.casefold() == FREE:
         return None
     number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())

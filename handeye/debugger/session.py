@@ -1,4 +1,4 @@
-"""A run in somebody's hands: the runner, the breaks that are set, and where states are kept."""
+"""A debugging session: the runner, the breakpoints that are set, and where states are kept."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -7,10 +7,9 @@ from typing import Final, Literal
 
 from handeye.core.errors import Refused
 from handeye.debugger.breakpoints import breakpoint
-from handeye.debugger.listing import SourceLine, excerpt
+from handeye.debugger.listing import Place, SourceLine, excerpt
 from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Break
-from handeye.debugger.source_places import Place
 from handeye.debugger.views import task_views
 from handeye.execution.servo import Halted
 from handeye.program.events import StepStarted
@@ -22,8 +21,7 @@ from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop, ByHand, ReversalEnd
 from handeye.runs.system import Listing
 
-AROUND: Final = 2
-"""Lines of the script that are shown before and after the one where the run pauses."""
+LINES_AROUND: Final = 2  # of the script, before and after the one where the run pauses
 
 
 class DebugSession:
@@ -52,13 +50,13 @@ class DebugSession:
         self.keep = keep
         self.pictures = pictures
         self.breaks: dict[int, AnyStop] = {}
-        """By their numbers, which are never used twice."""
+        """Breakpoints by number; a number is never used twice."""
         self.over = False
         self.pace = Pace()
-        self.face = Observer()
-        """Tells those who look on what the run does while it goes on."""
-        self.ear = Observer()
-        """Hears what they say while it goes on, or back."""
+        self.output = Observer()
+        """Prints what the run does while it goes on."""
+        self.input = Observer()
+        """Takes lines typed while it goes on, or back."""
         self.going: Literal["on", "back"] | None = None
         """The way in which the run goes; None: it pauses."""
         self._pause_asked = False
@@ -72,17 +70,14 @@ class DebugSession:
 
     @property
     def idle(self) -> bool:
-        """Nothing has been done, or all of it was undone."""
+        """Nothing has been done, or all of it was rolled back."""
         return tuple(self.runner.events) == self._begun
 
     # -- breaks ---------------------------------------------------------------------------------------
 
     def add_break(self, text: str) -> Break:
-        """Stop there from now on; a break that is set already stays as it is.
-
-        Raises:
-            InvalidInput: there is no such place.
-        """
+        """Stop there from now on; a break that is set already stays as it is. Raises InvalidInput if there is no such
+        place."""
         stop = breakpoint(text, self.program)
         number = next((number for number, there in self.breaks.items() if there == stop), None)
         if number is None:
@@ -95,10 +90,8 @@ class DebugSession:
     def go(self, stops: Sequence[AnyStop] = (), steps: int | None = None) -> Pause:
         """Go on to the next of these stops or a break, or so many steps.
 
-        A step that is broken off, by the panic button or because something fails, is undone.
-
-        Raises:
-            InvalidInput: the run cannot go on.
+        A step that is broken off, by the panic button or because something fails, is undone. Raises InvalidInput if the
+        run cannot go on.
         """
         refusal = self.at_its_end()
         if refusal is not None:
@@ -108,11 +101,10 @@ class DebugSession:
     def have_undone(self, left: int, *, halts: bool = False) -> Pause:
         """Have the arm undo what it did until so many executed steps are left.
 
+        Raises InvalidInput if so much was not executed, or the cell cannot go on.
+
         Args:
             halts: the run ends there; otherwise the program can go on.
-
-        Raises:
-            InvalidInput: so much was not executed, or the cell cannot go on.
         """
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")
@@ -122,7 +114,7 @@ class DebugSession:
     def _go(self, stops: Sequence[AnyStop], steps: int | None) -> Pause:
         wanted = [*self.stops, *self.breaks.values(), *stops]
         try:
-            with self._attended("on", self.pace, self.face, self.ear):
+            with self._attended("on", self.pace, self.output, self.input):
                 pause = advance(self.runner, wanted, steps, lambda: self._pause_asked)
         except BaseException:  # whatever broke it off: Ctrl-C, or code of a caller
             self.runner.rollback()
@@ -132,11 +124,7 @@ class DebugSession:
         return pause
 
     def ask_pause(self) -> None:
-        """Ask a run that goes on to pause behind the step under way.
-
-        Raises:
-            InvalidInput: it does not go on.
-        """
+        """Ask a run that goes on to pause behind the step under way; raises InvalidInput if it does not go on."""
         if self.going is None:
             raise Refused("the run pauses already")
         if self.going == "back":
@@ -175,14 +163,10 @@ class DebugSession:
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:
-        """Be again where so many steps were done.
-
-        Raises:
-            InvalidInput: no state from so far back was kept, or the panic button was hit while steps were done
-                again on the way there.
-        """
+        """Be again where so many steps were done. Raises InvalidInput if no state from so far back was kept, or the
+        panic button was hit while steps were done again on the way there."""
         try:
-            with self._attended("back", self.ear):
+            with self._attended("back", self.input):
                 self.runner.back_to(position, self.kept)
         except Halted:
             self.runner.rollback()
@@ -219,7 +203,7 @@ class DebugSession:
             return step.file, step.line
         return next(((event.file, event.line) for event in events if isinstance(event, StepStarted)), ("", 1))
 
-    def source(self, place: Place | None = None, around: int = AROUND) -> tuple[SourceLine, ...]:
+    def source(self, place: Place | None = None, around: int = LINES_AROUND) -> tuple[SourceLine, ...]:
         """The script around a line, by default around where the run stands."""
         file, line = place or self.place
         here = self.place[1] if self.place[0] == file else None

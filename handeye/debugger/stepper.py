@@ -10,7 +10,7 @@ from msgspec import UNSET
 from handeye.core.errors import HandeyeError, Refused
 from handeye.debugger.command_table import MEANWHILE, find
 from handeye.debugger.formatting import as_json, as_text
-from handeye.debugger.live import Ear, Live, LiveJson, LiveText
+from handeye.debugger.live import LineInput, Live, LiveJson, LiveText
 from handeye.debugger.reply import CommandResult, Reply
 from handeye.debugger.session import DebugSession
 from handeye.debugger.step_summary import step_summaries
@@ -34,7 +34,7 @@ class Stepper:
         keep: Callable[[Checkpoint], Path | None] = lambda _: None,
         pictures: Path | None = None,
     ) -> None:
-        """Take a run in hand.
+        """Take a run in hand; raises InvalidInput if there is no such place to stop.
 
         Args:
             breaks: places to stop, as after `break`.
@@ -42,13 +42,10 @@ class Stepper:
             kept: the newest checkpoint on disk at a position or before it, for going far back.
             keep: writes a checkpoint to where those of the run are kept; None: they are kept nowhere.
             pictures: folder that the last picture is kept in when it is shown; None: nowhere.
-
-        Raises:
-            InvalidInput: there is no such place to stop.
         """
-        self.hands = DebugSession(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
+        self.session = DebugSession(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
         for text in breaks:
-            self.hands.add_break(text)
+            self.session.add_break(text)
         self.repeated: str | None = None
         """Line that an empty one on a terminal says again."""
         self.refused = False
@@ -57,36 +54,36 @@ class Stepper:
     @property
     def over(self) -> bool:
         """Somebody has left, or ended the run."""
-        return self.hands.over
+        return self.session.over
 
     @property
     def pause(self) -> Pause:
         """Reason of the present pause."""
-        return self.hands.pause
+        return self.session.pause
 
     def do(self, line: str) -> Reply:
         """Carry out a command; one that is wrong changes nothing."""
         line = line.strip()
-        happened = len(self.hands.runner.events)
+        happened = len(self.session.runner.events)
         try:
             command, rest = find(line)
             self.repeated = line if command.repeats else None
-            told = command.act(self.hands, rest)
+            told = command.act(self.session, rest)
         except HandeyeError as error:
-            self.refused |= str(error) != self.hands.at_its_end()
+            self.refused |= str(error) != self.session.at_its_end()
             return self._reply(line, CommandResult(), happened, error=str(error))
         return self._reply(line, told, happened)
 
     def meanwhile(self, line: str) -> Reply:
         """Answer a line that is said while the run goes: refused, unless it is one that can be said then."""
-        line, happened = line.strip(), len(self.hands.runner.events)
+        line, happened = line.strip(), len(self.session.runner.events)
         try:
             command, rest = find(line)
             if not command.meanwhile:
                 raise Refused(
                     f"`{command.name}` was not carried out: while the run goes, only {MEANWHILE} can be said"
                 )
-            told = command.act(self.hands, rest)
+            told = command.act(self.session, rest)
         except HandeyeError as error:
             self.refused = True
             return self._reply(line, CommandResult(), happened, error=str(error))
@@ -94,29 +91,31 @@ class Stepper:
 
     def standing(self) -> Reply:
         """Reply before the first command: where the run pauses."""
-        runner = self.hands.runner
-        said = f"{self.hands.program.name}, {len(self.hands.program.steps)} steps; `help` lists the commands"
-        refusal = self.hands.at_its_end()
-        told = CommandResult(source=self.hands.source(), said=refusal or said)
+        runner = self.session.runner
+        said = (
+            f"{self.session.program.name}, {len(self.session.program.steps)} steps; `help` lists the commands"
+        )
+        refusal = self.session.at_its_end()
+        told = CommandResult(source=self.session.source(), said=refusal or said)
         return self._reply("", told, len(runner.events))
 
     def _reply(self, line: str, told: CommandResult, happened: int, error: str | None = None) -> Reply:
         """The answer, with what has happened after the first `happened` events."""
-        hands = self.hands
-        runner, step, stage = hands.runner, hands.runner.next, hands.stage
+        session = self.session
+        runner, step, stage = session.runner, session.runner.next, session.stage
         events = runner.events[happened:]
         return Reply(
             command=line,
             position=runner.position,
             time=runner.elapsed,
-            stage=None if stage is None else hands.program.stages[stage],
+            stage=None if stage is None else session.program.stages[stage],
             stage_number=None if stage is None else stage + 1,
             step=runner.at,
             script="" if step is None else step.file,
             line=None if step is None else step.line,
             text=None if step is None else step.text,
             tasks=task_views(runner) or UNSET,
-            did=step_summaries(events, hands.program, hands.runner.task.measures),
+            did=step_summaries(events, session.program, session.runner.task.measures),
             events=tuple(events),
             error=error,
             **{name: getattr(told, name) for name in CommandResult.__struct_fields__},
@@ -170,11 +169,11 @@ def _attend(
     stepper: Stepper, live: Live, write: Callable[[str], None], *, json: bool, echoed: bool
 ) -> LiveText | None:
     """Let those who look on see and say something while the run goes; the text in which it is told to them."""
-    runner, text = stepper.hands.runner, None
+    runner, text = stepper.session.runner, None
     if json:
-        stepper.hands.face = LiveJson(runner, write)
+        stepper.session.output = LiveJson(runner, write)
     else:
-        stepper.hands.face = text = LiveText(runner, write, live.put, live.width)
+        stepper.session.output = text = LiveText(runner, write, live.put, live.width)
 
     def answer(line: str) -> None:
         reply = stepper.meanwhile(line)
@@ -184,5 +183,5 @@ def _attend(
             text.leave_line(ended=echoed)
             write(reply.error or reply.said or "")
 
-    stepper.hands.ear = Ear(live.typed, answer)
+    stepper.session.input = LineInput(live.typed, answer)
     return text

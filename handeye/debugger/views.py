@@ -16,14 +16,11 @@ from handeye.runs.runner import Runner
 
 
 def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
-    """Look at a run.
+    """Look at a run; raises InvalidInput if no such topic, or the picture cannot be written.
 
     Args:
         what: topics, or their beginnings, one after the other; all but `positions` if empty.
         pictures: folder that the last picture goes to as a file; None: nothing is written.
-
-    Raises:
-        InvalidInput: no such topic, or the picture cannot be written.
     """
     known = {**runner.kind.topics, **({"tasks": ("tasks", task_views)} if task_views(runner) else {})}
     names = [_topic(word, known) for word in what.split()] or [n for n in known if n != "positions"]
@@ -55,11 +52,8 @@ def task_views(runner: Runner) -> tuple[TaskView, ...]:
 
 
 def write_picture(runner: Runner, file: Path) -> str:
-    """Write the last picture, with what was found in it, as a PNG file; its name in the program.
-
-    Raises:
-        InvalidInput: none was taken yet, or the file cannot be written.
-    """
+    """Write the last picture, with what was found in it, as a PNG file; its name in the program. Raises InvalidInput if
+    none was taken yet, or the file cannot be written."""
     last = last_picture(runner)
     if last is None:
         raise Refused("the program has taken no picture yet")

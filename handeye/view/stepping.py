@@ -7,8 +7,8 @@ from typing import Any, Final
 import msgspec
 
 from handeye.core.markup import Markup
-from handeye.debugger.formatting import MOST, as_json, as_text
-from handeye.debugger.live import Ear, LiveJson
+from handeye.debugger.formatting import MAX_STEPS_SHOWN, as_json, as_text
+from handeye.debugger.live import LineInput, LiveJson
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper
 from handeye.report.page.elements import element
@@ -61,17 +61,10 @@ def _controls() -> Markup:
 
 
 def drive(stepper: Stepper, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> Pause:
-    """Carry out what is said until somebody leaves the run.
-
-    Args:
-        aside: entered while a line is waited for.
-
-    Returns:
-        Why the run pauses.
-    """
-    hands = stepper.hands
-    hands.face = LiveJson(hands.runner, link.tell)
-    hands.ear = Ear(link.come, lambda line: link.tell(told(stepper, stepper.meanwhile(line))))
+    """Carry out lines until the run is left; return why it pauses. `aside` is entered while a line is waited for."""
+    session = stepper.session
+    session.output = LiveJson(session.runner, link.tell)
+    session.input = LineInput(link.come, lambda line: link.tell(told(stepper, stepper.meanwhile(line))))
     link.tell(told(stepper, stepper.standing()))
     for line in filter(str.strip, link.lines(aside)):
         link.tell(told(stepper, stepper.do(line)))
@@ -89,8 +82,8 @@ def told(stepper: Stepper, reply: Reply) -> str:
     return msgspec.json.encode(
         {
             "reply": record,
-            "shown": as_text(reply, MOST),
-            "called": stepper.hands.runner.call is not None,
-            "pace": stepper.hands.pace.factor,
+            "shown": as_text(reply, MAX_STEPS_SHOWN),
+            "called": stepper.session.runner.call is not None,
+            "pace": stepper.session.pace.factor,
         }
     ).decode()

@@ -8,7 +8,7 @@ import msgspec
 
 from handeye.arm.model import ArmModel
 from handeye.core.markup import Markup
-from handeye.debugger.live import Ear
+from handeye.debugger.live import LineInput
 from handeye.debugger.pace import Pace
 from handeye.report.page.elements import element
 from handeye.runs.observer import Observer
@@ -138,7 +138,7 @@ class Watch:
         self.newest: Newest | None = None
         """None: no cell was built yet."""
         self._pace = pace
-        self._ear = Ear(link.come, lambda line: link.tell(_refused(line)))
+        self._ear = LineInput(link.come, lambda line: link.tell(_refused(line)))
 
     def __call__(self, runner: Runner) -> list[Observer]:
         """Look on at a runner, the first or that which takes the place of the last."""

@@ -7,7 +7,7 @@ import pytest
 from short_runs import history
 from toy_system import begin_toy
 
-from handeye.debugger.live import Ear, Live
+from handeye.debugger.live import LineInput, Live
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper, interact
 from handeye.program.events import StepStarted
@@ -28,7 +28,7 @@ def typed_at(stepper: Stepper, said: dict[int, list[str]]) -> Callable[[], str |
     """Somebody who types lines while steps are under way, given by how many have begun."""
 
     def typed() -> str | None:
-        begun = sum(isinstance(event, StepStarted) for event in stepper.hands.runner.events)
+        begun = sum(isinstance(event, StepStarted) for event in stepper.session.runner.events)
         lines = said.get(begun, [])
         return lines.pop(0) if lines else None
 
@@ -38,7 +38,9 @@ def typed_at(stepper: Stepper, said: dict[int, list[str]]) -> Callable[[], str |
 def heard(stepper: Stepper, said: dict[int, list[str]]) -> list[Reply]:
     """The answers to what is typed while the run goes, as they come."""
     replies: list[Reply] = []
-    stepper.hands.ear = Ear(typed_at(stepper, said), lambda line: replies.append(stepper.meanwhile(line)))
+    stepper.session.input = LineInput(
+        typed_at(stepper, said), lambda line: replies.append(stepper.meanwhile(line))
+    )
     return replies
 
 
@@ -67,7 +69,7 @@ def test_a_run_that_was_paused_goes_the_same_way_as_another(stepper: Stepper) ->
     advance(unbroken)
     heard(stepper, {2: ["pause"], 9: ["pause", "pause"]})
     assert [stepper.do("c").position for _ in range(3)] == [2, 9, 17]
-    assert history(stepper.hands.runner.events) == history(unbroken.events)
+    assert history(stepper.session.runner.events) == history(unbroken.events)
 
 
 @pytest.mark.parametrize("command", ["step 3", "until 4"])
@@ -80,7 +82,7 @@ def test_a_pause_is_forgotten_where_the_run_stops_anyway(stepper: Stepper, comma
 def test_a_pause_is_asked_of_a_run_that_goes_on_alone(stepper: Stepper) -> None:
     assert stepper.do("pause").error == "the run pauses already"
     stepper.do("step 9")
-    del stepper.hands.runner.history[1:-1]
+    del stepper.session.runner.history[1:-1]
     replies = heard(stepper, {5: ["pause"]})
     assert stepper.do("back").position == 8
     assert [reply.error for reply in replies] == ["the run goes back, and pauses where that ends"]
@@ -104,12 +106,12 @@ def test_the_pace_can_be_set_while_the_run_goes(stepper: Stepper) -> None:
     replies = heard(stepper, {3: ["pace 4x"], 4: ["pace"]})
     stepper.do("step 5")
     assert [reply.said for reply in replies] == ["the run goes 4 times as fast as the clock"] * 2
-    assert stepper.hands.pace.factor == 4
+    assert stepper.session.pace.factor == 4
 
 
 def test_nobody_is_heard_while_the_run_pauses(stepper: Stepper) -> None:
     lines: Iterator[str] = iter(["quit"])
-    stepper.hands.ear = Ear(lambda: next(lines, None), lambda _: None)
+    stepper.session.input = LineInput(lambda: next(lines, None), lambda _: None)
     stepper.do("show time")
     assert next(lines) == "quit"
 
@@ -118,10 +120,10 @@ def test_who_looks_on_is_gone_when_the_run_pauses_however_it_came_to_that(steppe
     def typed() -> str | None:
         raise KeyboardInterrupt
 
-    stepper.hands.ear = Ear(typed, lambda _: None)
+    stepper.session.input = LineInput(typed, lambda _: None)
     with pytest.raises(KeyboardInterrupt):
         stepper.do("continue")
-    assert (stepper.hands.runner.observers, stepper.hands.going, stepper.hands.runner.position) == (
+    assert (stepper.session.runner.observers, stepper.session.going, stepper.session.runner.position) == (
         [],
         None,
         0,

@@ -18,7 +18,7 @@ from handeye.core.pose import hand, hand_angles
 from handeye.core.units import INCH, OUNCE_FORCE
 from handeye.debugger.command_table import COMMANDS
 from handeye.debugger.formatting import as_text
-from handeye.debugger.live import Ear
+from handeye.debugger.live import LineInput
 from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper, interact
@@ -107,8 +107,10 @@ def test_stepping_from_standard_input_gives_the_events_of_a_run_through(
 
 def test_pauses_and_a_pace_change_no_event(stepper: Stepper, runner: Runner, whole: bytes) -> None:
     slept: list[float] = []
-    stepper.hands.pace = Pace(4.0, clock=lambda: sum(slept), sleep=slept.append)
-    stepper.hands.ear = Ear(lambda: None if stepper.hands._pause_asked else "pause", stepper.meanwhile)
+    stepper.session.pace = Pace(4.0, clock=lambda: sum(slept), sleep=slept.append)
+    stepper.session.input = LineInput(
+        lambda: None if stepper.session._pause_asked else "pause", stepper.meanwhile
+    )
     assert [stepper.do("c").position for _ in range(11)] == [*range(1, 12)]
     assert history(runner.events) == whole
     assert sum(slept) == pytest.approx(runner.elapsed / 4, rel=0.2)
@@ -438,7 +440,7 @@ def test_going_back_behind_the_beginning_of_a_run_uses_earlier_checkpoints(
     assert [again.do(text).position for text in ("bs", "s 3", "b 2")] == [2, 5, 3]
     assert again.do("b 3").error == "this run begins with 2 steps done: there is nothing before that"
     again.do("c")
-    assert history(again.hands.runner.events) == whole
+    assert history(again.session.runner.events) == whole
 
 
 def test_quit_keeps_a_checkpoint_that_goes_on_from_there(

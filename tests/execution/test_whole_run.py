@@ -18,7 +18,7 @@ from whole_runs import STAGES, Whole, whole_in
 from handeye.core.errors import NO_FORCE
 from handeye.core.world_options import by_number, faults
 from handeye.debugger.breakpoints import stage_number
-from handeye.debugger.formatting import MOST, as_text
+from handeye.debugger.formatting import MAX_STEPS_SHOWN, as_text
 from handeye.debugger.stepper import Stepper
 from handeye.program.events import (
     AnyEvent,
@@ -192,7 +192,7 @@ def transcript(stepper: Stepper, said: list[str]) -> Iterator[str]:
     yield as_text(stepper.standing())
     for command in said:
         yield f"{SAID}{command}"
-        yield as_text(stepper.do(command), MOST)
+        yield as_text(stepper.do(command), MAX_STEPS_SHOWN)
 
 
 @pytest.mark.render
