@@ -11,7 +11,7 @@ from rich.text import Text
 from handeye.core.diagnostics import visible
 from handeye.results.result import Check, Result
 from handeye.tasks import known, known_any
-from handeye.tasks.interface import Period, Words
+from handeye.tasks.interface import HistoricalTiming, Words
 
 TimingRow = tuple[str, float, float | None]
 """Name, seconds here, and seconds of its day; None: nobody told."""
@@ -123,7 +123,7 @@ def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]
         yield "    and while the arm moved", t.overlapped_s, None
 
 
-def period(result: Result) -> Period | None:
+def period(result: Result) -> HistoricalTiming | None:
     """The times of 1973, or of whenever it was, if they are those of this program; None of a task unknown here.
 
     In its day nothing was undone.

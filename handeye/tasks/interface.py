@@ -31,7 +31,7 @@ if TYPE_CHECKING:  # a plan is made and checked without a simulator, and soon
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Eye:
+class CameraSetup:
     """The television camera of a cell as the program knows it before it is calibrated."""
 
     drawing: CameraModel
@@ -40,7 +40,7 @@ class Eye:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Period:
+class HistoricalTiming:
     """How long the same work took in its day, s."""
 
     year: int
@@ -182,17 +182,20 @@ class Task(AnyTask):
     """The program that is taken where none is named: a file among the plans, or the path of one elsewhere."""
     other_scripts: tuple[str, ...] = ()
     """Its other programs, likewise. Commands find each by the name of its file without the ending."""
-    eye: Eye | None = None
-    period: Period | None = None
+    eye: CameraSetup | None = None
+    period: HistoricalTiming | None = None
     contacts: Mapping[str, tuple[str, ...]] = MappingProxyType({})
     """Positions at which the hand, or what it holds, meets something, by the name of the operation."""
-    trials: Mapping[str, Trial[Any]] = MappingProxyType({})
-    """Trials in many worlds without carrying out a program."""
 
     @property
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
         """Names of the arm's joints, and whether each turns or slides."""
         return {joint.name: joint.kind for joint in self.arm.joints}
+
+    @property
+    def trials(self) -> Mapping[str, Trial[Any]]:
+        """Trials in many worlds without carrying out a program, by their names; none by default."""
+        return {}
 
     def fixtures(self) -> Mapping[str, Fixture]:
         """What the planner keeps motions clear of where the program has not been taught otherwise."""

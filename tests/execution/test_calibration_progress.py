@@ -13,7 +13,7 @@ from handeye.execution.camera_calibration import calibrate_camera
 from handeye.execution.state import DriveState
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.tasks import task
-from handeye.tasks.interface import Eye
+from handeye.tasks.interface import CameraSetup
 from handeye.tasks.water_pump.world.nominal import PARK
 
 OUT_OF_REACH = (9.0, 9.0, 9.0)
@@ -22,7 +22,7 @@ OUT_OF_REACH = (9.0, 9.0, 9.0)
 @pytest.mark.slow
 def test_every_view_is_told_of_with_its_number_whether_the_lamp_is_seen_or_not() -> None:
     pump, told = task(), list[tuple[int, int]]()
-    assert isinstance(pump.eye, Eye)
+    assert isinstance(pump.eye, CameraSetup)
     cell = pump.cell(WorldSpec(seed=0), "ray").devices
     drive = DriveState.holding(cell.sense(), pump.arm)
     looks = [replace(pump.eye.looks[0], places=(OUT_OF_REACH,) * count) for count in (2, 1)]
@@ -36,7 +36,7 @@ def test_every_view_is_told_of_with_its_number_whether_the_lamp_is_seen_or_not()
 def shown(cell: FakeCell, links: float = 1.0) -> None:
     """Show the lamp to the camera with an arm that has found its links so many times as heavy as drawn."""
     pump = task()
-    assert isinstance(pump.eye, Eye)
+    assert isinstance(pump.eye, CameraSetup)
     drive = DriveState.holding(cell.devices.sense(), pump.arm)
     drive.links = np.full(len(PARK), links)
     calibrate_camera(cell.devices, pump.arm, drive, pump.eye.drawing, pump.eye.looks)

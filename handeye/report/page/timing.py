@@ -21,7 +21,7 @@ from handeye.report.page.figures import clock, duration
 from handeye.report.page.plots import bar, drawing
 from handeye.report.recorded import Recorded
 from handeye.tasks import known
-from handeye.tasks.interface import Period
+from handeye.tasks.interface import HistoricalTiming
 from handeye.trace.stats import Figures, StageFigures, statistics
 
 _WIDE: Final = 300.0
@@ -41,14 +41,14 @@ def timing_section(run: Recorded) -> Markup:
     )
 
 
-def _period(run: Recorded) -> Period | None:
+def _period(run: Recorded) -> HistoricalTiming | None:
     """The times of its day, if the program is one that was timed then."""
     task = known(run.trace.head.task)
     then = None if task is None else task.period
     return then if then is not None and then.program == run.trace.head.program else None
 
 
-def _beside(run: Recorded, total: Figures, then: Period | None) -> Iterator[Markup]:
+def _beside(run: Recorded, total: Figures, then: HistoricalTiming | None) -> Iterator[Markup]:
     times = {} if then is None else then.times
     worked = times["manipulation"] + times["lens"] if times else None
     rows = [
@@ -62,7 +62,9 @@ def _beside(run: Recorded, total: Figures, then: Period | None) -> Iterator[Mark
     yield note(*_remarks(run, then))
 
 
-def _row(name: str, here: float, then: float | None, longest: float, period: Period | None) -> list[Markup]:
+def _row(
+    name: str, here: float, then: float | None, longest: float, period: HistoricalTiming | None
+) -> list[Markup]:
     figures = [figure_cell(duration(here)), *([] if then is None else [figure_cell(duration(then))])]
     bars = [bar(0, 1, here / longest * _WIDE, _HIGH, class_="here")]
     told = f"{name}: {duration(here)}"
@@ -74,7 +76,7 @@ def _row(name: str, here: float, then: float | None, longest: float, period: Per
     return [element("th", name, scope="row"), *figures, element("td", drawn, class_="bars")]
 
 
-def _remarks(run: Recorded, then: Period | None) -> Iterator[str]:
+def _remarks(run: Recorded, then: HistoricalTiming | None) -> Iterator[str]:
     """What the table leaves out."""
     yield "Minutes and seconds on the cell’s clock."
     friction = sum(event.seconds for event in run.trace.events if isinstance(event, FrictionMeasured))

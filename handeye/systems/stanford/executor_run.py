@@ -45,7 +45,7 @@ from handeye.systems.stanford.conditions import Conditions, conditions_of
 from handeye.systems.stanford.kept_calibrations import KeptCalibrations
 from handeye.systems.stanford.preparation import Preparation, preparation_of, take_up
 from handeye.tasks import task
-from handeye.tasks.interface import Eye
+from handeye.tasks.interface import CameraSetup
 from handeye.touch.spiral import spiral
 from handeye.vision.calibration import Calibration
 from handeye.vision.marks import Mark
@@ -140,7 +140,7 @@ class RunningPlan(RunningSystem):
                 self.context.drive.stop()
         return [self._started(), *self._friction(seconds)]
 
-    def _prepare(self, eye: Eye) -> float:
+    def _prepare(self, eye: CameraSetup) -> float:
         """Measure joints and camera, unless an earlier run has kept that; simulated seconds for the joints."""
         kept = KeptCalibrations.of_user()
         conditions = None if kept.folder is None else conditions_of(self._setup, self._cell.renderer)
@@ -235,7 +235,7 @@ class RunningPlan(RunningSystem):
             links = tuple(round(factor, 6) for factor in drive.links.tolist())
             yield FrictionMeasured(time=self.time, joints=found, links=links, seconds=seconds)
 
-    def _calibrate(self, eye: Eye) -> None:
+    def _calibrate(self, eye: CameraSetup) -> None:
         """Calibrate the camera; the arm is held where that leaves it."""
         cell, drive = self._cell.devices, self.state.drive
         try:

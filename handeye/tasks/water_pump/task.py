@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.tasks.interface import Disturbance, ExportedScene, Eye, Period, Task, Words
+from handeye.tasks.interface import CameraSetup, Disturbance, ExportedScene, HistoricalTiming, Task, Words
 from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS, PARK
 from handeye.tasks.water_pump.world.stations import planned_fixtures
 
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
     from handeye.program.program import Fixture
     from handeye.tasks.trial import Trial
 
-PERIOD: Final = Period(
+PERIOD: Final = HistoricalTiming(
     year=1973,
     program="water_pump",
     times={"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0},
@@ -51,13 +50,13 @@ class WaterPump(Task):
     words = Words(product="the pump", done="The pump is assembled.", apart="The pump is taken apart.")
     script = "water_pump.al"
     other_scripts = ("water_pump_1973.al",)
-    eye = Eye(drawing=DRAWING, looks=LOOKS)
+    eye = CameraSetup(drawing=DRAWING, looks=LOOKS)
     photographs = ("studio", "pump")
     period = PERIOD
     contacts = CONTACTS
 
-    @cached_property
-    def trials(self) -> Mapping[str, Trial[Any]]:  # type: ignore[override]
+    @property
+    def trials(self) -> Mapping[str, Trial[Any]]:
         from handeye.tasks.water_pump.trials.base import BaseTrial
         from handeye.tasks.water_pump.trials.gasket import GasketTrial
 

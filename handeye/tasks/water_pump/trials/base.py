@@ -1,30 +1,27 @@
 """Trial of the eye: the pump base on the belt."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Final, Literal
+from typing import Final, Literal
 
 import numpy as np
 
+from handeye.core.errors import CalibrationFailed
 from handeye.core.pose import Array
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
 from handeye.program.diagnosis.cause_text import cause_sentence
+from handeye.program.program import Part
 from handeye.tasks.trial import Attempt, Count, Known, Trial
+from handeye.tasks.water_pump.trials.known_camera import known_camera
+from handeye.tasks.water_pump.trials.still_pump import StillPump, base_poses, locate, pump_base, put_base
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.vision.base import Failure, SpecificLocation
+from handeye.vision.holes import hole_places
 
-if TYPE_CHECKING:
-    from handeye.program.program import Part
-    from handeye.tasks.water_pump.trials.still_pump import StillPump
-    from handeye.vision.base import SpecificLocation
-
-WITHIN: Final = (INCH / 3, INCH / 4)
-"""Accuracy of the eye by the paper, in X and in Y."""
-WRONG: Final = 5.0
-"""A hole found more than this many picture points off is another thing, whatever the camera's error."""
+WITHIN: Final = (INCH / 3, INCH / 4)  # accuracy of the eye by the paper, in x and in y
+WRONG_BEYOND_PX: Final = 5.0  # a hole found farther off is something else, whatever the camera's error
 
 
 class BaseAttempt(Attempt, frozen=True, kw_only=True):
@@ -49,26 +46,13 @@ class BaseTrial(Trial[BaseAttempt]):
     attempt = BaseAttempt
 
     def attempts(self, world: WorldSpec, number: int, *, camera: str, known: Known) -> Iterator[BaseAttempt]:
-        from handeye.core.errors import CalibrationFailed
-        from handeye.tasks.water_pump.trials.known_camera import known_camera
-        from handeye.tasks.water_pump.trials.still_pump import (
-            StillPump,
-            base_poses,
-            locate,
-            pump_base,
-            put_base,
-        )
-        from handeye.vision.base import Failure
-
         still, part = StillPump(PumpWorld.draw(world), renderer=camera), pump_base()
         poses = list(base_poses(still.world, number))
         try:
             model = known_camera(still, known, camera, part.at[:3])
         except CalibrationFailed as error:
-            failure = str(error)
-            yield from (
-                BaseAttempt(seed=world.seed, number=k, error=None, failure=failure) for k in range(number)
-            )
+            for k in range(number):
+                yield BaseAttempt(seed=world.seed, number=k, error=None, failure=str(error))
             return
         for k, (x, y, yaw) in enumerate(poses):
             put_base(still, (x, y, part.at[2], yaw), pins=False)
@@ -106,11 +90,9 @@ class BaseTrial(Trial[BaseAttempt]):
 
 
 def _is_wrong(found: SpecificLocation, still: StillPump, part: Part, pose: Vector3) -> bool:
-    from handeye.vision.holes import hole_places
-
     true = still.camera.shown(hole_places(part, pose))
     seen = [(hole.u, hole.v) for hole in found.holes]
-    return bool(np.hypot(*(true - seen).T).max() > WRONG)
+    return bool(np.hypot(*(true - seen).T).max() > WRONG_BEYOND_PX)
 
 
 def _error(pose: Vector3, truth: Vector3) -> Vector3:

@@ -1,24 +1,24 @@
 """Trial of the eye: is the gasket on properly?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Final, Literal
+from typing import Final, Literal
 
 import numpy as np
 
+from handeye.core.errors import CalibrationFailed
 from handeye.core.pose import Pose, planar, translated, yaw
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
+from handeye.ports.camera import CLOSE_UP
+from handeye.program.program import Part
 from handeye.tasks.trial import Attempt, Count, Known, Trial
+from handeye.tasks.water_pump.trials.known_camera import known_camera
+from handeye.tasks.water_pump.trials.still_pump import Place, StillPump, look, pump_base, put_base
 from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, standard
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
-
-if TYPE_CHECKING:
-    from handeye.program.program import Part
-    from handeye.tasks.water_pump.trials.still_pump import Place, StillPump
-    from handeye.vision.camera_model import View
+from handeye.vision.camera_model import View
+from handeye.vision.gasket import inspect
 
 RIGHT: Final = "right"
 SHIFTED: Final = "shifted .3"
@@ -48,19 +48,15 @@ class GasketTrial(Trial[GasketAttempt]):
     def attempts(
         self, world: WorldSpec, number: int, *, camera: str, known: Known
     ) -> Iterator[GasketAttempt]:
-        from handeye.core.errors import CalibrationFailed
-        from handeye.ports.camera import CLOSE_UP
-        from handeye.tasks.water_pump.trials.known_camera import known_camera
-        from handeye.tasks.water_pump.trials.still_pump import StillPump, look, pump_base, put_base
-
-        still, part = StillPump(PumpWorld.draw(world), renderer=camera), pump_base(_standard())
+        X_WP = standard()
+        x, y, z = map(float, X_WP[:3, 3])
+        still, part = StillPump(PumpWorld.draw(world), renderer=camera), pump_base((x, y, z, yaw(X_WP)))
         try:
             model = known_camera(still, known, camera, part.at[:3])
         except CalibrationFailed as error:
             for k in range(number):
                 yield GasketAttempt(seed=world.seed, number=k, accepted={}, failure=str(error))
             return
-        x, y, z, _ = part.at
         rng = still.world.generator("trial.gasket")
         for k in range(number):
             base = _jittered(part.at, rng, BASE_OFF)
@@ -91,8 +87,6 @@ def _inspected(
     still: StillPump, base: Place, part: Part, view: View, rng: np.random.Generator
 ) -> dict[str, bool]:
     """Whether the gasket of each case is accepted, all compared with one picture before."""
-    from handeye.vision.gasket import inspect
-
     before = still.camera.digitise()
     stand = still.pose("gasket")
     X_WP = planar(*base) @ planar(0.0, 0.0, base_top(), 0.0)
@@ -132,11 +126,6 @@ _CASES: Final[dict[str, Callable[[Pose, np.random.Generator], Pose | None]]] = {
     DOUBLED: _doubled,
 }
 """Where the gasket is put on a base whose face is at a pose; None: it stays on its stand."""
-
-
-def _standard() -> Place:
-    X_WP = standard()
-    return float(X_WP[0, 3]), float(X_WP[1, 3]), float(X_WP[2, 3]), yaw(X_WP)
 
 
 def _jittered(place: Place, rng: np.random.Generator, amount: float) -> Place:

@@ -18,10 +18,9 @@ from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
 
-SPOTS: Final = 20
-ARM_ERROR: Final = 0.1 * INCH
-SPOT_ERROR: Final = 0.5
-"""Of simulated sightings: spots for each lens, largest error of the arm on each axis, points of noise."""
+SPOTS: Final = 20  # simulated sightings with each lens
+ARM_ERROR_M: Final = 0.1 * INCH  # the largest, on each axis
+SPOT_NOISE_PX: Final = 0.5
 
 
 def known_camera(
@@ -70,8 +69,8 @@ def by_sightings(still: StillPump, about: tuple[float, float, float]) -> Calibra
             pan, tilt = DRAWING.aim(lamp, lens)
             wobble = rng.normal(0, still.world.camera.pot_noise, 2)
             uv = still.true_camera.view(lens, pan + wobble[0], tilt + wobble[1]).project(lamp)[0]
-            u, v = uv + rng.normal(0, SPOT_ERROR, 2)
-            told = lamp + rng.uniform(-ARM_ERROR, ARM_ERROR, 3)
+            u, v = uv + rng.normal(0, SPOT_NOISE_PX, 2)
+            told = lamp + rng.uniform(-ARM_ERROR_M, ARM_ERROR_M, 3)
             point = (float(told[0]), float(told[1]), float(told[2]))
             sightings.append(Sighting(lens=lens, pan=pan, tilt=tilt, u=float(u), v=float(v), point_W=point))
     return calibrate(sightings, DRAWING)
