@@ -32,7 +32,7 @@ class Measured:
         return inverse(self.pose(other)) @ self.pose(body)
 
     def strayed(self, bodies: Sequence[str], places: Sequence[str]) -> float:
-        """How far the farthest of some bodies is from its place, m; the places are where `places` were at first.
+        """Greatest distance of the bodies from their places, m; a place is where a body of `places` was at first.
 
         Any body may have any place, but each place takes one only: nearest first.
         """
@@ -47,7 +47,7 @@ class Measured:
         return farthest
 
     def turned(self, body: str) -> float:
-        """How far a body is turned from how it stood at first, rad."""
+        """Angle of a body from its first orientation, rad."""
         number = self.model.body(body).id
         R = self._start.xmat[number].reshape(3, 3).T @ self.data.xmat[number].reshape(3, 3)
         return acos(max(-1.0, min(1.0, (float(np.trace(R)) - 1) / 2)))

@@ -51,7 +51,7 @@ class Answer:
     said: LineResult = NOTHING
     source: Source = NO_TEXT
     diagnostics: Sequence[Diagnostic] = ()
-    """Of the source."""
+    """Findings in the source."""
 
     @property
     def refused(self) -> bool:
@@ -112,7 +112,7 @@ def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
 def about(
     workplace: Workplace, checked: PlannedScript, found: Sequence[Diagnostic], said: LineResult = NOTHING
 ) -> Answer:
-    """An answer with what was found in a text."""
+    """An answer with the diagnostics of a text."""
     return Answer(time=workplace.elapsed, said=said, source=checked.source, diagnostics=tuple(found))
 
 

@@ -33,9 +33,9 @@ class Repl:
 
     workplace: Workplace
     folder: Path
-    """Where programs are looked for by name."""
+    """Folder of the programs for `DO NAME`."""
     called: str = _ANSWERS
-    """Words that are said when the operator was called."""
+    """Advice when the operator was called."""
     functions: list[str] = field(default_factory=list)
     """The lines collected."""
     over: bool = False
@@ -76,11 +76,11 @@ class Repl:
         return sewn(Source(name=TYPED, text=text), lambda key: read_source(self.folder / key).text)
 
     def carry_out(self, source: Source, *, alone: bool = False) -> Answer:
-        """Plan a text and carry it out; what there is to say to a stop is told."""
+        """Plan a text and carry it out; the answer to a stop has advice."""
         return self._advised(carry_out(self.workplace, source, alone=alone))
 
     def go_on(self, choice: Choice) -> Answer:
-        """Answer for the operator, who was called; raises InvalidInput if nobody has called."""
+        """Answer a call of the operator; raises InvalidInput if there is none."""
         happened = len(self.workplace.runner.events)
         said = done(self.workplace, self.workplace.answer(choice), happened)
         return self._advised(Answer(time=self.workplace.elapsed, said=said))
@@ -194,4 +194,3 @@ _TABLE: Final[tuple[Command[Callable[[Repl, str], Answer]], ...]] = (
     Command(usage="EXIT", act=_quit, help="leave, too"),
 )
 COMMANDS: Final = {command.name: command for command in _TABLE}
-"""By their words."""

@@ -30,7 +30,7 @@ class TeachSession:
     teacher: Teacher
     over: bool = False
     warned: bool = False
-    """Somebody has been told that there is something to save."""
+    """The user was warned of unsaved names."""
 
     def hear(self, line: str) -> Answer:
         """Carry out a line; one that is wrong changes nothing."""
@@ -224,4 +224,3 @@ TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="help", act=_help, help="show this"),
 )
 TEACH_COMMANDS: Final = {lesson.name: lesson for lesson in TABLE[1:]}
-"""By their words; joints are read by themselves."""

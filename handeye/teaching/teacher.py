@@ -1,4 +1,4 @@
-"""Teaching: somebody moves the arm, by word or by hand, and names where it is."""
+"""Teaching: the arm is moved, by word or by hand, and positions are named where it is."""
 
 import tomllib
 from collections.abc import Callable
@@ -51,18 +51,18 @@ class Teacher:
     saved: str
     """The text of the file."""
     text: str = field(init=False)
-    """The same with what has been named since."""
+    """The same, with the names given since."""
     afloat: bool = False
     """The brakes are off, and gravity is borne."""
     _before: list[_Named | None] = field(default_factory=list)
-    """Things that `undo` puts back: names, or (None) the cell."""
+    """States that `undo` restores: of names, or (None) of the cell."""
 
     def __post_init__(self) -> None:
         self.text = self.saved
 
     @property
     def unsaved(self) -> list[str]:
-        """Names that the file has not, or has otherwise."""
+        """Names that are not in the file, or differ there."""
         now, then = (tomllib.loads(text).get("positions", {}) for text in (self.text, self.saved))
         return [name for name in {**then, **now} if now.get(name) != then.get(name)]
 
@@ -78,20 +78,17 @@ class Teacher:
         return given
 
     def joint(self, index: int, goal: float) -> None:
-        """Move one joint to a place (rad, or m), the others held. Raises InvalidInput if it cannot go there, or
-        something is in the way."""
+        """Move one joint to a place (rad, or m), the others held. Raises Refused if it cannot."""
         arm = self.workplace.run.arm
         self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED))
 
     def straight(self, displacement: Vector3) -> None:
-        """Move the hand straight by a way (m, table coordinates), its angles kept. Raises InvalidInput if it cannot go
-        there, or something is in the way."""
+        """Move the hand straight by a way (m, table coordinates), its angles kept. Raises Refused if it cannot."""
         arm = self.workplace.run.arm
         self._follow(change_samples(arm, self.workplace.q, Change(displacement=displacement)))
 
     def turn(self, turn: Vector3) -> None:
-        """Turn the hand on the spot by a rotation vector (rad, table coordinates). Raises InvalidInput if it cannot be
-        turned so, or something is in the way."""
+        """Turn the hand on the spot by a rotation vector (rad, table coordinates). Raises Refused if it cannot."""
         arm = self.workplace.run.arm
         self._follow(pivot(arm, self.workplace.q, np.array(turn), TURN_SPEED))
 
@@ -107,8 +104,7 @@ class Teacher:
         self._let(lambda: self._float(REST_S))
 
     def push(self, force: Vector3, seconds: float) -> None:
-        """Somebody pushes the floating arm at its hand (N, table coordinates), and lets go of it. Raises InvalidInput
-        if the arm does not float."""
+        """Push the floating arm at its hand (N, table coordinates), then let go; raises Refused unless it floats."""
         if not self.afloat:
             raise Refused("the arm is held and cannot be pushed; `float` releases its brakes")
         self._let(lambda: self._pushed(force, seconds))
@@ -159,8 +155,7 @@ class Teacher:
         return position
 
     def save(self) -> list[str]:
-        """Write the file; the names that were not in it, or otherwise. Raises InvalidInput if somebody else has written
-        it meanwhile, or it cannot be written."""
+        """Write the file and return the new names; raises CannotWrite, also if the file has changed meanwhile."""
         names = self.unsaved
         if names:
             now = read_source(self.file).text if self.file.exists() else ""
@@ -175,8 +170,7 @@ class Teacher:
     # -- going back -----------------------------------------------------------------------------------
 
     def undo(self) -> str:
-        """Undo the last motion or name, and say which; the file is as it was saved last. Raises InvalidInput if there
-        is none."""
+        """Undo the last motion or name, and say which; the file stays as saved. Raises Refused if there is none."""
         if not self._before:
             raise Refused("there is nothing to undo")
         before = self._before.pop()

@@ -101,7 +101,7 @@ class Workplace:
 
     @property
     def run(self) -> ExecutionContext:
-        """What the executor of programs works with, now."""
+        """The executor's present context."""
         return self.runner.context
 
     @property
@@ -117,7 +117,7 @@ class Workplace:
 
     @property
     def q(self) -> Array:
-        """Where the arm is held, shape (n,), rad and m."""
+        """Joint positions at which the arm is held, shape (n,), rad and m."""
         return self.run.drive.state.q
 
     def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
@@ -143,7 +143,7 @@ class Workplace:
     # -- doing ----------------------------------------------------------------------------------------
 
     def carry_out(self, plan: Plan) -> Pause:
-        """Carry out a plan; raises InvalidInput if it looks, and the camera was not set up."""
+        """Carry out a plan; raises Refused if it takes pictures, and the camera was not set up."""
         if self.run.state.calibration is None and plan.program.written("picture"):
             raise Refused("the camera is not set up; begin with --look for a plan that takes pictures")
         self.mark()
@@ -159,7 +159,6 @@ class Workplace:
         return self._go()
 
     def _runner(self, start: Checkpoint) -> Runner:
-        """What takes the place of the present runner."""
         return Runner(start, halt=self.halt, observers=self.observers)
 
     def _started(self, plan: Plan) -> RunStarted:
@@ -171,7 +170,7 @@ class Workplace:
         )  # fmt: skip
 
     def answer(self, choice: Choice) -> Pause:
-        """Go on after the operator was called; raises InvalidInput if nobody has called."""
+        """Continue after a call of the operator; raises Refused if there is none."""
         if self.runner.call is None:
             raise Refused(f"`{choice}` answers a call of the operator, and there is none")
         self.runner.answer(choice)
@@ -188,7 +187,7 @@ class Workplace:
         self.before = [*self.before, self.checkpoint()][-MAX_STATES:]
 
     def back(self) -> None:
-        """Be again where the last plan had not been carried out; raises InvalidInput if none has been."""
+        """Return to before the last plan was carried out; raises Refused if there was none."""
         if not self.before:
             raise Refused("there is nothing to undo")
         self.runner = self._runner(self.before.pop())

@@ -1,1 +1,1 @@
-"""The live cell in a browser: anybody looks on, one person drives, and the run is the same as if nobody did."""
+"""The live cell in a browser: any number of viewers, one driver, and a run that none of them changes by watching."""

@@ -26,7 +26,7 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Access:
-    """What a request has to show."""
+    """Conditions that a request has to meet."""
 
     port: int
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))

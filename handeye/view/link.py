@@ -1,4 +1,4 @@
-"""The link between the one thread that owns a run and the server: lines one way, what is told of the run the other."""
+"""The link between the one thread that owns a run and the server: lines one way, messages about the run the other."""
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
@@ -14,7 +14,7 @@ class Link:
 
     def __init__(self) -> None:
         self.tell: Callable[[str], None] = lambda _: None
-        """Tells those who look on; the server says how."""
+        """Sends a message to the viewers; the server sets it."""
         self._lines = SimpleQueue[str | None]()
         self._lock = Lock()
         self._goes = False

@@ -27,30 +27,30 @@ NEWS = PictureTaken | happened.PartSeen | happened.PartInspected | happened.Part
 
 @dataclass(frozen=True, eq=False)
 class Television:
-    """What the television shows; a value that stays what it is, whatever the run does."""
+    """The television's picture with findings: a value that the run does not change."""
 
     picture: SeenPicture | None = None
     """The picture that the program took or examined last, timed by the cell's clock; None: it has taken none."""
 
     @property
     def shows(self) -> tuple[float, str, Sequence[Finding]] | None:
-        """What tells it from others: the picture and what was found in it."""
+        """Identity of the picture, with what was found in it."""
         return None if self.picture is None else (self.picture.time, self.picture.name, self.picture.findings)
 
     @cached_property
     def message(self) -> str:
-        """The same for pages: markup, none where there is no picture."""
+        """The picture as a message for pages; empty markup without one."""
         shown = "" if self.picture is None else figure(self.picture, self.picture.name)
         return msgspec.json.encode({"television": str(shown)}).decode()
 
 
 def television(runner: Runner) -> Television:
-    """What the television shows of a run."""
+    """The television's present picture of a run."""
     return shown(runner.events, runner.listing, runner.system)
 
 
 def shown(events: Sequence[AnyEvent], listing: Listing, system: RunningSystem) -> Television:
-    """What the television shows after some events, copied from what the program remembers."""
+    """The television's picture after some events, copied from the program's memory."""
     taken, findings = _last(events, listing) if system.shots else (None, ())
     if taken is None or taken.picture not in system.shots:
         return Television()
@@ -94,13 +94,13 @@ class Moment:
     gap: float
     """Between the fingers, m."""
     force: Array | None
-    """Of the hand on the world, shape (3,), N; None: it is not estimated."""
+    """Force of the hand on the world, shape (3,), N; None: it is not estimated."""
     joints: Array
     """Shape (n,), rad and m."""
     channels: Array
     """Components of the system's channels, shape (k,), SI; NaN: nothing was sensed yet."""
     poses: Poses
-    """Of all bodies of the cell, shape (m, 7): place (m), quaternion w, x, y, z; NaN: not there."""
+    """Poses of all bodies, shape (m, 7): place (m), quaternion w, x, y, z; NaN: not there."""
 
     @cached_property
     def packed(self) -> bytes:
@@ -148,7 +148,7 @@ class Newest(Observer):
         self._look()
 
     def _look(self) -> None:
-        """See what the television shows; where that is as before, it stays the same value, which is sent once."""
+        """Update the television; an unchanged picture stays the same value, which is sent once."""
         seen = television(self._runner)
         if seen.shows != self.television.shows:
             self.television = seen

@@ -20,22 +20,22 @@ from handeye.view.moment import FIGURES, Newest
 
 _MARK: Final = "<!doctype html>\n"
 _POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
-"""What the page may do beside the report's: talk with its server, and no more."""
+"""Permissions beyond the report's: talk with its server, and no more."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Face:
-    """What a page of the live cell is for: its controls, and what stands beside the cell."""
+    """The controls of a live page, and what stands beside the cell."""
 
     title: str
     controls: Sequence[Markup]
     aside: Markup
     listener: str
-    """Who hears the lines: `stepper`."""
+    """Noun for the listener: `stepper`."""
     script: str
     """The file with its script."""
     facts: dict[str, Any] = field(default_factory=dict)
-    """What its script has to know."""
+    """Facts for its script."""
 
 
 def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
@@ -112,7 +112,7 @@ def _talk(listener: str) -> Markup:
 
 
 def _first_tracks(names: tuple[str, ...], poses: Poses) -> bytes:
-    """Where all bodies are at first, those too that are not there yet: the page puts them where they are."""
+    """First poses of all bodies; those not there yet are at the origin, and the page moves them."""
     there = np.where(np.isnan(poses), np.array([0, 0, 0, 1, 0, 0, 0], dtype=np.float32), poses)
     rows = {name: pose[None] for name, pose in zip(names, there, strict=True)}
     return tracks.tracks_bytes(rows, times=np.zeros(1), begin=0.0, end=0.0, lowest=-np.inf)

@@ -1,7 +1,7 @@
-"""The server: a thread beside the run that hands out the page, and tells everybody who looks on.
+"""The server: a thread beside the run that hands out the page and sends messages to its viewers.
 
-It looks at the newest moment so many times a second, and drops the others; who takes too little of what is told is let
-go. So nobody who looks on can slow the run.
+It sends the newest moment `MOMENTS_PER_S` times a second and drops the others; a viewer who falls too far behind is
+disconnected. So no viewer can slow the run.
 """
 
 import asyncio
@@ -47,13 +47,12 @@ class Drive(msgspec.Struct, tag_field="do", tag="drive", forbid_unknown_fields=T
 
 
 Wish = Say | Panic | Drive
-"""What somebody who looks on may want."""
 _WISHES: Final = msgspec.json.Decoder(Wish)
 
 
 @dataclass(eq=False)
 class Viewer:
-    """Somebody who looks on."""
+    """A connected browser."""
 
     connection: ServerConnection
     waiting: deque[str] = field(default_factory=deque)
@@ -61,7 +60,7 @@ class Viewer:
 
 
 class Server:
-    """Serves one run while entered; its port is taken from the beginning, so that one in use is told at once."""
+    """Serves one run while entered; its port is taken at once, so that one in use is refused at once."""
 
     def __init__(self, link: Link, port: int = 0) -> None:
         """Take a port; 0: any that is free; raises InvalidInput if the port is in use, or not to be had."""
@@ -122,7 +121,7 @@ class Server:
             await self._say_goodbye(server)
 
     async def _say_goodbye(self, server: SocketServer) -> None:
-        """Tell what is left to be told, and close."""
+        """Send what is waiting, and close."""
         for viewer in [*self._viewers]:
             viewer.waiting.append(_message(left=True))
         await asyncio.sleep(2 / MOMENTS_PER_S)
@@ -140,7 +139,7 @@ class Server:
         return _response(HTTPStatus.OK, "text/html", self._page)
 
     async def _look_on(self, connection: ServerConnection) -> None:
-        """Somebody looks on, until the page is closed."""
+        """Serve one viewer until the page is closed."""
         assert self._newest is not None
         viewer = Viewer(connection)
         self._viewers.append(viewer)
@@ -162,7 +161,7 @@ class Server:
             self._tell_drive()
 
     async def _feed(self, viewer: Viewer, newest: Newest) -> None:
-        """Send what is told, and the newest moment and picture, at the viewer's own pace."""
+        """Send messages, the newest moment and the newest picture at the viewer's own pace."""
         shown, pictured = None, None
         try:
             while True:
@@ -194,7 +193,7 @@ class Server:
             viewer.connection.transport.abort()
 
     def _tell_drive(self) -> None:
-        """Tell everybody how many look on, and whether the drive is theirs."""
+        """Tell every viewer how many there are, and whether the drive is theirs."""
         for viewer in self._viewers:
             free = self._driver is None
             self._send(viewer, _message(viewers=len(self._viewers), drives=self._driver is viewer, free=free))
@@ -210,7 +209,7 @@ class Server:
             self._send(viewer, _message(refused=refused))
 
     def _carried_out(self, viewer: Viewer, wish: Wish) -> str | None:
-        """Do what somebody wants; why not, if it cannot be."""
+        """Carry out a viewer's wish; return why not, if it is refused."""
         match wish:
             case Drive():
                 self._driver = viewer

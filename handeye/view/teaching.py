@@ -29,7 +29,7 @@ _WORDS: Final = (("undo", "Undo"), ("where", "Where"), ("float", "Float"), ("sav
 
 
 def teaching_page(teacher: Teacher, newest: Newest) -> bytes:
-    """The page of a cell in which somebody teaches; raises InvalidInput if the task shows no scene."""
+    """The page for teaching in a cell; raises InvalidInput if the task shows no scene."""
     workplace = teacher.workplace
     hand = element("div", *buttons(_GAPS), *buttons(_WORDS), class_="controls")
     face = Face(
@@ -55,7 +55,7 @@ def taught_markup(teacher: Teacher) -> Markup:
 
 
 def _jogging(arm: ArmModel) -> Markup:
-    """What moves the arm by a little: the hand along an axis, or about one, or a joint by itself."""
+    """Controls that jog the arm: the hand along or about an axis, or one joint."""
     steps = element(
         "div",
         _choice("frame", "along", _FRAMES, _FRAMES[0][0]),
@@ -107,7 +107,7 @@ def _pair(line: str, shown: str, step: str) -> Markup:
 
 
 def _naming(parts: Iterable[str]) -> Markup:
-    """What records where the hand is."""
+    """The form that records the hand's position."""
     name = element(
         "input", id="name", type="text", required=True, maxlength="60", pattern="[A-Za-z_][A-Za-z0-9_]*",
         placeholder="NAME", aria_label="name of the position", autocomplete="off",
@@ -132,7 +132,7 @@ def _naming(parts: Iterable[str]) -> Markup:
 
 
 class Watch:
-    """Those who look on while a workplace goes from plan to plan, each of which has a runner of its own."""
+    """The observers of a workplace as it goes from plan to plan, each with a runner of its own."""
 
     def __init__(self, link: Link, pace: Pace) -> None:
         self.newest: Newest | None = None
@@ -150,11 +150,7 @@ class Watch:
 
 
 def teach(session: TeachSession, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> None:
-    """Do what is said until somebody leaves.
-
-    Args:
-        aside: entered while a line is waited for.
-    """
+    """Carry out lines until teaching is left; `aside` is entered while a line is waited for."""
     link.tell(_told(session, None))
     for line in filter(str.strip, link.lines(aside)):
         link.tell(msgspec.json.encode({"begun": line.strip()}).decode())

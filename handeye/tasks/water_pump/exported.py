@@ -1,4 +1,4 @@
-"""The pump's cell as other programs are given it: things by people's names, screws where they are, no mechanisms.
+"""The pump's cell for other programs: parts by people's names, screws where they are, no mechanisms.
 
 In the cell a screw in its thread is a carrier, and the screw itself lies on a tray below the floor
 (`cell/threads.py`). Here it is the screw that is in its hole: it is where the carrier is, welded to the
@@ -22,7 +22,7 @@ from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 RENAMED: Final = {"pin0": "pin1", "pin1": "pin2"}
-"""Names of the scene, and what is exported by another: joints, too, have the names of their bodies."""
+"""Exported names of bodies, and of their joints, by their names in the scene."""
 _METAL: Final = {
     "base.casting.density": ("casting", "floor_2"),
     "base.plate.density": ("base_plate",),
@@ -30,7 +30,7 @@ _METAL: Final = {
     "top.density": ("flange", "hub"),
     "rotor.density": ("crank_bar", "crank_pin", "shaft", "collar"),
 }
-"""Figures of the table, and the solids that they are of."""
+"""Solids of each metal, by the dimension that is its density."""
 _CAST: Final = ("base.", "top.")
 """Figures of the parts whose mass differs from world to world."""
 _FASTENERS: Final = ("screw", "pin_nose", "pin_body")
@@ -41,7 +41,7 @@ _MECHANISMS: Final = {
     "sites": ("park",),
     "geoms": ("tray",),
 }
-"""What only makes threads and clamping work, by kind and by how its names begin: what needs others comes first."""
+"""Elements that only make threads and clamping work, by kind and prefix of their names, dependants first."""
 
 
 def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
@@ -70,11 +70,7 @@ def _parts(screws: int) -> dict[str, tuple[str, ...]]:
 
 
 def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
-    """Of the solids that are of one metal, kg/m3: as the table has them, and of fasteners as the scene has them.
-
-    Args:
-        cast: how heavy the metal of base and top is in this world, against the table.
-    """
+    """Densities of the solids of one metal, kg/m3; `cast` scales those of base and top in this world."""
     steel = spec.find_default("shank")
     assert steel is not None
     table = {

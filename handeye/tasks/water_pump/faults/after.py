@@ -28,7 +28,7 @@ _PARTS: Final = ("base", "gasket", "top", "pin0", "pin1", "driver")
 
 
 def disturbances() -> tuple[Disturbance, ...]:
-    """All of them: those of a whole pump, then those of one whose top has been put on."""
+    """The disturbances of a whole pump, then those of one whose top has just been put on."""
     return (*_of_a_pump(), *_of_a_stack())
 
 
@@ -132,11 +132,11 @@ def _pose(data: mujoco.MjData, body: str) -> Array:
     return pose(data.body(body).xmat.reshape(3, 3), data.body(body).xpos)
 
 
-# -- what comes of them -------------------------------------------------------------------------------
+# -- their effects ------------------------------------------------------------------------------------
 
 
 def bystanders(truth: Truth) -> dict[str, Array]:
-    """Where the parts are that no finger touches, m: of those on the table or the belt, but for screws."""
+    """Places of the parts on table or belt that no finger touches, m; screws left out."""
     model, data = truth.model, truth.data
     bodies = model.geom_bodyid[data.contact.geom]
     holding = np.isin(bodies, [model.body(name).id for name in _FINGERS])

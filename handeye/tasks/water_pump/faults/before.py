@@ -61,7 +61,7 @@ PartFault = PumpFault[Change]
 
 
 def part_faults(seed: int) -> tuple[PartFault, ...]:
-    """All of them in the worlds like that of a seed, in the order they are listed."""
+    """All faults of parts in worlds of the make of a seed's, in the order they are listed."""
     return _part_faults(screws(seed))
 
 

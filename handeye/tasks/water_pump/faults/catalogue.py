@@ -1,4 +1,4 @@
-"""The catalogue of what can be broken in the pump's world."""
+"""The catalogue of the pump's faults, and those tried by default."""
 
 from typing import Final
 
@@ -65,9 +65,9 @@ MATRIX: Final = (
     "rotor.jammed",
     "arm.pushed.y",
 )
-"""By what `handeye faults` tries a program: of like faults of several joints, pins, screws and holes one."""
+"""Faults that `handeye faults` tries by default: one of those alike in joints, pins, screws and holes."""
 
 
 def catalogue(seed: int) -> Catalogue:
-    """What can be broken in the world of a seed, and what can happen to it: devices, parts, mishaps."""
+    """The faults of a seed's world: devices, parts, mishaps."""
     return Catalogue(*device_faults(), *part_faults(seed), *mishap_faults(), matrix=MATRIX)

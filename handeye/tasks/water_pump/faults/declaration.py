@@ -17,6 +17,6 @@ class PumpFault(FaultKind, Generic[B]):
 
 
 def broken(declared: Iterable[PumpFault[B]], faults: Sequence[Fault]) -> list[tuple[Fault, B]]:
-    """Those of a run's `faults` that are among the declared ones, each with what it breaks."""
+    """The `faults` of a run that are declared here, each with what it breaks."""
     known = {fault.name: fault.breaks for fault in declared}
     return [(fault, known[fault.name]) for fault in faults if fault.name in known]

@@ -45,12 +45,12 @@ DeviceFault = PumpFault[Lines]
 
 @cache
 def device_faults() -> tuple[DeviceFault, ...]:
-    """All of them, in the order they are listed."""
+    """All faults of devices, in the order they are listed."""
     return (*_switches(), *_hand(), *_force(), *_joints(), *_servo(), *_screwdriver(), *_sight())
 
 
 def defects(faults: Sequence[Fault]) -> tuple[Defect, ...]:
-    """What faults break of the lines of the cell; other faults break none."""
+    """Defects of the cell's lines; faults that are not of devices have none."""
     return tuple(
         Defect(line=line, effect=effect(fault.value or 0.0), stage=fault.stage)
         for fault, (lines, effect) in broken(device_faults(), faults)

@@ -110,8 +110,7 @@ class Mishap(ABC):
 class Pushed(Mishap):
     """The hand of the arm is pushed."""
 
-    axis: int
-    """Of the table: 0 is x."""
+    axis: int  # of the table: 0 is x
     force_N: float
 
     def act(self, scene: Scene, state: MishapState) -> bool:
@@ -125,8 +124,7 @@ class Pushed(Mishap):
 class Moved(Mishap):
     """The base is moved along the table."""
 
-    axis: int
-    """Of the table: 0 is x."""
+    axis: int  # of the table: 0 is x
     way_m: float
 
     @property
@@ -191,7 +189,7 @@ MishapFault = PumpFault[Callable[[float], Mishap]]
 
 @cache
 def mishap_faults() -> tuple[MishapFault, ...]:
-    """All of them, in the order they are listed."""
+    """All mishaps, in the order they are listed."""
     return (*_light(), *_pushes(), *_base(), *_losses())
 
 
@@ -266,12 +264,12 @@ def _dropping(part: str) -> Callable[[float], Mishap]:
 
 
 def due(faults: Sequence[Fault]) -> list[tuple[Fault, Mishap]]:
-    """Those of a run's faults by which something happens, and what."""
+    """The mishaps among a run's faults."""
     return [(fault, make(fault.value or 0.0)) for fault, make in broken(mishap_faults(), faults)]
 
 
 class Mishaps(Mechanism[MishapsState]):
-    """Whatever happens to a cell while it works."""
+    """The mishaps of a cell while it works."""
 
     name = "mishaps"
     kind = MishapsState

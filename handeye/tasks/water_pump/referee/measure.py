@@ -56,13 +56,13 @@ def misfit(measured: Measured, layer: str, hole: int) -> float:
 
 
 def clearance(measured: Measured, layer: str, hole: int) -> float:
-    """What a screw's shank leaves of the radius of its hole in gasket or top, m."""
+    """Radial clearance of a screw's shank in its hole in gasket or top, m."""
     model = measured.model
     return float(model.site(f"{layer}_hole{hole}").size[0] - model.geom(f"shank{hole}").size[0])
 
 
 def corner_height(measured: Measured, layer: str, holes: int) -> float:
-    """How far the upper face of a layer is off its nominal height over the base, at the worst of its screw holes, m."""
+    """Deviation of a layer's upper face from its nominal height over the base, at the worst screw hole, m."""
     X_BW = inverse(measured.pose("base"))
     corners = np.array([measured.data.site(f"{layer}_hole{k}").xpos for k in range(holes)])
     heights = corners @ X_BW[2, :3] + X_BW[2, 3]
@@ -70,7 +70,7 @@ def corner_height(measured: Measured, layer: str, holes: int) -> float:
 
 
 def thickness(layer: str) -> float:
-    """Of gasket or the top's flange, m."""
+    """Thickness of the gasket, or of the top's flange, m."""
     return dimensions()("top.flange" if layer == "top" else "gasket.thickness")
 
 
@@ -154,14 +154,14 @@ def _worst(measured: Measured, pairs: NDArray[np.int32], depths: NDArray[np.floa
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Kinds:
-    """Which geoms are what, shape (geoms,)."""
+    """Masks of the geoms of each kind, shape (ngeom,)."""
 
     solid: Mask
     pierced: Mask
     fastener: Mask
     """Pins, loose screws, and screws in their threads."""
     shank: Mask
-    """What goes through bores: fasteners without heads."""
+    """Fasteners without heads, which go through bores."""
     bore: Mask
     arm: Mask
 

@@ -90,7 +90,7 @@ def _add_rotor(shaper: Shaper, top: mujoco.MjsBody, d: Dimensions) -> None:
 
 
 def add_merging(spec: mujoco.MjSpec) -> None:
-    """Bonds that the cell closes when parts have come to rest together, for speed; open at first."""
+    """Welds, open at first, that the cell closes for speed when parts rest on each other."""
     for part in ("top", "gasket"):
         weld = spec.add_equality(
             name=f"merge_{part}", type=mujoco.mjtEq.mjEQ_WELD, objtype=mujoco.mjtObj.mjOBJ_BODY,

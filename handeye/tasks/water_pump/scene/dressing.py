@@ -1,4 +1,4 @@
-"""What is in the room for people alone: no cell that works has any of it.
+"""Furniture for people's pictures: tape reels, teletype, clock, boom cables and bevels; no working cell has it.
 
 It touches nothing, weighs nothing, and lies in a group that the television camera leaves out.
 """
@@ -31,7 +31,7 @@ _MATERIALS: Final = {
 
 
 def dress(shaper: Shaper) -> None:
-    """Put into a scene what is there for people alone."""
+    """Add the furniture for people to a scene."""
     for name, (*rgb, gloss) in _MATERIALS.items():
         shaper.spec.add_material(name=name, rgba=[*rgb, 1.0], specular=gloss, shininess=gloss)
     add_textures(shaper.spec)
@@ -45,7 +45,7 @@ def dress(shaper: Shaper) -> None:
 _REEL_RADIUS_M: Final = 0.100
 _TELETYPE_PLACE_M: Final = (-1.70, -0.55)
 _TURN: Final = [math.cos(math.radians(-5)), 0.0, 0.0, math.sin(math.radians(-5))]
-"""How it is turned: towards people's lamp, for faces that are nearly in line with its light are full of specks."""
+"""Quaternion that turns it to people's lamp: faces nearly in line with the light are full of specks."""
 
 
 def add_reels(shaper: Shaper) -> None:

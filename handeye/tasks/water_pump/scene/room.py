@@ -13,7 +13,7 @@ from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 LEFT, BACK, RIGHT, FRONT = -2.4, -2.0, 6.0, 6.0
-"""Where the room ends, m: walls on the left and at the back, nothing elsewhere."""
+"""Bounds of the room, m; it has walls on the left and at the back."""
 TRAY = -2.0
 """Height (m) of a tray under the floor, out of every sight, for screws that have become part of a thread."""
 

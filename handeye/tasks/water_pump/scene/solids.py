@@ -83,7 +83,7 @@ def outline() -> CrossSection:
 
 @cache
 def casting(screws: int) -> Surface:
-    """Surface of the base's casting, over its plate, with so many screw holes."""
+    """Surface of the base's casting, over its plate, with `screws` tapped holes."""
     d = dimensions()
     top, floor = base_top(), d("base.plate.thickness")
     solid = extruded(outline().offset(-0.0012), floor, top) + extruded(outline(), floor, top - 0.0016)
@@ -122,7 +122,7 @@ def gasket(screws: int) -> Surface:
 
 @cache
 def flange(screws: int) -> Surface:
-    """Surface of the top's flange with so many clearance holes."""
+    """Surface of the top's flange with a clearance hole for each screw."""
     d = dimensions()
     thick = d("top.flange")
     solid = extruded(outline().offset(-0.0008), 0.0, thick) + extruded(outline(), 0.0, thick - 0.001)

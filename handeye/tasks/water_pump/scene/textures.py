@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from handeye.core.pose import Array
 
 _SIZE: Final = 512
-_BENCH: Final = 1024
-"""Points along a side of the bench, of which people see more than of anything else."""
+_BENCH: Final = 1024  # px: people see more of the bench than of anything else
 _BOARDS: Final = 33
 Grain = Callable[[np.random.Generator], Array]
 """Draws a square picture of relative intensities, shape (n, n, 3)."""
@@ -105,15 +104,13 @@ def _tiles(rng: np.random.Generator) -> Array:
     return _tinted((tone + 0.025 * _smooth(rng, 3, 3)) * np.where(joints, 0.75, 1.0), (1.0, 0.97, 0.9))
 
 
-_MARKS: Final = 64
-"""Marks of the mill in a picture."""
+_MARKS: Final = 64  # of the mill, in a picture
 _GRAINS: Final[dict[str, Grain]] = {
     "belt": _woven, "cast": _cast, "floor": _tiles, "machined": _milled, "table": _bench, "wood": _timber,
 }  # fmt: skip
-"""By the names of their materials."""
 _LIKE: Final = {"top": "machined", "block": "machined"}
 """Materials that have the grain of another."""
 _REPEATS: Final = {
     "belt": 1, "cast": 25.0, "floor": 3.3, "machined": 12.0, "table": 1, "wood": 1, "top": 12.0, "block": 12.0,
 }  # fmt: skip
-"""How often a grain repeats: in a metre, or once over the whole thing."""
+"""Repeats of a grain a metre; 1: once over the whole surface."""

@@ -12,8 +12,8 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.stations import Station
 
 _POLES: Final = 6
-"""Of the bit's magnet, on a circle that halves the area of a head. An adhesion acts where geoms are near, and so a head
-that hangs by its edge is pulled by its whole face, and drawn straight."""
+"""Poles of the bit's magnet, on a circle that halves the area of a head: a head that hangs by its edge is pulled by its
+whole face, and drawn straight, since an adhesion acts where geoms are near."""
 _POLE: Final = 5e-4  # m, radius: they lie within the bit, a twentieth of a millimetre behind its face
 
 

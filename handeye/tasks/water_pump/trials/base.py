@@ -28,7 +28,7 @@ class BaseAttempt(Attempt, frozen=True, kw_only=True):
     """The base looked for once."""
 
     error: Vector3 | None
-    """Of x, y (m) and yaw (rad) as found; None: not found."""
+    """Error of x, y (m) and yaw (rad) as found; None: not found."""
     wrong: bool = False
     """Something else was taken for it."""
     failure: str | None = None

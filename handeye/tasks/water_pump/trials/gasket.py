@@ -27,16 +27,15 @@ DOUBLED: Final = "doubled"
 REJECTED: Final = (SHIFTED, ABSENT)
 """Cases that the eye has to reject. Two gaskets on each other look like one: the hand finds them, by their height."""
 SHIFT: Final = 0.3 * INCH
-BASE_OFF: Final = 0.03
-GASKET_OFF: Final = 0.02
-"""in, to either side, and .3 deg: how far off the blocks and the pins leave what is where it belongs."""
+BASE_OFF_IN: Final = 0.03  # to either side, and .3 deg: play that the blocks leave
+GASKET_OFF_IN: Final = 0.02  # likewise, the pins
 
 
 class GasketAttempt(Attempt, frozen=True, kw_only=True):
     """A gasket of every case inspected once."""
 
     accepted: dict[str, bool]
-    """By the case; none if the camera could not be calibrated."""
+    """Verdict of the eye by case; empty if the camera could not be calibrated."""
     failure: str | None = None
 
 
@@ -59,7 +58,7 @@ class GasketTrial(Trial[GasketAttempt]):
             return
         rng = still.world.generator("trial.gasket")
         for k in range(number):
-            base = _jittered(part.at, rng, BASE_OFF)
+            base = _jittered(part.at, rng, BASE_OFF_IN)
             put_base(still, base, pins=True)
             view = look(still.camera, model, CLOSE_UP, (x, y, z + part.face))
             yield GasketAttempt(seed=world.seed, number=k, accepted=_inspected(still, base, part, view, rng))
@@ -86,7 +85,7 @@ class GasketTrial(Trial[GasketAttempt]):
 def _inspected(
     still: StillPump, base: Place, part: Part, view: View, rng: np.random.Generator
 ) -> dict[str, bool]:
-    """Whether the gasket of each case is accepted, all compared with one picture before."""
+    """The eye's verdict on the gasket of each case, all compared with one picture before."""
     before = still.camera.digitise()
     stand = still.pose("gasket")
     X_WP = planar(*base) @ planar(0.0, 0.0, base_top(), 0.0)
@@ -102,7 +101,7 @@ def _inspected(
 
 def _right(X_WP: Pose, rng: np.random.Generator) -> Pose:
     x, y, z = (float(value) for value in X_WP[:3, 3])
-    return planar(*_jittered((x, y, z, yaw(X_WP)), rng, GASKET_OFF))
+    return planar(*_jittered((x, y, z, yaw(X_WP)), rng, GASKET_OFF_IN))
 
 
 def _shifted(X_WP: Pose, rng: np.random.Generator) -> Pose:
@@ -125,7 +124,7 @@ _CASES: Final[dict[str, Callable[[Pose, np.random.Generator], Pose | None]]] = {
     ABSENT: _absent,
     DOUBLED: _doubled,
 }
-"""Where the gasket is put on a base whose face is at a pose; None: it stays on its stand."""
+"""Pose of the gasket on a base face at `X_WP`, by case; None: it stays on its stand."""
 
 
 def _jittered(place: Place, rng: np.random.Generator, amount: float) -> Place:

@@ -1,4 +1,4 @@
-"""What the program may know of its camera in a trial."""
+"""The program's knowledge of its camera in a trial: by its lamp, by simulated sightings, as drawn, or exact."""
 
 from typing import Final
 
@@ -26,8 +26,7 @@ SPOT_NOISE_PX: Final = 0.5
 def known_camera(
     still: StillPump, known: Known, renderer: str, about: tuple[float, float, float]
 ) -> CameraModel:
-    """The camera as the program knows it; `about` a point, W, m, simulated sightings are. Raises CalibrationFailed if
-    the lamp was seen too few times."""
+    """The camera as the program knows it; simulated sightings are about a point, W, m. Raises CalibrationFailed."""
     match known:
         case "lamp":
             return by_lamp(still, renderer).model

@@ -1,4 +1,4 @@
-"""The cell of the pump before it has moved, with parts put where one wants them, and the eye in it."""
+"""The pump's cell before it has moved, with parts placed at will, and the eye in it."""
 
 import math
 from collections.abc import Iterator
@@ -94,7 +94,7 @@ def locate(
 
 
 def base_poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
-    """Where the base lies: x, y (m) and yaw (rad); first where the world has it."""
+    """Poses of the base: x, y (m) and yaw (rad); the world's own first."""
     yield world.base.x, world.base.y, world.base.yaw
     rng, ranges = world.generator("trial.base"), np.array([BELT_X, BELT_Y, BELT_LINE])
     for _ in range(number - 1):

@@ -128,7 +128,7 @@ def standard() -> Pose:
 
 
 def dispenser_places(count: int = 6) -> tuple[Point, ...]:
-    """Where the screws stand, in the table frame, m; a seventh behind the others."""
+    """Places of the screws in the dispenser, table frame, m; a seventh behind the others."""
     d = dimensions()
     x, y = d.all("dispenser.place")
     return tuple((x, y + (k - 2.5) * d("dispenser.pitch")) for k in range(count))

@@ -49,7 +49,7 @@ class Placing:
     roll: float = 0.0
 
     def about(self, x: float, y: float, z: float = 0.0) -> Pose:
-        """How it moves what is fixed to a thing that is wrong by this, and turned about a point, m."""
+        """Displacement of what is fixed to a part with this placement error, which turns about a point, m."""
         R = rotation_z(self.yaw) @ rotation(np.array([0.0, self.pitch, 0.0])) @ rotation_x(self.roll)
         p, error = np.array([x, y, z]), np.array([self.x, self.y, self.z])
         return pose(R, p + error - R @ p)
@@ -80,11 +80,11 @@ class PumpWorld:
     friction: dict[str, float]
     """Scales of the coefficients of friction, by the names in RUBBING."""
     thread_phase: tuple[float, ...]
-    """Where each thread starts, rad."""
+    """Angle at which each thread starts, rad."""
 
     @classmethod
     def of(cls, world: World) -> Self:
-        """The values of a drawn world, by what they belong to."""
+        """The values of a drawn world, sorted by device and part."""
         return cls(
             drawn=world,
             base=_placing(world, "base"),
@@ -128,11 +128,11 @@ class PumpWorld:
 
     @property
     def screws(self) -> int:
-        """How many screws the pump has."""
+        """Number of screws of the pump."""
         return len(self.holes["base"])
 
     def drilled(self, part: str) -> tuple[Point, ...]:
-        """Where the screw holes of a part really are, in the part's frame, m."""
+        """True places of a part's screw holes, in the part's frame, m."""
         drawn = screw_holes(self.screws)
         return tuple((x + dx, y + dy) for (x, y), (dx, dy) in zip(drawn, self.holes[part], strict=True))
 
@@ -142,7 +142,7 @@ class PumpWorld:
 
 
 def _placing(world: World, name: str) -> Placing:
-    """The error of a name; what its quantities do not speak of is right."""
+    """The placement error of a name; zero where it has no quantity."""
     ways = (field.name for field in fields(Placing))
     return Placing(**{way: world.values.get(f"{name}.{way}", 0.0) for way in ways})
 
@@ -159,7 +159,7 @@ def _parts(world: World) -> dict[str, Placing]:
 
 
 def _in_play(world: World, name: str, play: float) -> Placing:
-    """The error of a name whose place is told in shares of a play, m."""
+    """The placement error of a name whose x and y are shares of a play, m."""
     share = _placing(world, name)
     return replace(share, x=share.x * play, y=share.y * play)
 

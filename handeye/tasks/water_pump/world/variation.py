@@ -18,13 +18,13 @@ from handeye.tasks.water_pump.world.stations import stations
 
 JOINT_UNITS: Final = ("deg", "deg", "in", "deg", "deg", "deg")
 ARM_PERIOD: Final = (60.0, 60.0, 8.0, 60.0, 60.0, 60.0)
-"""Of the waviness of the potentiometers; in JOINT_UNITS, as the next."""
+"""Periods of the waviness of the potentiometers, in JOINT_UNITS."""
 ARM_CENTRE: Final = (-25.0, 105.0, 31.0, 0.0, 75.0, 20.0)
-"""Mid-work posture, at which a wrong scale makes no error."""
+"""Mid-work posture, in JOINT_UNITS, at which a wrong scale makes no error."""
 BELT_X: Final = (41.5, 47.5)
 BELT_Y: Final = (23.0, 33.0)
 BELT_LINE: Final = (60.0, 120.0)
-"""Where the base lies: its reference point (in) and the direction of its line of centres (deg)."""
+"""Ranges of the base on the belt: reference point (in), direction of its line of centres (deg)."""
 _TORQUES: Final = ("N m", "N m", "N", "N m", "N m", "N m")
 _RATES: Final = ("rad/s", "rad/s", "m/s", "rad/s", "rad/s", "rad/s")
 RUBBING: Final = ("pad", "table", "part", "thread")
@@ -38,14 +38,14 @@ SEVENTH: Final = 7_000_000
 _MOST: Final = {
     "in": 100.0, "deg": 360.0, "%": 1000.0, "oz": 1000.0, "N": 1000.0, "N m": 100.0, "rad/s": 10.0, "m/s": 10.0,
 }  # fmt: skip
-"""How far a quantity can be set: to nothing that could be meant."""
+"""Greatest value that a quantity can be set to, by unit: beyond anything meant."""
 _READING: Final = (
     "Potentiometers against joints, so that the hand is wrong by .060 in (median), .112 in (95 %); layout study, "
     "section 4."
 )
 _VISION: Final = "Vision study, verdict 1."
 IN_PLAY: Final = 70.0
-"""%, of its play, that a thing can be off along either axis: it stays clear of the corners of what it stands in."""
+"""Percent of its play that a part can be off along an axis: it stays clear of the corners of its seat."""
 
 
 def screws(seed: int) -> int:
@@ -75,7 +75,7 @@ def _group(
     least: float = -np.inf,
     greatest: float = np.inf,
 ) -> Iterator[Quantity]:
-    """Quantities that one source speaks of; those that are sizes are never less than nothing."""
+    """Quantities with one source; magnitudes are never negative."""
     units = [unit] * len(components) if isinstance(unit, str) else unit
     nominals = np.broadcast_to(nominal, len(components))
     for (name, distribution), its, middle in zip(components.items(), units, nominals, strict=True):
