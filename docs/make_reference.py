@@ -75,7 +75,7 @@ GROUPS: Final = {
         "First": "comparison.first.First",
         "QuantityDifference": "trace.quantities.QuantityDifference",
         "Parting": "comparison.parting.Parting",
-        "Place": "comparison.place.Place",
+        "Place": "comparison.pairing.Place",
     },
     "Programs that are taught": {
         "handeye.TrigSession": "systems.trig.session_api.TrigSession",

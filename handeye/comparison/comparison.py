@@ -1,4 +1,4 @@
-"""The comparison of two runs: facts, of which text, JSON and page are made."""
+"""The comparison of two runs: facts, from which text, JSON and page are made."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -6,13 +6,10 @@ from typing import Any
 import msgspec
 
 from handeye.comparison.conditions import Condition, conditions
-from handeye.comparison.corrected import Corrections, corrections
-from handeye.comparison.felt import Stops, stops
+from handeye.comparison.findings import Corrections, Searches, Stops, corrections, searches, stops
 from handeye.comparison.first import First, first_difference
-from handeye.comparison.pairing import TwoRuns
+from handeye.comparison.pairing import Place, TwoRuns
 from handeye.comparison.parting import Parting, Turning, parting
-from handeye.comparison.place import Place
-from handeye.comparison.searched import Searches, searches
 from handeye.core.entries import require
 from handeye.core.errors import BadFile
 from handeye.program.events import StepStarted
@@ -37,7 +34,7 @@ class Compared:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stages:
-    """The same stage in two runs; None: it did not come to it."""
+    """The same stage in two runs; None: not reached."""
 
     name: str
     a: StageFigures | None
@@ -71,7 +68,7 @@ class Comparison:
 
     @property
     def same(self) -> bool:
-        """Nothing was recorded otherwise of all that was recorded of both."""
+        """True if nothing that was recorded of both differs."""
         return self.first is None
 
     def __str__(self) -> str:
@@ -81,12 +78,7 @@ class Comparison:
 
 
 def comparison(a: Recorded, b: Recorded) -> Comparison:
-    """Compare two runs.
-
-    Raises:
-        InvalidInput: a run is of a system that carries out no plans, or a message of its trace cannot be understood or
-            tells of a step that there is not.
-    """
+    """Compare two runs; raises an InvalidInput if one follows no plan, or its trace cannot be understood."""
     for run in (a, b):
         _check(run)
     runs = TwoRuns(a, b)
@@ -105,7 +97,7 @@ def comparison(a: Recorded, b: Recorded) -> Comparison:
 
 
 def _check(run: Recorded) -> None:
-    """Raises InvalidInput if a run carried out no plan, or steps that its plan does not have."""
+    """Raises an InvalidInput if a run follows no plan, or has steps that its plan lacks."""
     name = run.trace.name
     require(run.trace.head.system, "compare", name)
     steps = len(run.program.steps)

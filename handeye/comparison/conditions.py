@@ -16,7 +16,7 @@ _DRAWN: Final = "as drawn"
 
 
 class Condition(Record, frozen=True, kw_only=True):
-    """Something that two runs depended on, and in which they differ."""
+    """A condition in which two runs differ."""
 
     what: str
     """`task`, `plan`, `arm`, `camera`, `seed` and other words of the world, the names of quantities that were set,
@@ -58,6 +58,6 @@ def _world(begun: RunStarted) -> Iterator[tuple[str, str]]:
 
 
 def _fault(task: Task | None, seed: int, fault: Fault) -> str:
-    """A fault as it would be typed, where its task is known."""
+    """A fault as it would be typed, if its task is known."""
     catalogue = None if task is None else task.faults(seed)
     return str(fault) if catalogue is None or fault.name not in catalogue.kinds else catalogue.written(fault)

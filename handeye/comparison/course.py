@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from difflib import SequenceMatcher
 from typing import Final
 
-from handeye.comparison.pairing import CarriedOut, TwoRuns
-from handeye.comparison.place import Place
+from handeye.comparison.pairing import CarriedOut, Place, TwoRuns
 from handeye.report.recorded import Recorded
 
 _BEFORE: Final = -1
@@ -15,7 +14,7 @@ _BEFORE: Final = -1
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Leg:
-    """A stretch of the course in which both runs did the same step, or one did a step and the other waited for it."""
+    """A stretch of the course in which both runs do the same step, or one does a step and the other waits."""
 
     begin: float
     """s of the course."""
@@ -44,7 +43,7 @@ class Course:
 
 @dataclass(frozen=True, slots=True)
 class _Done:
-    """A step of a run, from when to when."""
+    """A step of a run, with its times."""
 
     place: Place | None
     begin: float
@@ -65,7 +64,7 @@ def course(runs: TwoRuns) -> Course:
 
 
 def _done(run: Recorded, steps: Sequence[CarriedOut]) -> list[_Done]:
-    """The steps of a run, and before them what was before; each lasts until the next one begins."""
+    """The steps of a run, and the time before them; each lasts until the next one begins."""
     begun = [each.place for each in steps]
     times = [*(place.time for place in begun), run.ends]
     first = _Done(None, min(run.begins, times[0]), times[0])
@@ -75,7 +74,7 @@ def _done(run: Recorded, steps: Sequence[CarriedOut]) -> list[_Done]:
 def _side_by_side(
     runs: TwoRuns, a: Sequence[_Done], b: Sequence[_Done]
 ) -> Iterator[tuple[_Done | None, _Done | None]]:
-    """Steps that both runs did, and between them those that one did alone, the first run's before the other's."""
+    """Pairs of steps, and between them those of one run alone, the first run's before the other's."""
     one, other = ([_BEFORE, *(each.turn[0] for each in steps)] for steps in runs.carried_out)
     for tag, i, j, k, m in SequenceMatcher(None, one, other, autojunk=False).get_opcodes():
         if tag == "equal":

@@ -1,28 +1,183 @@
-"""The first thing that went otherwise in one of two runs: the step, the quantity, and both values."""
+"""The first difference of two runs: the step, the quantity, and both values."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
 from itertools import zip_longest
+from typing import Final
 
 import msgspec
 from google.protobuf.message import DecodeError
 
-from handeye.comparison.otherwise import otherwise
-from handeye.comparison.pairing import TwoRuns
-from handeye.comparison.place import Place, place_of
-from handeye.comparison.stretches import Stretch, stretches
+from handeye.arm.model import ArmModel
+from handeye.comparison.pairing import Place, TwoRuns, place_of
 from handeye.core.errors import BadFile
 from handeye.core.plain_text import one_line
 from handeye.inspection.difference import step_changes
-from handeye.program.events import AnyEvent, StepStarted
+from handeye.program.events import (
+    AnyEvent,
+    OperatorAnswered,
+    RunStarted,
+    StageFinished,
+    StageStarted,
+    StepFinished,
+    StepStarted,
+)
 from handeye.report.recorded import Recorded
 from handeye.tasks import known
-from handeye.trace.quantities import QuantityDifference
+from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, LOG, MACHINES, MOMENTS, SCENE
+from handeye.trace.quantities import QuantityDifference, differing, differing_events
+from handeye.trace.records import RawMessage
+from handeye.trace.trace import Trace
+
+OF_A_PERIOD: Final = (JOINTS, HAND, MACHINES, FRAMES)
+"""Channels of what is recorded of each servo period."""
+_SAID_TWICE: Final = (LOG, SCENE)
+"""Channels that say nothing of their own: sentences of events, and how bodies look."""
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A message, with its event if it holds one."""
+
+    message: RawMessage
+    event: AnyEvent | None
+    since: int
+    """ns since the step began."""
+
+
+@dataclass(slots=True)
+class Stretch:
+    """What was recorded of a step, up to the next one."""
+
+    started: StepStarted | None
+    """None: before the first step."""
+    begin: int
+    """ns"""
+    told: list[Told] = field(default_factory=list)
+
+    def add(self, messages: Iterable[tuple[RawMessage, AnyEvent | None]]) -> None:
+        """Add messages, each with its event."""
+        self.told += (Told(message, event, message.time - self.begin) for message, event in messages)
+
+
+def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[Stretch]:
+    """The stretches of a trace. The stage that a step begins, and the poses of everything then, belong to that step.
+
+    Args:
+        unseen: leave out what was recorded beside that many events, from the first on.
+        periods: with what was recorded of each servo period.
+    """
+    stretch = Stretch(None, trace.messages[0].time)
+    waiting: list[tuple[RawMessage, AnyEvent | None]] = []
+    events = iter(trace.events)
+    count = 0
+    for message in trace.messages:
+        if message.topic in _SAID_TWICE:
+            continue
+        event = next(events) if message.topic == EVENTS else None
+        count += event is not None
+        if (message.topic in MOMENTS and count < unseen) or (message.topic in OF_A_PERIOD and not periods):
+            continue
+        if message.topic == FRAMES or isinstance(event, StageFinished | StageStarted):
+            waiting.append((message, event))
+            continue
+        if isinstance(event, StepStarted):
+            yield stretch
+            stretch = Stretch(event, message.time)
+        stretch.add(waiting)
+        waiting.clear()
+        if not isinstance(event, RunStarted | StepStarted):
+            stretch.add([(message, event)])
+    stretch.add(waiting)
+    yield stretch
+
+
+_CLOCKS: Final = 2000
+"""ns by which times since a step began may differ by rounding."""
+EVENT: Final = ("event",)
+"""The quantity that differs where another kind of thing happened next."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Otherwise:
+    """A difference in what was recorded of a step."""
+
+    differing: QuantityDifference
+    period: int | None
+    """The servo period of the step, from 1; None: it is of none."""
+    next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
+    """What happened next, where that is what differs; None: the step went on, or nothing more was recorded."""
+
+
+def otherwise(a: Stretch, b: Stretch, arm: ArmModel | None) -> Otherwise | None:
+    """The first difference in what was recorded of the same step; None: none.
+
+    Args:
+        arm: the arm of both, if it is known.
+    """
+    period = 0
+    for number, (one, other) in enumerate(zip_longest(a.told, b.told)):
+        topics = [told.message.topic for told in (one, other) if told is not None]
+        period += topics == [JOINTS, JOINTS]
+        found = _differing(one, other, arm)
+        if found is not None:
+            next = (_next(a.told, number), _next(b.told, number)) if found.quantity == EVENT else (None, None)
+            beside = period > 0 and any(topic in OF_A_PERIOD for topic in topics)
+            return Otherwise(differing=found, period=period if beside else None, next=next)
+    return None
+
+
+def _differing(one: Told | None, other: Told | None, arm: ArmModel | None) -> QuantityDifference | None:
+    """The difference of two messages."""
+    if one is None or other is None or one.message.topic != other.message.topic:
+        return _moved_alone(one, other, arm) or QuantityDifference(
+            quantity=EVENT, a=_kind(one), b=_kind(other)
+        )
+    if one.event is not None and other.event is not None:
+        return _events_differ(one.event, other.event) or _times_differ(one, other)
+    if one.message.data == other.message.data:
+        return _times_differ(one, other)
+    return _times_differ(one, other) or differing(one.message, other.message, arm)
+
+
+def _times_differ(one: Told, other: Told) -> QuantityDifference | None:
+    if abs(one.since - other.since) <= _CLOCKS:
+        return None
+    return QuantityDifference(quantity=("time",), unit="s", a=one.since / 1e9, b=other.since / 1e9)
+
+
+def _moved_alone(one: Told | None, other: Told | None, arm: ArmModel | None) -> QuantityDifference | None:
+    """The body that moved in only one of two runs; None: the difference is another."""
+    a, b = (None if told is None or told.message.topic != FRAMES else told.message for told in (one, other))
+    return differing(a, b, arm)
+
+
+def _events_differ(one: AnyEvent, other: AnyEvent) -> QuantityDifference | None:
+    """The difference of two events, except in the numbers of steps, which another program counts differently."""
+    if type(one) is not type(other):
+        return QuantityDifference(quantity=EVENT, a=type(one).__name__, b=type(other).__name__)
+    if isinstance(one, StepFinished | OperatorAnswered) and isinstance(
+        other, StepFinished | OperatorAnswered
+    ):
+        other = msgspec.structs.replace(other, step=one.step)
+    return differing_events(one, other)
+
+
+def _kind(told: Told | None) -> str | None:
+    return None if told is None or told.event is None else type(told.event).__name__
+
+
+def _next(told: Sequence[Told], number: int) -> AnyEvent | None:
+    """The next event; None: a servo period comes first."""
+    for each in told[number:]:
+        if each.event is not None or each.message.topic in OF_A_PERIOD:
+            return each.event
+    return None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class First:
-    """The first thing that went otherwise."""
+    """The first difference."""
 
     a: Place | None
     """The step under way; None: before the first one, or the run has ended there."""
@@ -42,12 +197,10 @@ class First:
 
 
 def first_difference(runs: TwoRuns) -> First | None:
-    """The first thing in which two runs differ, step beside step; None: nothing that was recorded of both.
+    """The first difference of two runs, step beside step; None: none in what was recorded of both.
 
-    Times count from the beginning of each step: a run that was late in one step is not late in all that follow.
-
-    Raises:
-        InvalidInput: a message of a trace is not what its channel says.
+    Times count from the beginning of each step: a run that was late in one step is not late in all that follow. Raises
+    BadFile if a message of a trace is not what its channel says.
     """
     try:
         for a, b in zip_longest(*_stretches(runs)):
@@ -68,7 +221,7 @@ def _stretches(runs: TwoRuns) -> tuple[Iterator[Stretch], Iterator[Stretch]]:
 
 
 def _other_step(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | None:
-    """How the step that one run does is not that of the other; None: it is."""
+    """The difference between the steps that two runs do; None: none."""
     here, there = (None if stretch is None else stretch.started for stretch in (a, b))
     if here is None and there is None:  # before the first step
         return None
@@ -89,7 +242,7 @@ def _place(run: Recorded, started: StepStarted | None) -> Place | None:
 
 
 def _recorded_otherwise(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | None:
-    """What was recorded otherwise of the same step; None: nothing was."""
+    """The first difference in what was recorded of the same step; None: none."""
     assert a is not None
     assert b is not None
     task = known(runs.a.trace.head.task)

@@ -1,23 +1,45 @@
-"""The page of two runs: both views under one slider, what went otherwise, and what each did, step beside step."""
+"""The page of two runs: both views under one slider, what differed, and what each did, step beside step."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Final
+from typing import Final, Protocol, TypeVar
 
 from handeye.comparison.comparison import Comparison
-from handeye.comparison.course import course
-from handeye.comparison.page_sections import sections
-from handeye.comparison.page_view import SIDES, moments, view
-from handeye.comparison.pairing import TwoRuns
-from handeye.comparison.wording import THINNED, place_words, run_words, same_words
+from handeye.comparison.course import Course, course
+from handeye.comparison.pairing import Place, TwoRuns
+from handeye.comparison.wording import (
+    THINNED,
+    correction_words,
+    first_words,
+    moment_words,
+    place_words,
+    run_words,
+    same_words,
+    search_words,
+    stop_words,
+    turning_words,
+)
 from handeye.core.files import Kind
 from handeye.core.markup import Markup
 from handeye.core.plain_text import printable
+from handeye.core.units import INCH
 from handeye.report import player
 from handeye.report.animation import Animation
 from handeye.report.page.document import head, packed, resource
-from handeye.report.page.elements import element, section
+from handeye.report.page.elements import (
+    cell,
+    element,
+    figure_cell,
+    figure_heads,
+    heads,
+    note,
+    section,
+    table,
+    to_moment,
+)
+from handeye.report.page.moments import json_markup
 from handeye.report.recorded import Recorded
+from handeye.trace.stats import StageFigures
 
 _MARK: Final = "<!doctype html>\n<!-- handeye comparison -->\n"
 PAGE: Final = Kind("comparison of handeye", _MARK.encode(), ending=".html")
@@ -28,7 +50,7 @@ def comparison_page(a: Recorded, b: Recorded, found: Comparison, animated: Anima
     """The page of two runs; the same for the same traces.
 
     Args:
-        animated: what is shown of both to walk round in; or why there is nothing, a sentence.
+        animated: both animations; or a sentence on why there are none.
     """
     way = course(TwoRuns(a, b))
     views, lacking = ((), animated) if isinstance(animated, str) else (animated, "")
@@ -70,3 +92,157 @@ def _carried(side: str, shown: Animation) -> Iterator[Markup]:
 
 def _own(name: str) -> str:
     return Path(__file__).with_name(name).read_text(encoding="utf-8")
+
+
+SIDES: Final = (("A", "a"), ("B", "b"))
+"""Letters of the runs, as people read them and as the parts of the page are named."""
+_SPEEDS: Final = (1, 4, 16, 64)
+_USUAL: Final = 4
+
+
+def view(way: Course, lacking: str) -> Iterator[Markup]:
+    """Both views, and the controls of both.
+
+    Args:
+        lacking: why there are no animations; empty: there are.
+    """
+    if lacking:
+        yield element("p", f"There is nothing to walk round in: {lacking}", class_="missing")
+    yield element("div", *(_side(letter, name) for letter, name in SIDES), class_="sides")
+    yield element("p", id="instead", class_="missing", hidden=True)
+    yield _controls(way)
+    yield note(
+        "Step stands beside step: where a run took longer over one, or did one that the other did not, the other waits."
+    )
+
+
+def _side(letter: str, name: str) -> Markup:
+    told = f"the cell of run {letter} at this moment; arrows walk round it, plus and minus come nearer and go farther"
+    canvas = element("canvas", id=f"view-{name}", hidden=True, tabindex="0", role="img", aria_label=told)
+    clock = element("output", id=f"clock-{name}", for_="time")
+    line = element("span", id=f"line-{name}")
+    caption = element("p", element("b", letter, " ", clock), line, class_="caption")
+    return element("div", element("div", canvas, class_="screen"), caption)
+
+
+def _controls(way: Course) -> Markup:
+    play = element(
+        "button", "Play", id="play", type="button", aria_keyshortcuts="Space", title="play, pause: space"
+    )
+    slider = element(
+        "input", id="time", type="range", min="0", max=f"{way.end:.2f}", step="0.01", value="0",
+        aria_label="time of both runs", aria_keyshortcuts="ArrowLeft ArrowRight",
+    )  # fmt: skip
+    options = (element("option", f"{speed} ×", value=speed, selected=speed == _USUAL) for speed in _SPEEDS)
+    speed = element("select", *options, id="speed", aria_label="speed")
+    views = element("div", id="views", role="group", aria_label="view", class_="views")
+    return element("div", play, slider, speed, views, id="controls", class_="controls", hidden=True)
+
+
+def moments(way: Course) -> Markup:
+    """Data for the script of the page: where both runs stand, leg by leg."""
+    legs = [[leg.begin, leg.a, leg.b, *map(_line, leg.places)] for leg in way.legs]
+    return element(
+        "script", json_markup([*legs, [way.end, way.a, way.b, "", ""]]), id="moments", type="application/json"
+    )
+
+
+def _line(place: Place | None) -> str:
+    return "" if place is None else printable(place_words(place))
+
+
+_BOTH: Final = ("A", "B")
+
+
+class _Placed(Protocol):
+    """A finding at a step."""
+
+    @property
+    def place(self) -> Place: ...
+
+
+Found = TypeVar("Found", bound=_Placed)
+
+
+def sections(found: Comparison, way: Course) -> Iterator[Markup]:
+    """All sections; whatever happened at a step is a link to it."""
+    yield section("otherwise", "What went otherwise", *_otherwise(found, way))
+    searches = [_row(way, each.a, each.b, search_words, alike=each.alike) for each in found.searches]
+    stops = [_row(way, each.a, each.b, stop_words, alike=each.alike) for each in found.stops]
+    corrections = [
+        [*_row(way, each.a, each.b, correction_words, alike=each.alike), _apart(each.apart)]
+        for each in found.corrections
+    ]
+    for name, heading, rows, more in (
+        ("searches", "Searches", searches, []),
+        ("felt", "Guarded motions", stops, []),
+        ("corrections", "Corrections", corrections, figure_heads("apart, in")),
+    ):
+        if rows:
+            yield section(name, heading, table([*heads("step", *_BOTH), *more], rows, label=heading))
+    yield section("seconds", "Seconds by stage", _seconds(found))
+
+
+def _otherwise(found: Comparison, way: Course) -> Iterator[Markup]:
+    """Conditions that differ, the first difference, and where the courses part."""
+    rows = [[element("th", each.what, scope="row"), cell(each.a), cell(each.b)] for each in found.conditions]
+    if rows:
+        yield table(heads("depends on", *_BOTH), rows, label="what the runs depended on")
+    if found.first is None:
+        yield element("p", "Nothing was recorded otherwise.")
+        return
+    yield element("h3", "Recorded otherwise first")
+    yield element("p", _link(way, found.first.a, found.first.b, moment_words(found.first)))
+    yield from (element("p", line) for line in first_words(found.first))
+    if found.parted is None:
+        yield element("p", "Both went the same way: the same steps, stops, errors and answers.")
+        return
+    turnings = found.parted.a, found.parted.b
+    here, there = (None if turning is None else turning.place for turning in turnings)
+    yield element("h3", "Their ways part")
+    yield element("p", _link(way, here, there, place_words(found.parted.place)))
+    for letter, turning in zip(_BOTH, turnings, strict=True):
+        yield element("p", element("b", letter), " ", turning_words(turning))
+
+
+def _row(
+    way: Course, a: Found | None, b: Found | None, words: Callable[[Found], str], *, alike: bool
+) -> list[Markup]:
+    """A step, and the findings of both runs there; a difference stands out."""
+    here, there = (None if side is None else side.place for side in (a, b))
+    link = _link(way, here, there, place_words(here or there))
+    place = link if alike else element("b", link)
+    return [
+        element("th", place, scope="row"),
+        *(cell("" if side is None else words(side)) for side in (a, b)),
+    ]
+
+
+def _link(way: Course, a: Place | None, b: Place | None, words: str) -> Markup:
+    """A link to a step of the first run, or else of the second."""
+    if a is not None:
+        return to_moment(way.at(a, 0), words)
+    return element("span", words) if b is None else to_moment(way.at(b, 1), words)
+
+
+def _apart(apart: float | None) -> Markup:
+    return figure_cell("" if apart is None else f"{apart / INCH:.2f}")
+
+
+def _seconds(found: Comparison) -> Markup:
+    rows = [
+        [element("th", stage.name, scope="row"), *_figures(_took(stage.a), _took(stage.b))]
+        for stage in found.stages
+    ]
+    rows.append([element("th", "all", scope="row"), *_figures(found.a.seconds, found.b.seconds)])
+    return table([*heads("stage"), *figure_heads(*_BOTH, "B - A")], rows, label="seconds by stage")
+
+
+def _took(figures: StageFigures | None) -> float | None:
+    return None if figures is None else figures.seconds
+
+
+def _figures(a: float | None, b: float | None) -> Iterator[Markup]:
+    for seconds in (a, b):
+        yield figure_cell("" if seconds is None else f"{seconds:.1f}")
+    yield figure_cell("" if a is None or b is None else f"{b - a:+z.1f}")

@@ -1,4 +1,4 @@
-"""Pairs of steps: which step of one run is which step of another."""
+"""Steps as they were carried out, and which step of one run is which of another."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -6,12 +6,46 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
 
-from handeye.comparison.place import Place, place_of
+from handeye.core.record import Record
+from handeye.core.source import line_name
 from handeye.inspection.alignment import Pair, aligned
-from handeye.program.events import UndoStarted
+from handeye.program.events import StepStarted, UndoStarted
 from handeye.program.program import Step
 from handeye.report.recorded import Recorded
 from handeye.trace.steps import DoneStep, done_steps
+
+
+class Place(Record, frozen=True, kw_only=True):
+    """A step as it was carried out."""
+
+    stage: str
+    step: int
+    """Its number in its program."""
+    file: str = ""
+    """The required file it stands in; empty: the source itself."""
+    line: int
+    text: str
+    time: float
+    """When it began, s since the run began."""
+
+    @property
+    def name(self) -> str:
+        """Its line, as people are told: `12`, or `pins.al:12`."""
+        return line_name(self.line, self.file)
+
+
+def place_of(run: Recorded, started: StepStarted) -> Place:
+    """The place of a step that was begun."""
+    program = run.program
+    return Place(
+        stage=program.stages[program.steps[started.step].stage],
+        step=started.step,
+        file=started.file,
+        line=started.line,
+        text=started.text,
+        time=run.seconds(started.time),
+    )
+
 
 Turn = tuple[int, int]
 """A step as it is carried out: the number of its pair, and how often that was carried out before."""
@@ -28,25 +62,25 @@ class CarriedOut:
 
     @property
     def step(self) -> Step:
-        """What the program says of it."""
+        """Its step in the program."""
         return self.run.program.steps[self.done.started.step]
 
     @property
     def place(self) -> Place:
-        """Where it stands."""
+        """Its place."""
         return place_of(self.run, self.done.started)
 
 
 @dataclass(frozen=True, eq=False)
 class TwoRuns:
-    """Two runs, and which of their steps are beside each other."""
+    """Two runs, and the pairs of their steps."""
 
     a: Recorded
     b: Recorded
 
     @property
     def thinned(self) -> bool:
-        """One of the traces holds some of its servo periods only, so that these cannot be compared."""
+        """True if a trace holds some of its servo periods only, so that these cannot be compared."""
         return self.a.trace.thinned or self.b.trace.thinned
 
     @cached_property
@@ -65,7 +99,7 @@ class TwoRuns:
         return a, b
 
     def are_beside(self, a: int, b: int) -> bool:
-        """See whether a step of one program is beside a step of the other, by their numbers."""
+        """True if steps of the two programs, by their numbers, are a pair."""
         return self.numbers[0][a] == self.numbers[1][b]
 
     @cached_property

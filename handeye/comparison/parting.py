@@ -1,12 +1,11 @@
-"""Where the ways of two runs part: the first event after which they no longer do the same things."""
+"""Where the courses of two runs part: the first event after which they no longer do the same."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import zip_longest
 from typing import Any
 
-from handeye.comparison.pairing import TwoRuns
-from handeye.comparison.place import Place, place_of
+from handeye.comparison.pairing import Place, TwoRuns, place_of
 from handeye.program import events as happened
 from handeye.program.events import AnyEvent, StepStarted
 from handeye.report.recorded import Recorded
@@ -14,7 +13,7 @@ from handeye.report.recorded import Recorded
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Turning:
-    """An event by which a run went its way."""
+    """An event that decides the course of a run."""
 
     place: Place | None
     """The step under way, or done last; None: before the first one."""
@@ -23,7 +22,7 @@ class Turning:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parting:
-    """The first event by which two runs went different ways."""
+    """The first event at which the courses of two runs differ."""
 
     a: Turning | None
     """Where the first run stood, and what happened next; None: it has ended before."""
@@ -32,16 +31,16 @@ class Parting:
 
     @property
     def place(self) -> Place | None:
-        """The step that was under way in the first run, or done last; in the second, where the first has ended."""
+        """The step under way in the first run, or its last; in the second run, if the first has ended."""
         turning = self.a or self.b
         return None if turning is None else turning.place
 
 
 def parting(runs: TwoRuns) -> Parting | None:
-    """Where the ways of two runs part; None: nowhere.
+    """Where the courses of two runs part; None: nowhere.
 
-    The way is made of the steps that are carried out, and of what decides about them: which guard was met, which errors
-    were raised, how a test came out, what people did.
+    The course consists of the steps, and of what decides about them: guards met, errors raised, answers to tests, what
+    people did.
     """
     for a, b in zip_longest(_turnings(runs.a), _turnings(runs.b)):
         if a is None or b is None or not _alike(runs, a.event, b.event):
@@ -59,7 +58,7 @@ def _turnings(run: Recorded) -> Iterator[Turning]:
 
 
 def _alike(runs: TwoRuns, a: AnyEvent, b: AnyEvent) -> bool:
-    """Two events lead the same way."""
+    """True if two events lead the same way."""
     if isinstance(a, StepStarted) and isinstance(b, StepStarted):
         return runs.are_beside(a.step, b.step)
     return type(a) is type(b) and _decides(a) == _decides(b)

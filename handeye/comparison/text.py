@@ -5,11 +5,9 @@ from typing import Final
 
 from handeye.comparison.comparison import Comparison
 from handeye.comparison.conditions import Condition
-from handeye.comparison.corrected import Corrections
-from handeye.comparison.felt import Stops
+from handeye.comparison.findings import Corrections, Searches, Stops
 from handeye.comparison.first import First
 from handeye.comparison.parting import Parting
-from handeye.comparison.searched import Searches
 from handeye.comparison.wording import (
     THINNED,
     correction_words,
@@ -47,7 +45,7 @@ def comparison_text(found: Comparison) -> list[str]:
 
 
 def _conditions(differing: Sequence[Condition]) -> Iterator[str]:
-    """What the runs depended on differently; they are compared as far as they go."""
+    """Conditions that differ; the runs are compared as far as they go."""
     for each in differing:
         if each.what == "plan":
             yield "They are of different plans, compared as far as these go; `handeye diff` compares plans."
@@ -98,14 +96,14 @@ def _corrected(found: Sequence[Corrections]) -> Iterator[str]:
 
 
 def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Corrections]) -> Iterator[str]:
-    """How many there are in both runs, and how many of those are alike; nothing where there are none at all."""
+    """The number of findings in both runs, and how many are alike; nothing if there are none."""
     both = [each for each in found if each.a is not None and each.b is not None]
     if found:
         yield f"{what}: {len(both)} in both, {sum(each.alike for each in both)} {alike}{_alone(found)}"
 
 
 def _alone(found: Sequence[Searches | Stops | Corrections]) -> str:
-    """How many only one of the runs came to."""
+    """The number of findings of one run alone."""
     counts = sum(each.b is None for each in found), sum(each.a is None for each in found)
     told = (f"; {count} in {letter} alone" for letter, count in zip(_BOTH, counts, strict=True) if count)
     return "".join(told)
@@ -115,7 +113,7 @@ def _alone(found: Sequence[Searches | Stops | Corrections]) -> str:
 
 
 def _took(found: Comparison) -> Iterator[str]:
-    """A row for each stage, and one for all: simulated seconds of both, and by how much B took longer."""
+    """A row for each stage, and one for all: simulated seconds of both, and how much longer B took."""
     wide = max(map(len, ("Seconds", *(stage.name for stage in found.stages))))
     yield f"{'Seconds':{wide}}{'A':>9}{'B':>9}{'B - A':>9}"
     for stage in found.stages:

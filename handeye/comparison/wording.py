@@ -1,16 +1,13 @@
-"""Words for what a comparison of two runs has found, in the units of the arm language."""
+"""Words for the findings of a comparison, in the units of the arm language."""
 
 from collections.abc import Mapping
 from typing import Final
 
 from handeye.comparison.comparison import Compared, Comparison
-from handeye.comparison.corrected import Correction
-from handeye.comparison.felt import Stop
-from handeye.comparison.first import First
-from handeye.comparison.otherwise import EVENT
+from handeye.comparison.findings import Correction, Search, Stop
+from handeye.comparison.first import EVENT, First
+from handeye.comparison.pairing import Place
 from handeye.comparison.parting import Turning
-from handeye.comparison.place import Place
-from handeye.comparison.searched import Search
 from handeye.core.plain_text import counted, one_line
 from handeye.core.units import DEGREE, UNITS
 from handeye.program.events import AnyEvent, StepStarted
@@ -39,17 +36,17 @@ _UNITS: Final[Mapping[GuardKind, str]] = {
 
 
 def same_words(found: Comparison) -> str:
-    """How exactly two runs did the same."""
+    """That two runs did the same, and how exactly."""
     return "both did the same." if found.thinned else "both did the same, to the last bit."
 
 
 def run_words(run: Compared) -> str:
-    """A run, and what it came to."""
+    """A run, and its outcome."""
     return f"{run.name}: {run.program}, {run.world}, {run.seconds:.1f} s: {_CAME_TO[run.came_to]}"
 
 
 def moment_words(first: First) -> str:
-    """The step in which something went otherwise, and the servo period."""
+    """The step of a difference, and the servo period."""
     period = "" if first.period is None else f", servo period {first.period}"
     return f"{place_words(first.place)}{period}"
 
@@ -83,7 +80,7 @@ def place_words(place: Place | None) -> str:
 
 
 def search_words(search: Search) -> str:
-    """How many places a search tried."""
+    """The number of places a search tried."""
     return counted(search.places, "place") + (", all of them" if search.exhausted else "")
 
 

@@ -12,10 +12,11 @@ from conftest import Command
 from recordings import EVENTS, Recording, record
 from report_pages import changed, recorded
 from told_runs import saved, told
+from toy_system import TOY
 
 from handeye.comparison.comparison import Comparison, comparison
 from handeye.comparison.conditions import Condition
-from handeye.comparison.corrected import corrections
+from handeye.comparison.findings import corrections
 from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.text import comparison_text
 from handeye.core.errors import InvalidInput
@@ -90,7 +91,9 @@ def test_what_is_no_run_is_refused_in_a_sentence(
 
 def test_a_run_of_another_system_is_refused(tmp_path: Path) -> None:
     run = recorded(tmp_path / "a.mcap")
-    other = replace(run, trace=replace(run.trace, head=msgspec.structs.replace(run.trace.head, system="toy")))
+    other = replace(
+        run, trace=replace(run.trace, head=msgspec.structs.replace(run.trace.head, system=TOY.name))
+    )
     with pytest.raises(InvalidInput, match=r"a\.mcap: the counter machine cannot compare two of its runs$"):
         comparison(run, other)
 

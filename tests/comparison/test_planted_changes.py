@@ -10,7 +10,7 @@ from compared_runs import SCRIPT, block_start, kept
 from handeye.cell.arm import JointSensors
 from handeye.comparison.comparison import Comparison, comparison
 from handeye.comparison.first import First
-from handeye.comparison.place import Place, place_of
+from handeye.comparison.pairing import Place, place_of
 from handeye.core.pose import Array
 from handeye.program.events import StepStarted
 from handeye.report.recorded import Recorded

@@ -3,11 +3,9 @@
 from short_runs import GRASP
 from told_runs import happens, saved, told
 
-from handeye.comparison.corrected import corrections
-from handeye.comparison.felt import stops
+from handeye.comparison.findings import corrections, searches, stops
 from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.parting import parting
-from handeye.comparison.searched import searches
 from handeye.program import events as happened
 from handeye.program.diagnosis.causes import PlacesTried
 from handeye.program.guards import GuardKind

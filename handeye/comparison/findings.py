@@ -1,0 +1,160 @@
+"""Steps of two runs side by side: corrections they made, ends of their guarded motions, their searches."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Literal
+
+import numpy as np
+from msgspec.structs import replace
+
+from handeye.comparison.pairing import CarriedOut, Place, Turn, TwoRuns, side_by_side
+from handeye.core.record import Record
+from handeye.program.diagnosis.causes import PlacesTried
+from handeye.program.events import AnyEvent, ErrorRaised, GuardTripped, PartSeen, Saved, SearchAdvanced
+from handeye.program.guards import GuardKind
+from handeye.trace.account import ASTRAY
+
+
+class Correction(Record, frozen=True, kw_only=True):
+    """A difference that was saved, or a part that was seen."""
+
+    place: Place
+    kind: Literal["saved", "seen"]
+    name: str
+    """Of the difference, or of the part."""
+    at: tuple[float, ...]
+    """x, y and z of a difference; x and y of a part, m."""
+    yaw: float | None = None
+    """Of a part, rad; None: a difference, or a general look."""
+
+
+class Corrections(Record, frozen=True, kw_only=True):
+    """The same correction in two runs; None: not made."""
+
+    a: Correction | None
+    b: Correction | None
+
+    @property
+    def apart(self) -> float | None:
+        """Distance between the two, m; None: there are not both."""
+        if self.a is None or self.b is None or len(self.a.at) != len(self.b.at):
+            return None
+        return float(np.linalg.norm(np.subtract(self.b.at, self.a.at)))
+
+    @property
+    def alike(self) -> bool:
+        """True if they are too close to mention, or only one was made."""
+        return self.apart is None or self.apart <= ASTRAY
+
+
+def corrections(runs: TwoRuns) -> tuple[Corrections, ...]:
+    """The corrections of two runs, in the order of the script."""
+    both = (_corrections(steps) for steps in runs.carried_out)
+    return tuple(Corrections(a=a, b=b) for a, b in side_by_side(*both))
+
+
+def _corrections(steps: Sequence[CarriedOut]) -> Mapping[Turn, Correction]:
+    return {each.turn: found for each in steps for found in _found(each)}
+
+
+def _found(each: CarriedOut) -> Iterator[Correction]:
+    for event in each.done.events:
+        if isinstance(event, Saved):
+            yield Correction(place=each.place, kind="saved", name=event.name, at=event.difference)
+        elif isinstance(event, PartSeen):
+            at = event.x, event.y
+            yield Correction(place=each.place, kind="seen", name=event.part, at=at, yaw=event.yaw)
+
+
+class Stop(Record, frozen=True, kw_only=True):
+    """The end of a guarded motion."""
+
+    place: Place
+    guard: GuardKind | None
+    """The guard that ended it; None: none did."""
+    value: float | None = None
+    """What the guard looked at then: N, N m, or finger switches as a mask."""
+
+
+class Stops(Record, frozen=True, kw_only=True):
+    """The same guarded motion in two runs; None: not reached."""
+
+    a: Stop | None
+    b: Stop | None
+
+    @property
+    def alike(self) -> bool:
+        """True if both ended by the same guard, or by none; or only one run reached it."""
+        return len({side.guard for side in (self.a, self.b) if side is not None}) == 1
+
+
+def stops(runs: TwoRuns) -> tuple[Stops, ...]:
+    """The guarded motions of two runs, in the order of the script."""
+    both = (_stops(steps) for steps in runs.carried_out)
+    return tuple(Stops(a=a, b=b) for a, b in side_by_side(*both))
+
+
+def _stops(steps: Sequence[CarriedOut]) -> Mapping[Turn, Stop]:
+    return {each.turn: _stop(each) for each in steps if each.step.operation.guards}
+
+
+def _stop(each: CarriedOut) -> Stop:
+    for event in each.done.events:
+        if isinstance(event, GuardTripped):
+            return Stop(place=each.place, guard=event.guard, value=event.value)
+    return Stop(place=each.place, guard=None)
+
+
+class Search(Record, frozen=True, kw_only=True):
+    """A search of a run."""
+
+    place: Place
+    """The step that set it up."""
+    places: int = 1
+    """How many it tried."""
+    last: tuple[float, float] = (0.0, 0.0)
+    """The last of them, x and y from the first, m."""
+    exhausted: bool = False
+    """It ran out of places."""
+
+
+class Searches(Record, frozen=True, kw_only=True):
+    """The same search in two runs; None: not reached."""
+
+    a: Search | None
+    b: Search | None
+
+    @property
+    def alike(self) -> bool:
+        """True if both tried the same number of places; or only one run reached it."""
+        sides = self.a, self.b
+        return len({(side.places, side.exhausted) for side in sides if side is not None}) == 1
+
+
+def searches(runs: TwoRuns) -> tuple[Searches, ...]:
+    """The searches of two runs, in the order of the script."""
+    both = (_searches(steps) for steps in runs.carried_out)
+    return tuple(Searches(a=a, b=b) for a, b in side_by_side(*both))
+
+
+def _searches(steps: Sequence[CarriedOut]) -> Mapping[Turn, Search]:
+    """The searches of a run, by the turns of the steps that set them up."""
+    found: dict[Turn, Search] = {}
+    turn: Turn | None = None
+    for each in steps:
+        if any(use.kind == "search" for use in each.step.operation.writes):
+            turn = each.turn
+            found[turn] = Search(place=each.place)
+        elif turn is not None:
+            for event in each.done.events:
+                found[turn] = _gone_on(found[turn], event)
+    return found
+
+
+def _gone_on(search: Search, event: AnyEvent) -> Search:
+    """The search after an event."""
+    match event:
+        case SearchAdvanced():
+            return replace(search, places=event.count + 1, last=event.offset)
+        case ErrorRaised(cause=PlacesTried()):
+            return replace(search, exhausted=True)
+    return search
