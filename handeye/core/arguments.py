@@ -14,9 +14,6 @@ def given_file(given: object, what: str) -> Path:
 
     Args:
         what: what can be given, as the beginning of a sentence.
-
-    Raises:
-        InvalidInput: it is no name of a file.
     """
     if not isinstance(given, (str, os.PathLike)):
         raise BadArgument(f"{what}, not {given!r}")
@@ -39,11 +36,7 @@ def _check_name(name: str) -> None:
 
 
 def given_names(given: object, what: str) -> tuple[str, ...]:
-    """Names that were given one after the other; a single one may stand by itself.
-
-    Raises:
-        InvalidInput: something among them is none.
-    """
+    """Names that were given one after the other; a single one may stand by itself."""
     names = (given,) if isinstance(given, str) or not isinstance(given, Iterable) else tuple(given)
     for name in names:
         if not isinstance(name, str):
@@ -52,11 +45,7 @@ def given_names(given: object, what: str) -> tuple[str, ...]:
 
 
 def given_count(given: object, what: str) -> int:
-    """A whole number from 1 up.
-
-    Raises:
-        InvalidInput: it is none.
-    """
+    """A whole number from 1 up."""
     count = whole(given)
     if count is None or count < 1:
         raise BadArgument(f"{what} are a whole number from 1 up, not {given!r}")
@@ -64,11 +53,7 @@ def given_count(given: object, what: str) -> int:
 
 
 def given_place(given: object) -> str:
-    """A place in a program, as text; a line may be given as a number.
-
-    Raises:
-        InvalidInput: it is neither.
-    """
+    """A place in a program, as text; a line may be given as a number."""
     if isinstance(given, bool) or not isinstance(given, (str, int)):
         raise BadArgument(f"a place is a text or the number of a line, not {given!r}")
     return str(given)

@@ -17,7 +17,7 @@ from typing import Final
 
 from handeye.core.errors import HandeyeError, InvalidInput
 from handeye.systems.trig.language.command_table import COMMANDS, TrigCommand
-from handeye.systems.trig.language.desk import Button, Desk, Jog, Withdrawn
+from handeye.systems.trig.language.desk import Button, Cancelled, Desk, Jog
 from handeye.systems.trig.language.full_display import full_display
 from handeye.systems.trig.language.given import Kind
 from handeye.systems.trig.language.hearing import hear
@@ -74,7 +74,7 @@ class Somebody(Desk):
 
     def answer(self, question: str) -> str:
         if self.chance.random() < 0.05:
-            raise Withdrawn
+            raise Cancelled
         if self.chance.random() < 0.1:
             return self.chance.choice(NOISE)
         if "Threshold" in question:
@@ -90,7 +90,7 @@ class Somebody(Desk):
         if draw < 0.53:
             return "kill"
         if draw < 0.55:
-            raise Withdrawn
+            raise Cancelled
         return Jog(
             self.chance.randrange(3), self.chance.choice((-0.04, -0.01, 0.01, 0.02, 0.9)), by=draw < 0.9
         )

@@ -6,7 +6,7 @@ from trig_sessions import BUCKET, PALLETISE, Typist, typed
 from handeye.core.errors import InvalidInput
 from handeye.systems.trig.language.hearing import hear
 from handeye.systems.trig.language.no_arm import NoArm
-from handeye.systems.trig.language.running import Interpreter, Ran
+from handeye.systems.trig.language.running import Interpreter, RunResult
 from handeye.systems.trig.language.session import Session
 
 SEVENTH = 100
@@ -69,7 +69,7 @@ def test_a_run_that_is_halted_after_any_number_of_steps_can_be_taken_back() -> N
     for steps in range(1, 228, 6):
         session.program.put_cursor(session.program.first)
         assert session.runner.forward(steps).steps == steps
-        assert session.runner.back(1000) == Ran(steps=steps, end="beginning")
+        assert session.runner.back(1000) == RunResult(steps=steps, end="beginning")
         assert arm.held is None
         assert _rounded(arm) == [(b.name, round(b.x, 9), round(b.y, 9), round(b.z, 9)) for b in before]
         assert {node.count for node in session.program.graph.nodes.values()} == {0}
@@ -153,11 +153,11 @@ def test_a_relative_move_that_is_halted_on_its_way_ends_where_it_would_have() ->
     strikes = iter([False, False, False, False, True])
     runner = session.runner
     runner.halted = lambda: next(strikes, False)
-    assert runner.run() == Ran(steps=2, end="halted")
+    assert runner.run() == RunResult(steps=2, end="halted")
     assert (arm.here().measures()[0], session.program.active.name) == (60, "A")
     assert runner.forward(1000).end == "none"
     assert arm.here().measures()[0] == 200
-    assert runner.back(1000) == Ran(steps=10, end="beginning")
+    assert runner.back(1000) == RunResult(steps=10, end="beginning")
     assert arm.here().measures()[0] == 0
 
 

@@ -9,7 +9,7 @@ from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.core.errors import InvalidInput
 from handeye.systems.trig.language.command_table import COMMANDS
-from handeye.systems.trig.language.desk import Button, Desk, Withdrawn, buttons
+from handeye.systems.trig.language.desk import Button, Cancelled, Desk, buttons
 from handeye.systems.trig.language.full_display import full_display
 from handeye.systems.trig.language.hearing import hear, stripped
 from handeye.systems.trig.language.partial_display import partial_display
@@ -41,9 +41,9 @@ class LineDesk(Desk):
         try:
             line = self.line(question)
         except KeyboardInterrupt:
-            raise Withdrawn from None
+            raise Cancelled from None
         if not line:
-            raise Withdrawn
+            raise Cancelled
         return line
 
     def press(self) -> Button:

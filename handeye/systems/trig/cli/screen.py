@@ -19,7 +19,7 @@ from handeye.core.errors import InvalidInput
 from handeye.core.plain_text import folded
 from handeye.systems.trig.cli.keys import STEPS, bindings
 from handeye.systems.trig.cli.windows import Picture, application, pictured
-from handeye.systems.trig.language.desk import Button, Desk, Jog, Withdrawn
+from handeye.systems.trig.language.desk import Button, Cancelled, Desk, Jog
 from handeye.systems.trig.language.hearing import hear
 from handeye.systems.trig.language.place import SIZES
 from handeye.systems.trig.language.session import Session
@@ -75,14 +75,14 @@ class Screen(Desk):
     def answer(self, question: str) -> str:
         line = self._line(question)
         if not line:
-            raise Withdrawn
+            raise Cancelled
         return line
 
     def press(self) -> Button:
         self._wait("box")
         button = self._buttons.get()
         if button is None:
-            raise Withdrawn
+            raise Cancelled
         return button
 
     def tell(self, sentence: str) -> None:

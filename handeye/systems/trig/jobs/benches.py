@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from handeye.ports.axes import Axes
     from handeye.systems.trig.language.axes_arm import AxesArm
     from handeye.systems.trig.language.session import Session
-    from handeye.systems.trig.language.teachable import Halted, Teachable
+    from handeye.systems.trig.language.teachable import Halted, TrigArm
     from handeye.tasks.interface import AnyTask
 
 ArmName = Literal["none", "purbrick"]
@@ -40,7 +40,7 @@ class SeenTable(Tabletop):
         """
 
 
-def open_bench(name: Literal["purbrick"]) -> "tuple[Teachable, SeenTable]":
+def open_bench(name: Literal["purbrick"]) -> "tuple[TrigArm, SeenTable]":
     """An arm for TRIG that is switched on, and what lies before it, in the world without errors."""
     from handeye.systems.trig.jobs.bench import purbrick  # with its physics: only where it is asked for
 

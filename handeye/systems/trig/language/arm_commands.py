@@ -1,25 +1,25 @@
-"""Commands that drive the arm, and add nothing to the program."""
+"""Commands that drive the arm without adding to the program."""
 
 from handeye.core.units import OUNCE_FORCE
-from handeye.systems.trig.language.given import Given
+from handeye.systems.trig.language.given import Arguments
 from handeye.systems.trig.language.node import Node
 from handeye.systems.trig.language.place import told_place
 from handeye.systems.trig.language.session import Session
 
 
-def free(session: Session, given: Given) -> None:
-    """FREE: the teach box has the arm until its save button is pressed."""
+def free(session: Session, given: Arguments) -> None:
+    """FREE: move the arm with the teach box until its save button is pressed."""
     session.taught()
 
 
-def go(session: Session, given: Given) -> None:
+def go(session: Session, given: Arguments) -> None:
     """GOPOS: go to a position."""
     if not session.arm.go(session.runner.goal(_move(session, given)), session.desk.halted):
         session.desk.tell(f"stopped at {told_place(session.arm.here())}")
 
 
-def feel(session: Session, given: Given) -> None:
-    """GOGPOS: go to a position until a force stops the arm, and tell how it ended."""
+def feel(session: Session, given: Arguments) -> None:
+    """GOGPOS: go to a position until a force stops the arm, and report the end."""
     goal = session.runner.goal(_move(session, given))
     threshold, vector = session.threshold(), session.vector()
     arrival = session.arm.feel(goal, vector, threshold, session.desk.halted)
@@ -33,18 +33,18 @@ def feel(session: Session, given: Given) -> None:
     )
 
 
-def close(session: Session, given: Given) -> None:
+def close(session: Session, given: Arguments) -> None:
     """GOGRASP: close the hand."""
     session.arm.hand(True)
 
 
-def open(session: Session, given: Given) -> None:
+def open(session: Session, given: Arguments) -> None:
     """GOUNGRASP: open the hand."""
     session.arm.hand(False)
 
 
-def _move(session: Session, given: Given) -> Node:
-    """A move that is no step."""
+def _move(session: Session, given: Arguments) -> Node:
+    """A move outside the program."""
     session.position(given.position, negate=given.negate)
     node = session.program.graph.new("normal")
     node.position, node.negate = given.position, given.negate

@@ -1,4 +1,4 @@
-"""An arm for TRIG whose axes go where they are told: moves as set-points, and guarded ones that feel with a finger."""
+"""A TRIG arm with set-point axes: moves as set-points, guarded ones with the force-sensing finger."""
 
 from collections.abc import Iterable
 from typing import Final, Literal
@@ -13,32 +13,31 @@ from handeye.ports.axes import Axes
 from handeye.ports.clock import Clock
 from handeye.systems.trig.language.obstacles import LeftBehind, Obstacle, Resisted, Unsupported
 from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.language.teachable import Arrival, Halted, Teachable
+from handeye.systems.trig.language.teachable import Arrival, Halted, TrigArm
 
 APPROACH: Final = 5e-3
-"""m from above, straight down, to where what the hand holds is set down: a slanted way would push over a stack."""
+"""m of vertical approach when setting down: a slanted path would push over a stack."""
 DEEPER: Final = 2e-3
-"""m below that place within which there must be something to set it down on. Places are taught to .3 mm, so that what
-was put down may have dropped by two or three of these, and is grasped again so much higher."""
+"""m below that place within which there must be support. Places are taught to .3 mm, so an object may have dropped by
+two or three of these, and be grasped that much higher.
+"""
 AGAIN: Final = 1.5
-"""Times the force that a move met: so much may be met where it is undone, as on the way back of the pump. A hand that
-presses what it holds onto something feels that force vanish as it rises."""
-_TARE: Final = 10
-"""Readings of the force that are averaged before a guarded move."""
+"""Allowed force over what a move met, when it is reversed, as for the pump: a hand that presses an object onto
+something feels that force vanish as it rises.
+"""
+_TARE: Final = 10  # readings averaged before a guarded move
 
 
 class ArmMemory(Record, frozen=True, kw_only=True):
-    """What such an arm remembers between two steps of a program."""
+    """The arm's memory between two steps: commanded place, commanded opening (m), and whether the hand is closed."""
 
     told: Place
-    """Where its axes were told to be."""
     opening: float
-    """What its hand was told, m."""
     closed: bool
 
 
-class AxesArm(Teachable):
-    """Six axes, X, Y, Z, roll, pitch and yaw, and behind them a hand, at the port of an axes machine."""
+class AxesArm(TrigArm):
+    """Six axes, X, Y, Z, roll, pitch and yaw, and a hand, on an axes port."""
 
     def __init__(self, axes: Axes, clock: Clock, limits: HandlingLimits) -> None:
         self._axes, self._clock, self._limits = axes, clock, limits
@@ -57,11 +56,11 @@ class AxesArm(Teachable):
 
     @property
     def memory(self) -> ArmMemory:
-        """What it remembers."""
+        """The arm's memory."""
         return ArmMemory(told=self.here(), opening=self._opening, closed=self._closed)
 
     def remember(self, memory: ArmMemory) -> None:
-        """Go on with what was remembered once."""
+        """Restore memory."""
         self._goal, self._opening, self._closed = np.array(memory.told), memory.opening, memory.closed
 
     @property
@@ -148,12 +147,12 @@ class AxesArm(Teachable):
         self._wait(self._limits.grasping)
 
     def _obstacle(self, tare: Array, speed: Array, limit: float) -> Obstacle | None:
-        """What stops the arm, which then stands still: a force on the finger, or an axis that is left behind.
+        """The obstacle that stops the arm: a force on the finger, or an axis left behind.
 
         Args:
-            tare: the force that was felt before, N.
-            speed: that the axes were told last, shape (n,).
-            limit: of that force, N.
+            tare: force felt before, N.
+            speed: last commanded axis speeds, shape (n,).
+            limit: allowed force, N.
         """
         found = self._resistance(tare, limit) or self._left_behind(speed)
         if found is not None:
@@ -161,12 +160,12 @@ class AxesArm(Teachable):
         return found
 
     def _stand(self) -> None:
-        """Stand still where the axes are by now, and not where they were told to be."""
+        """Stop at the sensed position instead of the commanded one."""
         self._goal = self._where()
         self._wait(self._limits.settling)
 
     def _where(self) -> Array:
-        """Where the axes are, within their travel: at its ends, potentiometers may tell a little more."""
+        """Sensed axis positions clipped to their travel, which potentiometers may exceed a little."""
         lower, upper = np.transpose(self.travel)
         return np.clip(self._axes.read().q[:-1], lower, upper)
 
@@ -191,7 +190,7 @@ class AxesArm(Teachable):
         return True
 
     def _notice(self, before: Array) -> None:
-        """Notice the force on the finger, against what it was before."""
+        """Update the greatest force on the finger, less its value before."""
         self._met_force = max(self._met_force, float(np.linalg.norm(self._force() - before)))
 
     def _put(self, q: Array) -> None:
@@ -204,15 +203,15 @@ class AxesArm(Teachable):
             self._put(self._goal)
 
     def _force(self) -> Array:
-        """The force on the finger, N, along its own axes, which are those of the arm while the hand is level.
+        """Force on the finger, N, along its own axes, which are the arm's while the hand is level.
 
-        Its gauges tell the force that the finger exerts.
+        Its gauges measure the force that the finger exerts.
         """
         channels = self._axes.read().channels
         return -np.array([channels[f"force_{axis}"] for axis in "xyz"])
 
     def _tared(self) -> Array:
-        """The force that is felt while nothing is touched."""
+        """Mean force without contact."""
         readings = []
         for _ in range(_TARE):
             self._put(self._goal)

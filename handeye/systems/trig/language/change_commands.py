@@ -1,14 +1,14 @@
-"""Commands that change steps, or delete them."""
+"""Commands that change or delete steps."""
 
 from handeye.core.errors import BadArgument, Refused
 from handeye.systems.trig.language.deletion import delete_below, delete_step, prune
-from handeye.systems.trig.language.given import Given, read_branch
+from handeye.systems.trig.language.given import Arguments, read_branch
 from handeye.systems.trig.language.node import NONE, TOP, Node
 from handeye.systems.trig.language.program import TrigProgram
 from handeye.systems.trig.language.session import Session
 
 
-def rename(session: Session, given: Given) -> None:
+def rename(session: Session, given: Arguments) -> None:
     """CN: give the active step a name."""
     node, name = active_step(session), given.step or ""
     if node.type == "loop":
@@ -22,8 +22,8 @@ def rename(session: Session, given: Given) -> None:
     session.program.changed = True
 
 
-def change_position(session: Session, given: Given) -> None:
-    """CP: let the active step go to another position."""
+def change_position(session: Session, given: Arguments) -> None:
+    """CP: give the active step another position."""
     node = active_step(session)
     position = session.position(given.position)
     if node.position is None:
@@ -34,20 +34,20 @@ def change_position(session: Session, given: Given) -> None:
     session.program.changed = True
 
 
-def change_threshold(session: Session, given: Given) -> None:
+def change_threshold(session: Session, given: Arguments) -> None:
     """CT: change the threshold of the active step."""
     _guarded(session, "threshold").threshold = given.threshold
     session.program.changed = True
 
 
-def change_vector(session: Session, given: Given) -> None:
+def change_vector(session: Session, given: Arguments) -> None:
     """CV: change the force vector of the active step."""
     _guarded(session, "force vector").vector = given.vector
     session.program.changed = True
 
 
-def delete(session: Session, given: Given) -> None:
-    """D: delete one step; of a guarded one, n or g is the branch that stays."""
+def delete(session: Session, given: Arguments) -> None:
+    """D: delete one step; of a guarded one, keep branch n or g."""
     program, node = session.program, _named_or_active(session, given)
     keep = _kept_branch(session, given, node)
     above = program.above(node.id)
@@ -55,16 +55,16 @@ def delete(session: Session, given: Given) -> None:
     _after(program, above)
 
 
-def delete_all(session: Session, given: Given) -> None:
-    """DA: delete a step and all that can only be reached through it."""
+def delete_all(session: Session, given: Arguments) -> None:
+    """DA: delete a step and everything reachable only through it."""
     program, node = session.program, _named_or_active(session, given)
     above = program.above(node.id)
     delete_below(program.graph, node.id)
     _after(program, above)
 
 
-def unlink(session: Session, given: Given) -> None:
-    """DLINK: the active step leads no longer to a step that others lead to as well."""
+def unlink(session: Session, given: Arguments) -> None:
+    """DLINK: remove the edge from the active step to a step that others lead to as well."""
     program, target = session.program, session.step(given.step or "")
     node, graph = active_step(session), program.graph
     entry = graph.entry(target.id)
@@ -86,28 +86,20 @@ def unlink(session: Session, given: Given) -> None:
     program.edited(above)
 
 
-def flush(session: Session, given: Given) -> None:
+def flush(session: Session, given: Arguments) -> None:
     """FLUSH: erase the program."""
     ask_if_unsaved(session, "Erase it")
     session.program, session.origin, session.file = TrigProgram(), None, None
 
 
 def ask_if_unsaved(session: Session, deed: str) -> None:
-    """Go on if nothing would be lost, or somebody does not mind.
-
-    Raises:
-        Withdrawn: somebody does.
-    """
+    """Return if nothing would be lost, or the user agrees; else raise Cancelled."""
     if session.program.changed:
         session.confirmed(f"The program has not been written to a file. {deed}? ")
 
 
 def active_step(session: Session) -> Node:
-    """The active step.
-
-    Raises:
-        InvalidInput: there is none.
-    """
+    """The active step."""
     if session.program.cursor == TOP:
         empty = session.program.first == NONE
         raise Refused(
@@ -125,15 +117,15 @@ def _guarded(session: Session, what: str) -> Node:
     return node
 
 
-def _named_or_active(session: Session, given: Given) -> Node:
+def _named_or_active(session: Session, given: Arguments) -> Node:
     node = active_step(session) if given.step is None else session.step(given.step)
     if node.id == TOP:
         raise Refused("the top cannot be deleted; FLUSH erases the program")
     return node
 
 
-def _kept_branch(session: Session, given: Given, node: Node) -> int:
-    """The branch of a step that stays when it is deleted."""
+def _kept_branch(session: Session, given: Arguments, node: Node) -> int:
+    """The branch of a step to keep when it is deleted."""
     if node.type != "guarded" or given.branch is not None:
         return session.branch(given.branch, node)
     kept = [branch for branch, son in enumerate(node.sons) if son != NONE]
@@ -143,7 +135,7 @@ def _kept_branch(session: Session, given: Given, node: Node) -> int:
 
 
 def _reached_otherwise(program: TrigProgram, node: Node, branch: int, entry: int) -> bool:
-    """Whether a node is still reached from the top without one edge."""
+    """True if a node can be reached from the top without one edge."""
     node.sons[branch] = NONE
     reached = entry in program.graph.distances(TOP)
     node.sons[branch] = entry
@@ -151,6 +143,6 @@ def _reached_otherwise(program: TrigProgram, node: Node, branch: int, entry: int
 
 
 def _after(program: TrigProgram, above: int) -> None:
-    """Put the cursor above what has been deleted."""
+    """Move the cursor above what was deleted."""
     program.put_cursor(above if above in program.graph else TOP)
     program.taken, program.changed = None, True

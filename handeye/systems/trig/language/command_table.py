@@ -1,4 +1,4 @@
-"""The commands of TRIG, one row each: what they take, and what they do."""
+"""The commands of TRIG: arguments, action and help."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,25 +12,24 @@ from handeye.systems.trig.language import (
     position_commands,
     step_commands,
 )
-from handeye.systems.trig.language.given import Given, Kind
+from handeye.systems.trig.language.given import Arguments, Kind
 from handeye.systems.trig.language.session import Session
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrigCommand:
-    """A command, as help has it and as it is carried out."""
+    """A command with its help; `needs` is the number of required arguments."""
 
     usage: str
     takes: tuple[Kind, ...] = ()
     needs: int = 0
-    """So many of its arguments must be given."""
-    act: Callable[[Session, Given], None]
+    act: Callable[[Session, Arguments], None]
     help: str
     group: str
 
     @property
     def word(self) -> str:
-        """What is typed."""
+        """Its word."""
         return self.usage.partition(" ")[0]
 
 
@@ -164,8 +163,7 @@ TABLE: Final = (
     ),
     TrigCommand(usage="Q", group=RUNS, act=file_commands.leave, help="leave, and write nothing"),
 )  # fmt: skip
-"""The 37 of the paper's appendix."""
+"""The 37 commands of the paper's appendix."""
 COMMANDS: Final = {command.word: command for command in TABLE}
-"""By their words."""
 SYNONYMS: Final = {"LINK": "L"}
-"""What the paper's text calls a command of its appendix."""
+"""The paper's text uses this name for a command of its appendix."""

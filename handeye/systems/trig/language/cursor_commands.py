@@ -1,19 +1,18 @@
-"""Commands that move the cursor, and commands that run the program."""
+"""Commands that move the cursor, and that run the program."""
 
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.plain_text import counted
-from handeye.systems.trig.language.given import Given
+from handeye.systems.trig.language.given import Arguments
 from handeye.systems.trig.language.node import NONE, TOP
 from handeye.systems.trig.language.obstacles import told_obstacle
-from handeye.systems.trig.language.running import Ran
+from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.language.session import Session
 
-_FARTHEST = 100_000
-"""Steps that the cursor is moved by at most."""
+_MAX_DISTANCE = 100_000  # steps of the cursor
 
 
-def next_step(session: Session, given: Given) -> None:
-    """N: go down so many steps; loops are passed by."""
+def next_step(session: Session, given: Arguments) -> None:
+    """N: go down a number of steps, past loops."""
     program = session.program
     for _ in range(_distance(given)):
         branch = session.branch(None)
@@ -25,7 +24,7 @@ def next_step(session: Session, given: Given) -> None:
 
 
 def _come_down(session: Session, son: int, branch: int) -> None:
-    """Move the cursor along an edge, which makes every father on it the most recent one."""
+    """Move the cursor along an edge, making every father on it the most recent one."""
     graph, father = session.program.graph, session.program.cursor
     node = graph[father].sons[branch]
     while True:
@@ -36,8 +35,8 @@ def _come_down(session: Session, son: int, branch: int) -> None:
     session.program.put_cursor(son)
 
 
-def previous_step(session: Session, given: Given) -> None:
-    """P: go up so many steps, by the fathers that were active last."""
+def previous_step(session: Session, given: Arguments) -> None:
+    """P: go up a number of steps, by the most recent fathers."""
     program = session.program
     for _ in range(_distance(given)):
         above = program.above(program.cursor)
@@ -47,13 +46,13 @@ def previous_step(session: Session, given: Given) -> None:
         program.put_cursor(above)
 
 
-def goto(session: Session, given: Given) -> None:
+def goto(session: Session, given: Arguments) -> None:
     """GOTO: make a named step the active one."""
     session.program.put_cursor(session.step(given.step or "").id)
 
 
-def run(session: Session, given: Given) -> None:
-    """RUN: the whole program, or so many steps, or so many backwards."""
+def run(session: Session, given: Arguments) -> None:
+    """RUN: the whole program, or a number of steps, forwards or backwards."""
     if given.count == 0:
         raise BadArgument(
             "RUN 0 would do nothing; RUN 1 executes the active step, RUN -1 undoes the last one"
@@ -67,8 +66,8 @@ def run(session: Session, given: Given) -> None:
     session.desk.tell(told_run(ran))
 
 
-def told_run(ran: Ran, *, back: bool = False) -> str:
-    """How a run has ended, in words."""
+def told_run(ran: RunResult, *, back: bool = False) -> str:
+    """The end of a run in words."""
     steps = f"{counted(ran.steps, 'step')} {'undone' if back else 'done'}"
     if ran.obstacle is not None:
         return f"{steps}; the arm has stopped at the step before that: {told_obstacle(ran.obstacle)}"
@@ -84,8 +83,8 @@ def told_run(ran: Ran, *, back: bool = False) -> str:
     }[ran.end]
 
 
-def _distance(given: Given) -> int:
+def _distance(given: Arguments) -> int:
     count = 1 if given.count is None else given.count
-    if not 0 < count <= _FARTHEST:
-        raise BadArgument(f"N and P go 1 to {_FARTHEST} steps; N goes down, P goes up")
+    if not 0 < count <= _MAX_DISTANCE:
+        raise BadArgument(f"N and P go 1 to {_MAX_DISTANCE} steps; N goes down, P goes up")
     return count

@@ -1,17 +1,17 @@
-"""Deletion: what goes with a step, and how what stays hangs together."""
+"""Deletion of steps, and repair of what remains."""
 
 from handeye.systems.trig.language.graph import Graph
 from handeye.systems.trig.language.node import NONE, NORMAL, TOP, Node
 
 
 def delete_step(graph: Graph, id: int, keep: int = NORMAL) -> None:
-    """Delete one step; each father adopts the son that is kept. What hangs on its other branch goes with it."""
+    """Delete one step: fathers adopt the son on branch `keep`; what hangs on the other branch goes too."""
     _take_out(graph, id, keep)
     prune(graph)
 
 
 def delete_below(graph: Graph, id: int) -> None:
-    """Delete a step, and every node that can only be reached through it."""
+    """Delete a step, and every node reachable only through it."""
     for father, branch in graph.edges_into(id):
         graph.attach(father, branch, NONE)
     graph.drop(id)
@@ -19,8 +19,7 @@ def delete_below(graph: Graph, id: int) -> None:
 
 
 def prune(graph: Graph) -> None:
-    """Drop what cannot be reached from the top, and loops that have been cut from their bloops; then make the
-    tree whole again."""
+    """Drop unreachable nodes and loops cut from their bloops, then restore the tree."""
     while True:
         _drop_unreached(graph)
         broken = next((node for node in graph.nodes.values() if _is_cut(graph, node)), None)
@@ -47,7 +46,7 @@ def _drop_unreached(graph: Graph) -> None:
 
 
 def _is_cut(graph: Graph, node: Node) -> bool:
-    """Whether a loop or bloop has lost its partner, or no way leads from the bloop to the loop."""
+    """True if a loop or bloop has lost its partner, or no path leads from the bloop to the loop."""
     if node.type not in ("loop", "bloop"):
         return False
     if node.partner not in graph:
@@ -56,7 +55,7 @@ def _is_cut(graph: Graph, node: Node) -> bool:
 
 
 def _mend_tree(graph: Graph) -> None:
-    """Give every node exactly one edge that is no link: its old one where that still hangs on the top."""
+    """Give every node exactly one edge that is no link: its old one where that is still connected to the top."""
     placed = {TOP}
     _follow(graph, TOP, placed)
     while len(placed) < len(graph.nodes):
@@ -73,7 +72,7 @@ def _mend_tree(graph: Graph) -> None:
 
 
 def _follow(graph: Graph, start: int, placed: set[int]) -> None:
-    """Place what hangs below a node by edges of its own; an edge to what is placed already becomes a link."""
+    """Place nodes below a node along own edges; an edge to a placed node becomes a link."""
     waiting = [start]
     while waiting:
         node = graph[waiting.pop()]

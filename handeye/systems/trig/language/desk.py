@@ -1,4 +1,4 @@
-"""Desk: where somebody sits who teaches, with a keyboard, a screen, and the teach box of the arm."""
+"""The teacher's desk: keyboard, screen, and the arm's teach box."""
 
 import re
 from abc import ABC, abstractmethod
@@ -15,13 +15,13 @@ Read = TypeVar("Read")
 _NUMBER: Final = re.compile(r"[+-]?(\d{1,9}\.?\d{0,9}|\.\d{1,9})", re.ASCII)
 
 
-class Withdrawn(Exception):
-    """Nobody answers: the question has been waved away."""
+class Cancelled(Exception):
+    """The question was cancelled."""
 
 
 @dataclass(frozen=True, slots=True)
 class Jog:
-    """The buttons of one axis: it moves by an amount, or to a value, m or rad."""
+    """A jog of one axis by an amount, or to a value, m or rad."""
 
     axis: int
     amount: float
@@ -30,49 +30,36 @@ class Jog:
 
 Button = Jog | Literal["record", "kill"]
 ENDS: Final[dict[str, Button]] = {"RECORD": "record", "SAVE": "record", "KILL": "kill"}
-"""Buttons that end what is done with the teach box, by their words."""
 
 
 class Desk(ABC):
-    """What a session asks of the person, and tells."""
+    """The session's interface to the user."""
 
     @abstractmethod
     def answer(self, question: str) -> str:
-        """An answer, as typed.
-
-        Raises:
-            Withdrawn: there is none.
-        """
+        """The answer to a question, as typed."""
 
     @abstractmethod
     def press(self) -> Button:
-        """The next thing that is done with the teach box.
-
-        Raises:
-            Withdrawn: nothing more is done with it.
-        """
+        """The next action on the teach box."""
 
     @abstractmethod
     def tell(self, sentence: str) -> None:
-        """Tell what has happened."""
+        """Report a sentence."""
 
     @abstractmethod
     def wrong(self, error: InvalidInput) -> None:
-        """Tell that an answer, or a button, was of no use, before the next is waited for; or raise it."""
+        """Report an unusable answer or button before the next is awaited; or raise it."""
 
     def halted(self) -> bool:
-        """True if somebody has struck a key since it was asked last."""
+        """True if a key was struck since the last call."""
         return False
 
     def refresh(self) -> None:  # noqa: B027 - a desk without a screen has nothing to do
-        """The program, its cursor or the arm has changed."""
+        """Redraw after a change of program, cursor or arm."""
 
     def ask(self, question: str, read: Callable[[str], Read]) -> Read:
-        """An answer that can be used.
-
-        Raises:
-            Withdrawn: there is none.
-        """
+        """Ask until an answer can be read."""
         while True:
             try:
                 return read(self.answer(question))
@@ -81,22 +68,14 @@ class Desk(ABC):
 
 
 def number(word: str) -> float:
-    """A number as typed.
-
-    Raises:
-        InvalidInput: it is none.
-    """
+    """A number as typed; raises BadArgument."""
     if not _NUMBER.fullmatch(word):
         raise BadArgument(f"{quoted(word)} is not a number")
     return float(word)
 
 
 def yes(word: str) -> bool:
-    """Yes or no, as typed.
-
-    Raises:
-        InvalidInput: it is neither.
-    """
+    """Yes or no, as typed; raises BadArgument."""
     answer = word.strip().rstrip(".!").casefold()
     if answer not in ("y", "yes", "n", "no"):
         raise BadArgument(f"{quoted(word.strip())} is no answer; type Yes or No")
@@ -104,11 +83,7 @@ def yes(word: str) -> bool:
 
 
 def buttons(line: str) -> list[Button]:
-    """What is done with the teach box, as scripts have it: `X -30 Z BY 12 RECORD`, in mm and deg.
-
-    Raises:
-        InvalidInput: it is something else.
-    """
+    """Teach box actions as scripts have them: `X -30 Z BY 12 RECORD`, in mm and deg."""
     found: list[Button] = []
     words = deque(line.upper().split())
     while words:
@@ -125,7 +100,7 @@ def buttons(line: str) -> list[Button]:
 
 
 def _jog(word: str, words: deque[str]) -> Jog:
-    """How one axis moves."""
+    """The jog of one axis."""
     if word not in AXES:
         raise BadArgument(
             f"{quoted(word)} is nothing on the teach box; write `X -30`, `Z BY 12`, `RECORD` or `KILL`"

@@ -1,6 +1,6 @@
-"""Full display: the whole program in miniature, a character a step, with the active one in brackets.
+"""Full display: the whole program in miniature, a character a step, the active one in brackets.
 
-It is drawn from left to right, for a screen is wider than high: the normal son stands to the right of a step, the
+It is drawn from left to right, as a screen is wider than high: the normal son stands to the right of a step, the
 guarded one begins below.
 """
 
@@ -15,16 +15,14 @@ from handeye.systems.trig.language.symbols import UNICODE, Symbols
 SIGNS: Final[dict[NodeType, str]] = {
     "top": "*", "normal": "o", "guarded": "<", "grasp": "c", "ungrasp": "u", "savpos": "=", "loop": "@"
 }  # fmt: skip
-"""What a step is, in a character."""
 LINK: Final = "^"
 _STYLES: Final[dict[str, Style]] = {"c": "hand", "u": "hand", "<": "guarded", "@": "loop", LINK: "link"}
 
-_Grid = dict[tuple[int, int], tuple[Style, str]]
-"""Characters by row and column."""
+_Grid = dict[tuple[int, int], tuple[Style, str]]  # by row and column
 
 
 def full_display(program: TrigProgram, width: int, height: int, symbols: Symbols = UNICODE) -> list[Line]:
-    """Draw the whole program, or as much of it around the active step as there is room for."""
+    """Draw the program, or as much of it around the active step as fits."""
     if program.first == NONE:
         return [[("active", "[ ]")]]
     drawn = layout(program.graph, top=program.cursor == TOP)
@@ -65,7 +63,7 @@ def _put_brackets(grid: _Grid, row: int, column: int) -> None:
 
 
 def _line(grid: _Grid, row: int, left: int, width: int, symbols: Symbols) -> Line:
-    """One line of the picture, with a sign where it goes on beyond its ends."""
+    """One line of the picture, with a sign where it continues beyond its ends."""
     last = max((x for y, x in grid if y == row), default=-2)
     line = [grid.get((row, x), ("", " ")) for x in range(left, min(last, left + width - 1) + 1)]
     if line and left > -1 and any((row, x) in grid for x in range(left)):

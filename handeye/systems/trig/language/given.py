@@ -1,4 +1,4 @@
-"""Given: what stands behind the word of a command, read by what the command takes."""
+"""Arguments of a command, read by their kinds."""
 
 import re
 from dataclasses import dataclass
@@ -14,39 +14,33 @@ from handeye.systems.trig.language.position import name_of
 
 Kind = Literal["position", "signed", "step", "branch", "count", "threshold", "vector", "file"]
 BRANCHES: Final = {"N": NORMAL, "NORMAL": NORMAL, "G": GUARDED, "GUARDED": GUARDED}
-MOST: Final = 999_999_999
-"""Steps of a run, rounds of a loop."""
+MAX_COUNT: Final = 999_999_999  # steps of a run, rounds of a loop
 _VECTOR: Final = re.compile(r"\(\s*(\S+)[\s,]+(\S+)[\s,]+(\S+?)\s*\)")
 
 
 @dataclass(slots=True, kw_only=True)
-class Given:
-    """The arguments of a command; None: it was not given."""
+class Arguments:
+    """The arguments of a command; None if omitted. `negate`: the position has a minus; `threshold` in N."""
 
     position: str | None = None
     negate: bool = False
-    """The position has a minus before it."""
     step: str | None = None
     branch: int | None = None
     count: int | None = None
     threshold: float | None = None
-    """N"""
     vector: Vector3 | None = None
     file: str | None = None
 
 
-def read_given(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Given:
-    """Read what stands behind a command.
+def read_given(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Arguments:
+    """Read the arguments of a command; raises BadArgument.
 
     Args:
         usage: the command and its arguments, for messages.
-        takes: its arguments in order.
-        needs: so many of them it cannot do without.
-
-    Raises:
-        InvalidInput: something is missing, too much, or not what it should be.
+        takes: kinds of its arguments in order.
+        needs: number of required ones.
     """
-    given = Given()
+    given = Arguments()
     words = [rest] if takes and takes[0] in ("file", "vector") and rest else rest.split()
     if len(words) < needs:
         raise BadArgument(f"`{usage}` needs {_NOUNS[takes[len(words)]]}")
@@ -58,11 +52,7 @@ def read_given(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Gi
 
 
 def read_branch(word: str) -> int:
-    """A branch of a guarded step, as typed.
-
-    Raises:
-        InvalidInput: it is none.
-    """
+    """A branch of a guarded step, as typed."""
     branch = BRANCHES.get(word.strip().rstrip(".").upper())
     if branch is None:
         raise BadArgument(f"{quoted(word.strip())} is no branch; type n (normal) or g (guarded)")
@@ -70,11 +60,7 @@ def read_branch(word: str) -> int:
 
 
 def read_threshold(word: str) -> float:
-    """A threshold in ounces, N.
-
-    Raises:
-        InvalidInput: it is none.
-    """
+    """A threshold typed in ounces, N."""
     ounces = number(word.strip())
     if ounces < 0:
         raise BadArgument(f"a threshold is not less than 0 oz, as {quoted(word.strip())} is")
@@ -82,11 +68,7 @@ def read_threshold(word: str) -> float:
 
 
 def read_vector(text: str) -> Vector3:
-    """A force vector, three weights in parentheses.
-
-    Raises:
-        InvalidInput: it is none.
-    """
+    """A force vector, three weights in parentheses."""
     found = _VECTOR.fullmatch(text.strip())
     if found is None:
         raise BadArgument(f"{quoted(text.strip())} is no force vector; write it like (0 0 1)")
@@ -96,42 +78,42 @@ def read_vector(text: str) -> Vector3:
     return x, y, z
 
 
-def _position(given: Given, word: str) -> None:
+def _position(given: Arguments, word: str) -> None:
     if word.startswith("-"):
         raise BadArgument(f"a minus has no meaning here: give {quoted(word[1:])} without it")
     given.position = name_of(word)
 
 
-def _signed(given: Given, word: str) -> None:
+def _signed(given: Arguments, word: str) -> None:
     given.negate = word.startswith("-")
     given.position = name_of(word[1:] if given.negate else word)
 
 
-def _step(given: Given, word: str) -> None:
+def _step(given: Arguments, word: str) -> None:
     given.step = TOP_NAME if word.upper() == TOP_NAME else name_of(word)
 
 
-def _branch(given: Given, word: str) -> None:
+def _branch(given: Arguments, word: str) -> None:
     given.branch = read_branch(word)
 
 
-def _count(given: Given, word: str) -> None:
+def _count(given: Arguments, word: str) -> None:
     if not re.fullmatch(r"[+-]?\d+", word, re.ASCII):
         raise BadArgument(f"{quoted(word)} is not a whole number")
-    if len(word) > 10 or abs(int(word)) > MOST:
-        raise BadArgument(f"{quoted(word)} is more than {MOST}")
+    if len(word) > 10 or abs(int(word)) > MAX_COUNT:
+        raise BadArgument(f"{quoted(word)} is more than {MAX_COUNT}")
     given.count = int(word)
 
 
-def _threshold(given: Given, word: str) -> None:
+def _threshold(given: Arguments, word: str) -> None:
     given.threshold = read_threshold(word)
 
 
-def _vector(given: Given, word: str) -> None:
+def _vector(given: Arguments, word: str) -> None:
     given.vector = read_vector(word)
 
 
-def _file(given: Given, word: str) -> None:
+def _file(given: Arguments, word: str) -> None:
     given.file = word
 
 

@@ -1,7 +1,7 @@
-"""Graph: the steps of a program, each with one or two sons and any number of fathers.
+"""The graph of a program's steps, each with one or two sons and any number of fathers.
 
-Of the edges that lead to a step one is its own, by which it is drawn; the others are links. The own edges make a tree
-that begins with the top, and every step stands in it.
+Of the edges to a step one is its own, by which it is drawn; the others are links. The own edges form a tree from the
+top that contains every step.
 """
 
 from collections import deque
@@ -11,7 +11,7 @@ from handeye.systems.trig.language.node import NONE, TOP, Node, NodeType
 
 
 class Graph:
-    """Nodes by their numbers, and the edges between them."""
+    """Nodes by number, and the edges between them."""
 
     def __init__(self) -> None:
         self.nodes: dict[int, Node] = {TOP: Node(id=TOP, type="top")}
@@ -26,7 +26,7 @@ class Graph:
     # -- looking ---------------------------------------------------------------------------------------
 
     def order(self) -> list[int]:
-        """All nodes as they are drawn: each before its own sons, the normal son before the guarded one."""
+        """All nodes in drawing order: each before its own sons, the normal son before the guarded one."""
         found, waiting = [], [TOP]
         while waiting:
             id = waiting.pop()
@@ -37,7 +37,7 @@ class Graph:
         return found
 
     def steps(self) -> Iterator[Node]:
-        """The steps that people see, as they are drawn."""
+        """The visible steps in drawing order."""
         return (self[id] for id in self.order() if self[id].shown)
 
     def named(self, name: str) -> Node | None:
@@ -45,11 +45,11 @@ class Graph:
         return next((node for node in self.nodes.values() if node.name == name), None)
 
     def edges_into(self, id: int) -> list[tuple[int, int]]:
-        """Fathers of a node, and the branches on which it is their son."""
+        """Fathers of a node with the branches that lead to it."""
         return [(f, branch) for f in self[id].fathers for branch, son in enumerate(self[f].sons) if son == id]
 
     def distances(self, start: int) -> dict[int, int]:
-        """All nodes that can be reached from one by going down, with the number of edges on the way."""
+        """Nodes reachable downwards from one, with their distance in edges."""
         found, waiting = {start: 0}, deque([start])
         while waiting:
             id = waiting.popleft()
@@ -60,24 +60,24 @@ class Graph:
         return found
 
     def step_at(self, id: int) -> int:
-        """The first step from a node on downwards that is no bloop; NONE: there is none."""
+        """The first step downwards from a node that is no bloop, or NONE."""
         while id != NONE and self[id].type == "bloop":
             id = self[id].sons[0]
         return id
 
     def entry(self, id: int) -> int:
-        """The node by which a step is entered: the uppermost of the bloops that stand above it, or the step."""
+        """The node by which a step is entered: the uppermost bloop above it, or itself."""
         while len(self[id].fathers) == 1 and self[self[id].fathers[0]].type == "bloop":
             id = self[id].fathers[0]
         return id
 
     def target(self, loop: Node) -> Node | None:
-        """The step that a loop goes back to."""
+        """The step that a loop returns to."""
         id = self.step_at(loop.partner)
         return None if id == NONE else self[id]
 
     def fill(self, nodes: Sequence[Node]) -> None:
-        """Take the nodes of a file in the place of its own."""
+        """Replace all nodes by those of a file."""
         self.nodes = {node.id: node for node in nodes}
         self._next = max(self.nodes) + 1
         for node in nodes:
@@ -87,12 +87,12 @@ class Graph:
     # -- changing --------------------------------------------------------------------------------------
 
     def new(self, type: NodeType) -> Node:
-        """A node that hangs together with none yet."""
+        """A new, unconnected node."""
         self._next += 1
         return Node(id=self._next - 1, type=type, sons=[NONE, NONE] if type == "guarded" else [NONE])
 
     def attach(self, father: int, branch: int, son: int, *, link: bool = False) -> None:
-        """Make a node the son of another on one of its branches, in the place of the one it has there."""
+        """Make a node the son of another on a branch, replacing its present son there."""
         node = self[father]
         before, node.sons[branch] = node.sons[branch], son
         node.links.discard(branch)
@@ -107,21 +107,21 @@ class Graph:
         self[son].last_father = father
 
     def insert(self, after: int, branch: int, node: Node) -> None:
-        """Put a new node below another. What stood there becomes its son, its normal son if it is guarded."""
+        """Insert a node below another; the previous son becomes its own, the normal one if it is guarded."""
         self.nodes[node.id] = node
         son = self[after].sons[branch]
         self.attach(after, branch, node.id)
         self.attach(node.id, 0, son)
 
     def insert_above(self, below: int, node: Node) -> None:
-        """Put a new node between another and all of its fathers, links included."""
+        """Insert a node between another and all its fathers, links included."""
         self.nodes[node.id] = node
         for father, branch in self.edges_into(below):
             self.attach(father, branch, node.id, link=branch in self[father].links)
         self.attach(node.id, 0, below)
 
     def drop(self, id: int) -> None:
-        """Take a node out that is nobody's son any more."""
+        """Remove a node that is no longer a son."""
         for branch in range(len(self[id].sons)):
             self.attach(id, branch, NONE)
         del self.nodes[id]

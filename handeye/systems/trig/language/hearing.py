@@ -1,11 +1,11 @@
-"""Hearing: a typed line is taken for a command and carried out, or refused in a sentence."""
+"""Carries out typed lines as commands, or refuses them in a sentence."""
 
 from typing import Final
 
 from handeye.core.diagnostics import nearest, quoted
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.systems.trig.language.command_table import COMMANDS, SYNONYMS, TABLE, TrigCommand
-from handeye.systems.trig.language.desk import ENDS, Withdrawn
+from handeye.systems.trig.language.desk import ENDS, Cancelled
 from handeye.systems.trig.language.given import read_given
 from handeye.systems.trig.language.place import AXES
 from handeye.systems.trig.language.session import Session
@@ -18,15 +18,10 @@ TABLE_HELP: Final = (
     "  * BUCKET X 140 Y 0    put a bucket there",
     "  * CLEAR               take everything away",
 )
-"""What else can be typed."""
 
 
 def hear(session: Session, line: str) -> None:
-    """Carry out a line. One that is wrong, or is given up, leaves the program as it was.
-
-    Raises:
-        InvalidInput: it cannot be carried out.
-    """
+    """Carry out a line; a wrong or cancelled one leaves the program unchanged."""
     word, _, rest = stripped(line).partition(" ")
     if not word:
         return
@@ -39,22 +34,18 @@ def hear(session: Session, line: str) -> None:
     command = command_of(word)
     try:
         command.act(session, read_given(command.usage, command.takes, command.needs, rest.strip()))
-    except Withdrawn:
+    except Cancelled:
         session.desk.tell(WITHDRAWN)
     session.desk.refresh()
 
 
 def stripped(line: str) -> str:
-    """What of a line is a command: the paper's prompt and remarks are none."""
+    """The command part of a line, without the paper's prompt and remarks."""
     return " ".join(line.partition(";")[0].split()).removeprefix(">").lstrip()
 
 
 def command_of(word: str) -> TrigCommand:
-    """The command of a word, in capitals or not.
-
-    Raises:
-        InvalidInput: there is none.
-    """
+    """The command of a word, in any case; raises NoSuchName."""
     upper = word.upper()
     command = COMMANDS.get(SYNONYMS.get(upper, upper))
     if command is not None:
@@ -68,11 +59,7 @@ def command_of(word: str) -> TrigCommand:
 
 
 def help(word: str) -> str:
-    """All commands, or one of them, as lines.
-
-    Raises:
-        InvalidInput: there is no such command.
-    """
+    """Help on all commands, or on one."""
     if word:
         command = command_of(word)
         return f"{command.usage}: {command.help}"

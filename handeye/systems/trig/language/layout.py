@@ -1,4 +1,4 @@
-"""Layout: where each step stands when a program is drawn.
+"""Layout of a drawn program.
 
 A chain of steps is a column. The normal son of a guarded step stands below it, in its column; the guarded son begins a
 column farther right, a row below. Columns never cross: the chains of later guarded steps are placed first.
@@ -12,19 +12,18 @@ from handeye.systems.trig.language.node import GUARDED, NONE, NORMAL, TOP, Node
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """A step where it is drawn, or a link to one that is drawn elsewhere."""
+    """A placed step, or a link to one placed elsewhere; `branch` is `n` or `g` on a branch's first step."""
 
     row: int
     column: int
     node: Node
     link: bool = False
     branch: str = ""
-    """`n` or `g` at the first step of a branch."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Elbow:
-    """The line from a guarded step to the column of its guarded son."""
+    """The line from a guarded step to its guarded son's column."""
 
     row: int
     start: int
@@ -33,37 +32,33 @@ class Elbow:
 
 @dataclass(slots=True)
 class _Chain:
-    """Steps below each other, with what hangs to the right of them."""
+    """A chain of steps, with the chains to its right by the row of their guarded step, and their column offsets."""
 
     items: list[tuple[Node, bool, str]] = field(default_factory=list)
     hung: dict[int, "_Chain"] = field(default_factory=dict)
-    """By the row of the guarded step in this chain."""
     shift: dict[int, int] = field(default_factory=dict)
-    """Of what hangs there: how many columns farther right."""
     height: int = 0
     width: int = 1
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """A program as it is drawn."""
+    """A placed program."""
 
     cells: tuple[Cell, ...]
     elbows: tuple[Elbow, ...]
 
     @property
     def rows(self) -> int:
-        """How many there are."""
         return 1 + max((cell.row for cell in self.cells), default=-1)
 
     @property
     def columns(self) -> int:
-        """How many there are."""
         return 1 + max((cell.column for cell in self.cells), default=-1)
 
 
 def layout(graph: Graph, *, top: bool = False) -> Layout:
-    """Place all steps of a program, below the top if that is to be seen; bloops are not drawn."""
+    """Place all steps of a program, and optionally the top; bloops are not drawn."""
     chains = _chains(graph, top=top)
     for chain in reversed(chains):
         _measure(chain)
@@ -71,7 +66,7 @@ def layout(graph: Graph, *, top: bool = False) -> Layout:
 
 
 def _chains(graph: Graph, *, top: bool) -> list[_Chain]:
-    """All chains, each before those that hang on it."""
+    """All chains, each before those attached to it."""
     first = _Chain(items=[(graph[TOP], False, "")] if top else [])
     found, waiting = [], [(first, TOP, NORMAL, "")]
     while waiting:
@@ -93,7 +88,7 @@ def _chains(graph: Graph, *, top: bool) -> list[_Chain]:
 
 
 def _is_link_behind(graph: Graph, id: int) -> bool:
-    """Whether bloops lead from a node to a step by a link."""
+    """True if bloops lead from a node to a step by a link."""
     while graph[id].type == "bloop":
         if graph[id].links:
             return True
@@ -104,7 +99,7 @@ def _is_link_behind(graph: Graph, id: int) -> bool:
 
 
 def _measure(chain: _Chain) -> None:
-    """How much room a chain takes with all that hangs on it; the later ones nearer than earlier ones beside them."""
+    """Compute the size of a chain with all attached chains; later ones are nearer."""
     chain.height = len(chain.items)
     below: list[tuple[int, int]] = []
     for row in sorted(chain.hung, reverse=True):

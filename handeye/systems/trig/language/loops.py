@@ -1,7 +1,7 @@
-"""Loops: every loop has a partner above the step that it goes back to, so that the way there can be gone back, too.
+"""Loops: each has a partner (bloop) above its target step, so that it can be reversed too.
 
-The partner is a bloop. Where several loops go back to one step, the nearest loop below it owns the nearest bloop
-above it, whichever was made first.
+Where several loops return to one step, the nearest loop below it owns the nearest bloop above it, whichever was made
+first.
 """
 
 from handeye.core.errors import Refused
@@ -10,11 +10,7 @@ from handeye.systems.trig.language.node import Node
 
 
 def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int) -> Node:
-    """Put a loop below a node, and its bloop above the step that it goes back to.
-
-    Raises:
-        InvalidInput: that step does not stand above the loop.
-    """
+    """Insert a loop below a node, and its bloop above its target; raises Refused if that is not above."""
     if after not in graph.distances(target):
         raise Refused(
             f"{graph[target].name} does not stand above the active step, and a loop goes back: `L` leads on to it"
@@ -27,7 +23,7 @@ def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int)
 
 
 def _innermost(graph: Graph, target: int, loop: Node) -> int:
-    """The node above which the bloop of a loop belongs: a bloop of a nearer loop, or the target."""
+    """The node above which a loop's bloop belongs: a bloop of a nearer loop, or the target."""
     below = graph.distances(target)
     place, bloops = target, _bloops_above(graph, target)
     for bloop in bloops:
@@ -38,7 +34,7 @@ def _innermost(graph: Graph, target: int, loop: Node) -> int:
 
 
 def _bloops_above(graph: Graph, target: int) -> list[int]:
-    """The bloops that stand above a step, from below."""
+    """Bloops above a step, from below."""
     found, id, top = [], target, graph.entry(target)
     while id != top:
         id = graph[id].fathers[0]

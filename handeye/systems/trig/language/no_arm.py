@@ -1,8 +1,7 @@
-"""An arm that is only imagined: it goes wherever it is told at once, and there is nothing it could sag under or miss.
+"""An imaginary arm: it reaches every place at once and exactly.
 
-There may be blocks for it, to see a program do its work before there is an arm. They know no gravity, and no force but
-that which the hand meets on top of one: a guarded move whose vector heeds a force upwards stops there. All other moves
-go through them.
+It may have blocks, to try a program without an arm. They know no gravity, and no force except on top of a block: a
+guarded move whose vector responds to upward force stops there. All other moves pass through them.
 """
 
 import math
@@ -12,20 +11,15 @@ from typing import Final, Literal
 from handeye.core.record import Vector3
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.tabletop import Tabletop
-from handeye.systems.trig.language.teachable import Arrival, Halted, Teachable
+from handeye.systems.trig.language.teachable import Arrival, Halted, TrigArm
 
 TRAVEL: Final = (*2 * ((-0.2, 0.2),), (0.0, 0.3), *3 * ((-math.radians(170), math.radians(170)),))
-"""m and rad: that of the Purbrick arm, which the paper does not give."""
-BLOCK: Final = 0.030
-"""m, along and across."""
-OPEN: Final = 0.048
-"""m between the fingers."""
-HEIGHT: Final = 0.012
-"""m, of a block."""
-_SAME: Final = 1e-9
-"""m: places that are no farther apart are the same."""
-_TOUCH: Final = 1.01
-"""Times the threshold: the force at which it is noticed that there is one."""
+"""m and rad: the Purbrick arm's, which the paper does not give."""
+BLOCK: Final = 0.030  # m, along and across
+OPEN: Final = 0.048  # m between the fingers
+HEIGHT: Final = 0.012  # m, of a block
+_SAME: Final = 1e-9  # m between equal places
+_TOUCH: Final = 1.01  # force of a trip over its threshold
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,16 +32,16 @@ class Block:
     z: float
 
     def under(self, place: Place) -> bool:
-        """It lies under a place, or around it."""
+        """True if it is under a place, or around it."""
         return max(abs(place.x - self.x), abs(place.y - self.y)) <= BLOCK / 2
 
     def between(self, place: Place) -> bool:
-        """A hand that closes there has it between its fingers."""
+        """True if a hand closing there grasps it."""
         return self.under(place) and self.z - HEIGHT < place.z < self.z
 
 
-class NoArm(Teachable, Tabletop):
-    """Arm, hand and blocks, all of them imagined."""
+class NoArm(TrigArm, Tabletop):
+    """Imaginary arm, hand and blocks."""
 
     def __init__(self) -> None:
         self.blocks: list[Block] = []
@@ -108,7 +102,7 @@ class NoArm(Teachable, Tabletop):
         return len(self.blocks)
 
     def bucket(self, x: float, y: float) -> None:
-        """Put a bucket there, into which nothing will fall."""
+        """Ignored: nothing falls."""
 
     def stack(self, count: int, x: float, y: float) -> None:
         there = len(self.blocks)
@@ -120,7 +114,7 @@ class NoArm(Teachable, Tabletop):
         self.blocks, self.held = [], None
 
     def _met(self, goal: Place) -> float | None:
-        """The height of what the hand meets first on its way down to a goal."""
+        """Height of the first block met on the way down to a goal."""
         tops = [block.z for block in self.blocks if block.under(goal) and block is not self.held]
         return max((z for z in tops if goal.z < z <= self._at.z + _SAME), default=None)
 

@@ -1,7 +1,7 @@
-"""Obstacles: what stops an arm that undoes a step, as facts, and as sentences.
+"""Obstacles that stop an arm while it reverses a step, as facts and as sentences.
 
-Going back, an arm takes the world for what it was. It may be another one by now: a block has fallen, or somebody has
-taken it away. So every step is undone under guards, and the first that trips ends it.
+A reversal assumes the world as it was. A block may have fallen since, or been taken away, so every step is reversed
+under guards, and the first to trip ends it.
 """
 
 from handeye.core.plain_text import distinct_digits
@@ -11,44 +11,40 @@ from handeye.systems.trig.language.place import AXES, SIZES, UNITS
 
 
 class Resisted(Record, frozen=True, kw_only=True, tag="resisted"):
-    """The finger has met a force."""
+    """The finger met a force, N."""
 
     force: float
-    """N, as `limit`."""
     limit: float
 
 
 class HoldOff(Record, frozen=True, kw_only=True, tag="hold_off"):
-    """The fingers do not stand where they stood then: they hold something else, or nothing."""
+    """The gap (m) differs from the one kept: the hand holds something else, or nothing."""
 
     gap: float
-    """m, as `kept`."""
     kept: float
 
 
 class LeftBehind(Record, frozen=True, kw_only=True, tag="left_behind"):
-    """An axis does not follow."""
+    """An axis (from 0, as in AXES) does not follow; m or rad."""
 
     axis: int
-    """From 0, as AXES has them."""
     off: float
-    """m or rad, as `limit`."""
     limit: float
 
 
 class Missed(Record, frozen=True, kw_only=True, tag="missed"):
-    """A guarded move has met something at this place, and there is nothing now."""
+    """A guarded move met something here, and meets nothing now."""
 
 
 class Unsupported(Record, frozen=True, kw_only=True, tag="unsupported"):
-    """What the hand holds was taken up from something at this place, and there is nothing now to set it down on."""
+    """The object held was taken from a support that is gone."""
 
 
 Obstacle = Resisted | HoldOff | LeftBehind | Missed | Unsupported
 
 
 def told_obstacle(obstacle: Obstacle) -> str:
-    """What has stopped an arm, in words."""
+    """An obstacle in words."""
     match obstacle:
         case Resisted(force=force, limit=limit):
             felt, allowed = distinct_digits((force, limit), 1)

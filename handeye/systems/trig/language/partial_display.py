@@ -1,4 +1,4 @@
-"""Partial display: the steps around the active one, a row each, in as much detail as there is room for."""
+"""Partial display: the steps around the active one, a row each, in as much detail as fits."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -10,32 +10,25 @@ from handeye.systems.trig.language.step_words import step_words
 from handeye.systems.trig.language.styled import Line, Style, fitted, plain
 from handeye.systems.trig.language.symbols import UNICODE, Symbols
 
-_NARROWEST: Final = 18
-"""Characters of a column."""
-_GAP: Final = 2
-"""Characters between two columns."""
-_MARKER: Final = 3
-"""Characters before a name: the cursor, and the branch."""
+_MIN_COLUMN: Final = 18  # characters
+_GAP: Final = 2  # characters between columns
+_MARKER: Final = 3  # characters before a name: cursor and branch
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Pane:
-    """The part of a program that is shown, and how wide its columns are."""
+    """The part of a program that is shown; widths in characters, cells by row and column, elbows by row."""
 
     program: TrigProgram
     symbols: Symbols
     name: int
-    """Characters of the longest name."""
     column: int
-    """Characters of a column."""
     cells: dict[tuple[int, int], Cell]
-    """By row and column."""
     elbows: dict[int, Elbow]
-    """By row."""
 
 
 def partial_display(program: TrigProgram, width: int, height: int, symbols: Symbols = UNICODE) -> list[Line]:
-    """Draw as many steps as there is room for; the active one is among them, with one above it."""
+    """Draw as many steps as fit, the active one among them with one above it."""
     if program.first == NONE:
         return [[("active", symbols.cursor)]]
     drawn = layout(program.graph, top=program.cursor == TOP)
@@ -49,7 +42,7 @@ def partial_display(program: TrigProgram, width: int, height: int, symbols: Symb
 
 
 def _scrolled(active: int, count: int, room: int, above: int) -> int:
-    """The first of those that are shown: the active one is, with some above it if there are."""
+    """The first row shown, so that the active one is visible, with some above it."""
     return max(0, min(active - above, count - room))
 
 
@@ -61,7 +54,7 @@ def _pane(program: TrigProgram, drawn: Layout, width: int, symbols: Symbols) -> 
         program=program,
         symbols=symbols,
         name=name,
-        column=min(width, max(_NARROWEST, *(_MARKER + width for width in widths))),
+        column=min(width, max(_MIN_COLUMN, *(_MARKER + width for width in widths))),
         cells={(cell.row, cell.column): cell for cell in drawn.cells},
         elbows={elbow.row: elbow for elbow in drawn.elbows},
     )
@@ -79,7 +72,7 @@ def _row(pane: _Pane, row: int, columns: range) -> Line:
 
 
 def _filled(room: int, column: int, elbow: Elbow | None, symbols: Symbols) -> tuple[Style, str]:
-    """What stands behind a step: nothing, or the line that leads to the right."""
+    """What follows a step: blanks, or the line to the right."""
     if elbow is None or not elbow.start <= column <= elbow.end:
         return "", " " * room
     if column == elbow.end:
@@ -88,7 +81,7 @@ def _filled(room: int, column: int, elbow: Elbow | None, symbols: Symbols) -> tu
 
 
 def _pieces(pane: _Pane, cell: Cell) -> Line:
-    """A step, its cursor or branch before it."""
+    """A step with its cursor or branch mark."""
     name, deed, style = step_words(pane.program.graph, pane.program.positions, cell, pane.symbols)
     text = f"{name:{pane.name}}  " if deed else ""
     if cell.node.id == pane.program.cursor and not cell.link:

@@ -1,4 +1,4 @@
-"""Position: what a name, or one step alone, goes to."""
+"""Positions, named or of a single step."""
 
 import re
 from collections.abc import Mapping
@@ -9,36 +9,27 @@ from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument
 from handeye.systems.trig.language.place import Place
 
-LONGEST: Final = 40
-"""Characters of a name."""
+LONGEST: Final = 40  # characters of a name
 NAME: Final = re.compile(r"[A-Z][A-Z0-9_-]*", re.ASCII)
-_UNNAMED: Final = "_"
-"""How the positions begin that no one can name."""
+_UNNAMED: Final = "_"  # prefix of positions without a name
 
 
 @dataclass(slots=True, kw_only=True)
 class Position:
-    """A place to go to, or (relative) a way to go from wherever the arm is."""
+    """An absolute place, or a relative offset from wherever the arm is."""
 
     relative: bool
-    init: Place
-    """As it was defined; what a run from the top begins with."""
-    data: Place
-    """As it is now: SAVPOS changes it."""
-    unread: Mapping[str, object] = field(default_factory=dict)
-    """What a file says of it that this version does not know."""
+    init: Place  # as defined; a run from the top starts with it
+    data: Place  # present value, which SAVPOS changes
+    unread: Mapping[str, object] = field(default_factory=dict)  # file fields unknown to this version
 
 
 Positions = dict[str, Position]
-"""By their names; those of steps alone by names that nobody can type."""
+"""By name; those of single steps by names that cannot be typed."""
 
 
 def name_of(word: str) -> str:
-    """A name as it is kept, in capitals.
-
-    Raises:
-        InvalidInput: it is none.
-    """
+    """A name in capitals; raises BadArgument."""
     if len(word) > LONGEST:
         raise BadArgument(f"{quoted(word)} has {len(word)} characters; a name has {LONGEST} at most")
     if not NAME.fullmatch(word.upper()) or not word.isascii():
@@ -47,11 +38,11 @@ def name_of(word: str) -> str:
 
 
 def is_named(name: str) -> bool:
-    """Whether somebody has given this name."""
+    """True if the name was given by a user."""
     return not name.startswith(_UNNAMED)
 
 
 def free_name(positions: Positions) -> str:
-    """A name for a position that no one names."""
+    """A name for an unnamed position."""
     number = 1 + max((int(name[1:]) for name in positions if not is_named(name)), default=0)
     return f"{_UNNAMED}{number}"

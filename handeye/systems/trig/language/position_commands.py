@@ -1,33 +1,33 @@
 """Commands that define positions without a step."""
 
 from handeye.core.errors import Refused
-from handeye.systems.trig.language.given import Given
+from handeye.systems.trig.language.given import Arguments
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.position import Position
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.step_commands import check_no_opposite
 
 
-def here(session: Session, given: Given) -> None:
-    """HERE and SA: a name for the place where the arm is."""
+def here(session: Session, given: Arguments) -> None:
+    """HERE and SA: name the arm's present place."""
     _define(session, given.position or "", session.arm.here(), relative=False)
 
 
-def here_relative(session: Session, given: Given) -> None:
-    """SR: a name for the way from where the last step took the arm to where it is."""
+def here_relative(session: Session, given: Arguments) -> None:
+    """SR: name the offset from the end of the last step to the arm's present place."""
     start = session.program.ended_at
     if start is None:
         raise Refused("no step has taken the arm anywhere yet; CALPOS and ENDCAL measure any way")
     _define(session, given.position or "", session.arm.here().seen_from(start), relative=True)
 
 
-def begin_way(session: Session, given: Given) -> None:
-    """CALPOS: remember where the arm is."""
+def begin_way(session: Session, given: Arguments) -> None:
+    """CALPOS: remember the arm's place."""
     session.origin = session.arm.here()
 
 
-def end_way(session: Session, given: Given) -> None:
-    """ENDCAL: a name for the way from there to where the arm is."""
+def end_way(session: Session, given: Arguments) -> None:
+    """ENDCAL: name the offset from there to the arm's present place."""
     if session.origin is None:
         raise Refused("CALPOS comes first: it remembers where the way begins")
     _define(session, given.position or "", session.arm.here().seen_from(session.origin), relative=True)
@@ -43,12 +43,7 @@ def _define(session: Session, name: str, place: Place, *, relative: bool) -> Non
 
 
 def _check_redefinition(session: Session, name: str, relative: bool) -> None:
-    """Go on if a position may be defined anew, and somebody wants it.
-
-    Raises:
-        InvalidInput: a step needs it as it is.
-        Withdrawn: nobody wants it.
-    """
+    """Return if a position may be redefined and the user agrees."""
     was = session.position(name).relative
     if relative and any(node.type == "savpos" for node in session.program.users(name)):
         raise Refused(f"a SAVPOS step sets {name}, so {name} stays absolute; D deletes the step")

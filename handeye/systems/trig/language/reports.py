@@ -1,4 +1,4 @@
-"""What a run of a program leaves, as a record for other programs."""
+"""The record of a program run, for other programs."""
 
 from collections.abc import Sequence
 
@@ -7,44 +7,40 @@ from handeye.systems.trig.language.no_arm import NoArm
 from handeye.systems.trig.language.obstacles import Obstacle
 from handeye.systems.trig.language.place import Measures, Place
 from handeye.systems.trig.language.position import is_named
-from handeye.systems.trig.language.running import Ran
+from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.language.session import Session
 
 
-class Way(Record, frozen=True, kw_only=True):
+class RunLeg(Record, frozen=True, kw_only=True):
     """One run, forwards or backwards."""
 
     steps: int
     end: str
-    obstacle: Obstacle | None = None
-    """What stopped it."""
+    obstacle: Obstacle | None = None  # what stopped it
 
 
 class BlockPlace(Record, frozen=True, kw_only=True):
-    """An imagined block, by the middle of its upper face."""
+    """An imaginary block: middle of its upper face, mm."""
 
     name: str
     at: tuple[float, float, float]
-    """mm"""
 
 
 class TrigReport(Record, frozen=True, kw_only=True):
-    """A program that was run. Millimetres and degrees."""
+    """The result of a program run, in millimetres and degrees."""
 
-    forward: Way
-    back: Way | None
+    forward: RunLeg
+    back: RunLeg | None
     arm: Measures
     closed: bool
-    cursor: str | None
-    """The active step, if it has a name."""
-    positions: dict[str, Measures]
-    """As they are now."""
+    cursor: str | None  # the active step's name, if any
+    positions: dict[str, Measures]  # present values
     blocks: tuple[BlockPlace, ...]
 
 
-def report(session: Session, ways: Sequence[Ran]) -> TrigReport:
-    """Tell how runs have ended, and where everything is."""
-    told = [Way(steps=ran.steps, end=ran.end, obstacle=ran.obstacle) for ran in ways]
+def report(session: Session, ways: Sequence[RunResult]) -> TrigReport:
+    """The record of runs and of where everything is."""
+    told = [RunLeg(steps=ran.steps, end=ran.end, obstacle=ran.obstacle) for ran in ways]
     known = session.program.positions
     blocks = session.arm.blocks if isinstance(session.arm, NoArm) else ()
     return TrigReport(

@@ -1,6 +1,6 @@
-"""Script: what somebody would type, answer, and do with the teach box, as lines of a text.
+"""Scripts: a user's input as lines of text.
 
-The lines are those of a terminal: commands, with or without the prompt; behind a command the buttons of the teach box
+The lines are those of a terminal: commands, with or without the prompt; after a command the buttons of the teach box
 (`X 0 Y 0 Z 250 RECORD`) and the answers to its questions, with or without the question. Remarks begin with `;`.
 """
 
@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.units import MILLIMETRE
-from handeye.systems.trig.language.desk import Button, Desk, Jog, Withdrawn, buttons
+from handeye.systems.trig.language.desk import Button, Cancelled, Desk, Jog, buttons
 from handeye.systems.trig.language.hearing import hear, stripped
 from handeye.systems.trig.language.place import SIZES
 from handeye.systems.trig.language.session import Session
@@ -18,7 +18,7 @@ from handeye.systems.trig.language.teachable import Halted
 
 
 class Script(Desk):
-    """A desk at which a text sits."""
+    """A desk that reads from a text."""
 
     def __init__(
         self,
@@ -27,19 +27,15 @@ class Script(Desk):
         halted: Halted = lambda: False,
         slip: Callable[[int], float] = lambda _: 0.0,
     ) -> None:
-        """Take the lines of a text.
-
-        Args:
-            slip: how far off (m) a place is that the teach box drives X, Y or Z to, by how many there were before.
-        """
+        """`slip` is the error (m) of a teach box move of X, Y or Z, by the number of such moves before."""
         self._lines, self._halted = enumerate(lines, 1), halted
         self._told, self._slip, self._jogs = tell, slip, 0
         self._pressed = deque[Button]()
         self.number = 0
-        """Of the line that was read last, from 1."""
+        """Number of the line read last, from 1."""
 
     def next_line(self) -> str | None:
-        """The next line with something on it; None: there is none."""
+        """The next line that is not empty, or None."""
         for number, line in self._lines:
             self.number = number
             if text := stripped(line):
@@ -49,19 +45,19 @@ class Script(Desk):
     def answer(self, question: str) -> str:
         line = self.next_line()
         if line is None:
-            raise Withdrawn
+            raise Cancelled
         return line.removeprefix(question.strip()).strip()
 
     def press(self) -> Button:
         while not self._pressed:
             line = self.next_line()
             if line is None:
-                raise Withdrawn
+                raise Cancelled
             self._pressed.extend(buttons(line))
         return self._slipped(self._pressed.popleft())
 
     def _slipped(self, button: Button) -> Button:
-        """What becomes of a button where the person is a little off."""
+        """A button with the user's error added."""
         if not isinstance(button, Jog) or SIZES[button.axis] != MILLIMETRE:
             return button
         self._jogs += 1
@@ -87,17 +83,7 @@ class LineRefused(BadFile):
 
 
 def type_script(session: Session, script: Script, name: str) -> int:
-    """Type all lines of a script, or as many as come before it leaves.
-
-    Args:
-        name: of the script, for messages.
-
-    Returns:
-        How many commands it has.
-
-    Raises:
-        InvalidInput: a line cannot be carried out; those before it have been.
-    """
+    """Carry out the lines of a script until it leaves; returns the number of commands. `name` is for messages."""
     count = 0
     while not session.over and (line := script.next_line()) is not None:
         try:

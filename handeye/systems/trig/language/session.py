@@ -1,4 +1,4 @@
-"""Session: somebody types lines, and the program, its cursor and the arm follow at once."""
+"""A session: typed lines change program, cursor and arm at once."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import InvalidInput, NoSuchName, Refused
 from handeye.core.record import Vector3
-from handeye.systems.trig.language.desk import Desk, Withdrawn, yes
+from handeye.systems.trig.language.desk import Cancelled, Desk, yes
 from handeye.systems.trig.language.given import read_branch, read_threshold, read_vector
 from handeye.systems.trig.language.node import TOP, TOP_NAME, Node
 from handeye.systems.trig.language.place import Place
@@ -14,11 +14,11 @@ from handeye.systems.trig.language.position import Position, is_named
 from handeye.systems.trig.language.program import TrigProgram
 from handeye.systems.trig.language.running import Interpreter
 from handeye.systems.trig.language.tabletop import Tabletop
-from handeye.systems.trig.language.teachable import Teachable
+from handeye.systems.trig.language.teachable import TrigArm
 
 
 class Killed(Refused):
-    """The kill switch of the teach box."""
+    """The teach box's kill switch was hit."""
 
     def __init__(self) -> None:
         super().__init__("the kill switch has stopped the arm; nothing was recorded")
@@ -26,23 +26,21 @@ class Killed(Refused):
 
 @dataclass(slots=True, kw_only=True)
 class Session:
-    """An arm, a person, and the program that they make."""
+    """An arm, a user, and their program."""
 
-    arm: Teachable
+    arm: TrigArm
     table: Tabletop
     desk: Desk
     program: TrigProgram = field(default_factory=TrigProgram)
-    origin: Place | None = None
-    """Where the arm was at the last CALPOS."""
-    file: Path | None = None
-    """The file that was read or written last."""
+    origin: Place | None = None  # the arm's place at the last CALPOS
+    file: Path | None = None  # read or written last
     over: bool = False
     files: bool = True
-    """Programs can be read from files and written to them, as whoever types likes; not by a script of somebody else."""
+    """Whether files may be read and written; not by a script of others."""
 
     @property
     def runner(self) -> Interpreter:
-        """What carries the program out."""
+        """The program's interpreter."""
         return Interpreter(
             program=self.program, arm=self.arm, halted=self.desk.halted, refresh=self.desk.refresh
         )
@@ -50,11 +48,7 @@ class Session:
     # -- finding ---------------------------------------------------------------------------------------
 
     def position(self, name: str | None, *, negate: bool = False) -> Position:
-        """A position that is defined.
-
-        Raises:
-            InvalidInput: it is not, or cannot be gone the other way.
-        """
+        """A defined position; raises NoSuchName, or Refused for the opposite of an absolute one."""
         found = self.program.positions.get(name or "")
         if found is None:
             raise NoSuchName(f"there is no position {quoted(name or '')}{self._meant(name or '')}")
@@ -67,11 +61,7 @@ class Session:
         return f"; {known}" if known else "; M teaches one"
 
     def step(self, name: str) -> Node:
-        """The step of a name; the top has one, too.
-
-        Raises:
-            InvalidInput: there is none.
-        """
+        """The step of a name, or the top; raises NoSuchName."""
         graph = self.program.graph
         found = graph[TOP] if name == TOP_NAME else graph.named(name)
         if found is None:
@@ -83,29 +73,20 @@ class Session:
     # -- asking ----------------------------------------------------------------------------------------
 
     def confirmed(self, question: str) -> None:
-        """Go on if somebody says yes.
-
-        Raises:
-            Withdrawn: somebody says no.
-        """
+        """Return if the user says yes; else raise Cancelled."""
         if not self.desk.ask(question, yes):
-            raise Withdrawn
+            raise Cancelled
 
     def threshold(self) -> float:
-        """A threshold that is asked for, N."""
+        """Ask for a threshold, N."""
         return self.desk.ask("Threshold (oz)? ", read_threshold)
 
     def vector(self) -> Vector3:
-        """A force vector that is asked for."""
+        """Ask for a force vector."""
         return self.desk.ask("Force vector (x y z)? ", read_vector)
 
     def branch(self, given: int | None, node: Node | None = None) -> int:
-        """The branch of the active step, or of another one, that a command is about.
-
-        Raises:
-            InvalidInput: it has but one.
-            Withdrawn: nobody says which.
-        """
+        """The branch of the active or another step that a command concerns."""
         node = self.program.active if node is None else node
         if node.type != "guarded":
             if given is not None:
@@ -118,12 +99,7 @@ class Session:
         return self.desk.ask("Normal or guarded? ", read_branch)
 
     def open_branch(self, given: int | None) -> int:
-        """The branch of the active step that a new one goes on.
-
-        Raises:
-            InvalidInput: it has no such branch, or that is a link.
-            Withdrawn: nobody says which.
-        """
+        """The branch of the active step for a new step; raises Refused if it is a link."""
         branch = self.branch(given)
         active = self.program.active
         if branch in active.links:
@@ -136,12 +112,7 @@ class Session:
         return branch
 
     def taught(self) -> Place:
-        """Where the teach box takes the arm until its record button is pressed.
-
-        Raises:
-            Killed: its kill switch is thrown.
-            Withdrawn: it is put down.
-        """
+        """The arm's place after moving it with the teach box until record is pressed; raises Killed."""
         while True:
             button = self.desk.press()
             if button == "record":

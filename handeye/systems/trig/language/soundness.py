@@ -1,4 +1,4 @@
-"""Soundness: what always holds of a program, however it was edited, and is looked for in every file."""
+"""Invariants of programs, checked for every file."""
 
 import re
 from collections import Counter
@@ -10,7 +10,7 @@ from handeye.systems.trig.language.position import LONGEST, NAME, Positions
 
 
 def faults(graph: Graph, positions: Positions) -> Iterator[str]:
-    """What is wrong with a program, in words; nothing, if it is sound."""
+    """Violations of invariants in words; none if the program is sound."""
     torn = list(_edge_faults(graph))
     if not torn and not _has_tree(graph):
         torn = ["its steps do not hang together from the top"]
@@ -44,7 +44,7 @@ def _edge_faults(graph: Graph) -> Iterator[str]:
 
 
 def _has_tree(graph: Graph) -> bool:
-    """Whether the edges that are no links make a tree of all nodes."""
+    """True if the own edges form a tree of all nodes."""
     seen, waiting = {TOP}, [TOP]
     while waiting:
         node = graph[waiting.pop()]

@@ -1,25 +1,25 @@
-"""Commands that add a step below the active one; moves and the hand act at once."""
+"""Commands that add a step below the active one; moves and hand act at once."""
 
 from collections.abc import Callable
 from typing import Literal
 
 from handeye.core.errors import BadArgument, Refused
 from handeye.systems.trig.language.deletion import prune
-from handeye.systems.trig.language.given import Given
+from handeye.systems.trig.language.given import Arguments
 from handeye.systems.trig.language.loops import insert_loop
 from handeye.systems.trig.language.node import NONE, TOP, Node
 from handeye.systems.trig.language.place import told_place
 from handeye.systems.trig.language.position import Position, free_name
-from handeye.systems.trig.language.program import Done
+from handeye.systems.trig.language.program import RecordedStep
 from handeye.systems.trig.language.session import Session
 
-Acted = Callable[[Session, Given], None]
+Acted = Callable[[Session, Arguments], None]
 
 
 def move(kind: Literal["absolute", "relative"] | None, *, guarded: bool = False) -> Acted:
-    """M, MA, MR, MG, MAG and MRG: a move to a position, which is taught if it is not defined."""
+    """M, MA, MR, MG, MAG and MRG: move to a position, teaching it if it is not defined."""
 
-    def act(session: Session, given: Given) -> None:
+    def act(session: Session, given: Arguments) -> None:
         branch = session.open_branch(given.branch)
         node = session.program.graph.new("guarded" if guarded else "normal")
         node.negate = given.negate
@@ -34,7 +34,7 @@ def move(kind: Literal["absolute", "relative"] | None, *, guarded: bool = False)
     return act
 
 
-def _to_known(session: Session, given: Given, kind: str | None, node: Node, branch: int) -> None:
+def _to_known(session: Session, given: Arguments, kind: str | None, node: Node, branch: int) -> None:
     position = session.position(given.position, negate=given.negate)
     defined = "relative" if position.relative else "absolute"
     if kind not in (None, defined):
@@ -59,7 +59,7 @@ def _to_taught(session: Session, name: str | None, relative: bool, node: Node, b
     data = end.seen_from(start) if relative else end
     node.position = free_name(program.positions) if name is None else name
     program.positions[node.position] = Position(relative=relative, init=data, data=data)
-    program.remember(Done(node.id, start, closed))
+    program.remember(RecordedStep(node.id, start, closed))
     program.ended_at = end
     _add(session, node, branch)
 
@@ -67,7 +67,7 @@ def _to_taught(session: Session, name: str | None, relative: bool, node: Node, b
 def hand(closed: bool) -> Acted:
     """GRASP and UNGRASP: close the hand, or open it."""
 
-    def act(session: Session, given: Given) -> None:
+    def act(session: Session, given: Arguments) -> None:
         branch = session.open_branch(None)
         node = session.program.graph.new("grasp" if closed else "ungrasp")
         session.runner.execute(node, session.program.cursor)
@@ -76,8 +76,8 @@ def hand(closed: bool) -> Acted:
     return act
 
 
-def save(session: Session, given: Given) -> None:
-    """SAVPOS: a position becomes where the arm is whenever the step is executed, and now."""
+def save(session: Session, given: Arguments) -> None:
+    """SAVPOS: set a position to the arm's place, now and whenever the step is executed."""
     branch = session.open_branch(given.branch)
     name, here = given.position or "", session.arm.here()
     position = session.program.positions.get(name)
@@ -94,13 +94,13 @@ def save(session: Session, given: Given) -> None:
 
 
 def check_no_opposite(session: Session, name: str) -> None:
-    """Raises InvalidInput if a step goes the other way of a position, which is to become absolute."""
+    """Raise Refused if a step uses the opposite of a position that is to become absolute."""
     if any(node.negate for node in session.program.users(name)):
         raise Refused(f"a step goes to -{name}, so {name} stays relative; D deletes the step")
 
 
-def loop(session: Session, given: Given) -> None:
-    """LOOP: go back to a step so many times before going on."""
+def loop(session: Session, given: Arguments) -> None:
+    """LOOP: go back to a step a number of times before going on."""
     target, wanted = session.step(given.step or ""), given.count or 0
     if target.id == TOP:
         raise Refused(f"a loop goes back to a step; {target_hint(session)}")
@@ -114,7 +114,7 @@ def loop(session: Session, given: Given) -> None:
 
 
 def target_hint(session: Session) -> str:
-    """How the first step can be named."""
+    """A hint on naming the first step."""
     first = session.program.first
     if first == NONE:
         return "the program is empty"
@@ -122,8 +122,8 @@ def target_hint(session: Session) -> str:
     return f"the first is {name}" if name else "P and CN name the first"
 
 
-def link(session: Session, given: Given) -> None:
-    """L: go on at a step that there is already."""
+def link(session: Session, given: Arguments) -> None:
+    """L: continue at an existing step."""
     program, target = session.program, session.step(given.step or "")
     if program.cursor == TOP or target.id == TOP:
         raise Refused("a link leads from a step to a step, and not to or from the top")
@@ -141,7 +141,7 @@ def link(session: Session, given: Given) -> None:
 
 
 def _add(session: Session, node: Node, branch: int) -> None:
-    """Hang a step that has been carried out below the active one, and make it the active one."""
+    """Add an executed step below the active one, and make it active."""
     program = session.program
     program.graph.insert(program.cursor, branch, node)
     program.put_cursor(node.id)

@@ -1,4 +1,4 @@
-"""Words of a step: its name and what it does, as the partial display has them."""
+"""Name and action of a step, as in the partial display."""
 
 from typing import Final
 
@@ -9,17 +9,14 @@ from handeye.systems.trig.language.position import Positions, is_named
 from handeye.systems.trig.language.styled import Style
 from handeye.systems.trig.language.symbols import Symbols
 
-NO_POSITION: Final = "- -"
-"""In the place of the name of a position that has none."""
-GUARD: Final = " G"
-"""Behind the position of a guarded step."""
-LONGEST: Final = 16
-"""Characters of a name, before it is cut."""
+NO_POSITION: Final = "- -"  # for a position without a name
+GUARD: Final = " G"  # after the position of a guarded step
+LONGEST: Final = 16  # characters of a name before it is cut
 _STYLES: Final = {"guarded": "guarded", "normal": "position", "savpos": "position"}
 
 
 def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols) -> tuple[str, str, Style]:
-    """Name and deed of a step, or a text in the place of both, and what that is."""
+    """Name and action of a step, or one text for both, with its style."""
     node = cell.node
     if cell.link:
         return f"[{_cut(node.name or UNNAMED, symbols)}]", "", "link"
@@ -32,14 +29,14 @@ def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols)
 
 
 def loop_words(graph: Graph, node: Node, symbols: Symbols) -> str:
-    """A loop as it is typed: the step that it goes back to, and how often."""
+    """A loop as typed: target step and count."""
     target = graph.target(node)
     name = UNNAMED if target is None else target.name or UNNAMED
     return f"LOOP {_cut(name, symbols)} {node.wanted}"
 
 
 def _deed(node: Node, positions: Positions, symbols: Symbols) -> str:
-    """What a step does, in a word."""
+    """The action of a step."""
     if node.position is None:
         return f"({node.type})"
     name = _cut(node.position, symbols) if is_named(node.position) else NO_POSITION

@@ -1,5 +1,4 @@
-"""Storage: a program as JSON. Of each step stands there what makes it (its major properties), and nothing that comes
-of drawing or running it."""
+"""Programs as JSON, with the properties that define each step, and none of drawing or running."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -21,11 +20,9 @@ from handeye.systems.trig.language.soundness import faults
 VERSION: Final = 1
 ENDING: Final = ".trig.json"
 TRIG_FILE: Final = Kind(name="TRIG program", begins=rb'\s*\{\s*"trig"', ending=ENDING)
-LARGEST: Final = 20_000_000
-"""Bytes: ten thousand steps take five million."""
+LARGEST: Final = 20_000_000  # bytes: ten thousand steps take five million
 UNITS: Final = {"length": "mm", "angle": "deg", "force": "oz"}
-_MOST: Final = 1e9
-"""Millimetres, degrees or ounces: no arm is that large."""
+_MAX_MEASURE: Final = 1e9  # mm, degrees or ounces
 Read = TypeVar("Read")
 
 
@@ -66,27 +63,19 @@ class _File(msgspec.Struct, kw_only=True):
 
 
 def trig_file(path: Path) -> Path:
-    """The file that a name means: `pallet` is `pallet.trig.json`."""
+    """The file of a name: `pallet` is `pallet.trig.json`."""
     return (
         path if path.name.endswith(ENDING) else path.with_name(f"{path.name}{ENDING}") if path.name else path
     )
 
 
 def write_program(path: Path, program: TrigProgram) -> None:
-    """Write a program; a file of another kind is not written over.
-
-    Raises:
-        InvalidInput: the file cannot be written.
-    """
+    """Write a program, replacing no file of another kind."""
     write_over(path, encoded(program), TRIG_FILE)
 
 
 def read_program(path: Path) -> TrigProgram:
-    """Read a program. Its positions are as they were defined.
-
-    Raises:
-        InvalidInput: it is none, or is not sound.
-    """
+    """Read a program, its positions as defined; raises BadFile."""
     return decoded(read_whole(path, LARGEST), str(path))
 
 
@@ -94,7 +83,7 @@ def read_program(path: Path) -> TrigProgram:
 
 
 def encoded(program: TrigProgram) -> bytes:
-    """A program as the content of a file. The steps are numbered as they are drawn."""
+    """A program as file content, steps numbered in drawing order."""
     graph = program.graph
     numbers = {id: number for number, id in enumerate(graph.order())} | {NONE: NONE}
     used = {node.position for node in graph.nodes.values()}
@@ -144,14 +133,7 @@ def _node_fields(graph: Graph, node: Node, numbers: Mapping[int, int]) -> dict[s
 
 
 def decoded(content: bytes, name: str) -> TrigProgram:
-    """The program in the content of a file.
-
-    Args:
-        name: of the file, for messages.
-
-    Raises:
-        InvalidInput: there is none, or it is not sound.
-    """
+    """The program from file content; raises BadFile. `name` is for messages."""
     try:
         return _program(content)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
@@ -161,7 +143,7 @@ def decoded(content: bytes, name: str) -> TrigProgram:
 
 
 class _Fault(Exception):
-    """What is wrong with a file, as it goes on behind the name of the file."""
+    """A fault of a file, as the continuation of its name."""
 
 
 def _program(content: bytes) -> TrigProgram:
@@ -204,7 +186,7 @@ def _positions(file: _File) -> Positions:
 
 def _position(name: str, fields: dict[str, object]) -> Position:
     read = _read(fields, _Position, f"position {name!r:.60}")
-    if any(not abs(value) <= _MOST for value in (*read.init, *read.data)):
+    if any(not abs(value) <= _MAX_MEASURE for value in (*read.init, *read.data)):
         raise _Fault(f"is not sound: position {name!r:.60} is farther away than anything")
     init = Place.measured(read.init)
     return Position(relative=read.relative, init=init, data=init, unread=_unread(fields, _Position))

@@ -1,20 +1,19 @@
-"""Styled text: lines in pieces, of which each says what it is, so that a terminal can colour it."""
+"""Styled text: lines as pieces with a style each, for coloured terminals."""
 
 from collections.abc import Sequence
 
 Style = str
-"""What a piece is: `active`, `branch`, `name`, `position`, `hand`, `guarded`, `loop`, `link`, `line`, or nothing."""
+"""`active`, `branch`, `name`, `position`, `hand`, `guarded`, `loop`, `link`, `line`, or empty."""
 Line = list[tuple[Style, str]]
-"""Pieces of text from left to right."""
 
 
 def plain(lines: Sequence[Line]) -> str:
-    """The text of lines alone."""
+    """Lines without styles."""
     return "\n".join("".join(text for _, text in line) for line in lines)
 
 
 def fitted(line: Line, width: int) -> Line:
-    """A line cut to a width, without the blanks at its end."""
+    """A line cut to a width, without trailing blanks."""
     room, kept = min(width, len(plain([line]).rstrip())), Line()
     for style, text in line:
         if room > 0:

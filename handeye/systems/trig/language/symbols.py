@@ -1,4 +1,4 @@
-"""Symbols: the signs that a program is drawn with, where a terminal has them and where it has not."""
+"""Drawing characters, with a fallback for terminals without them."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -6,19 +6,15 @@ from typing import Final
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Symbols:
-    """Signs of one character each."""
+    """Drawing characters: `corner` joins left and below, `turn` above and right, `tee` begins a line below."""
 
     cursor: str
     line: str
     corner: str
-    """From a line down, to the right end of it."""
     stem: str
     tee: str
-    """A line that begins below."""
     turn: str
-    """From above to the right."""
-    more: str
-    """There is more that way."""
+    more: str  # continues that way
 
 
 UNICODE: Final = Symbols(cursor="▶", line="─", corner="┐", stem="│", tee="┬", turn="└", more="…")
@@ -26,7 +22,7 @@ ASCII: Final = Symbols(cursor=">", line="-", corner=".", stem="|", tee="-", turn
 
 
 def symbols_for(encoding: str | None) -> Symbols:
-    """Signs that can be written in an encoding."""
+    """Characters that an encoding can represent."""
     try:
         "".join(getattr(UNICODE, name) for name in Symbols.__slots__).encode(encoding or "ascii")
     except (UnicodeEncodeError, LookupError):

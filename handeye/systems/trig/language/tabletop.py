@@ -1,4 +1,4 @@
-"""Tabletop: what somebody does with the things on the table, between two commands."""
+"""The table: objects that a user arranges between commands."""
 
 from abc import ABC, abstractmethod
 from typing import Final
@@ -8,55 +8,41 @@ from handeye.core.errors import BadArgument
 from handeye.core.units import MILLIMETRE
 from handeye.systems.trig.language.desk import number
 
-MARK: Final = "*"
-"""How a line begins that is about the table."""
-MOST: Final = 25
-"""Blocks of a stack."""
-FARTHEST: Final = 200.0
-"""mm from the middle of the table."""
+MARK: Final = "*"  # first character of lines about the table
+MAX_STACK: Final = 25  # blocks
+TABLE_RADIUS_MM: Final = 200.0
 _HELP: Final = "write `* STACK 20 X 150 Y 0`, `* BUCKET X 140 Y 0`, or `* CLEAR`"
 
 
 class Tabletop(ABC):
-    """What lies before an arm, as far as somebody puts it there."""
+    """The objects in front of an arm."""
 
     @property
     @abstractmethod
     def count(self) -> int:
-        """How many blocks there are."""
+        """Number of blocks."""
 
     @abstractmethod
     def stack(self, count: int, x: float, y: float) -> None:
-        """Put blocks on each other at a place (m)."""
+        """Stack blocks at a place (m)."""
 
     @abstractmethod
     def bucket(self, x: float, y: float) -> None:
-        """Put a bucket at a place (m).
-
-        Raises:
-            InvalidInput: there is one already.
-        """
+        """Put a bucket at a place (m)."""
 
     @abstractmethod
     def clear(self) -> None:
-        """Take everything away."""
+        """Remove everything."""
 
 
 def arrange(table: Tabletop, line: str) -> str:
-    """Do what a line says with the things on the table.
-
-    Returns:
-        What lies there now, in words.
-
-    Raises:
-        InvalidInput: it says nothing that can be done.
-    """
+    """Carry out a line about the table; returns its content in words. Raises BadArgument."""
     words = line.removeprefix(MARK).upper().split()
     match words:
-        case ["STACK", count, "X", x, "Y", y] if count.isdecimal() and 0 < int(count[:9]) <= MOST:
+        case ["STACK", count, "X", x, "Y", y] if count.isdecimal() and 0 < int(count[:9]) <= MAX_STACK:
             table.stack(int(count), _at(x), _at(y))
         case ["STACK", count, "X", _, "Y", _]:
-            raise BadArgument(f"a stack has 1 to {MOST} blocks, not {quoted(count)}")
+            raise BadArgument(f"a stack has 1 to {MAX_STACK} blocks, not {quoted(count)}")
         case ["BUCKET", "X", x, "Y", y]:
             table.bucket(_at(x), _at(y))
         case ["CLEAR"]:
@@ -67,11 +53,7 @@ def arrange(table: Tabletop, line: str) -> str:
 
 
 def _at(word: str) -> float:
-    """A place on the table, m.
-
-    Raises:
-        InvalidInput: it is no number, or lies beyond the table.
-    """
-    if abs(number(word)) > FARTHEST:
-        raise BadArgument(f"a table ends {FARTHEST:g} mm from its middle, before {quoted(word)}")
+    """A table coordinate, m."""
+    if abs(number(word)) > TABLE_RADIUS_MM:
+        raise BadArgument(f"a table ends {TABLE_RADIUS_MM:g} mm from its middle, before {quoted(word)}")
     return number(word) * MILLIMETRE

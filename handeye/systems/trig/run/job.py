@@ -15,8 +15,8 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.trig.jobs.benches import JobName, Lying, TaughtPlan, job_script
 from handeye.systems.trig.language.cursor_commands import told_run
-from handeye.systems.trig.language.reports import Way
-from handeye.systems.trig.language.running import Ran
+from handeye.systems.trig.language.reports import RunLeg
+from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.run.system import TAUGHT, RunningJob, plan_of
 
 Outcome = Literal["right", "stopped", "silent", "halted"]
@@ -35,8 +35,8 @@ class JobReport(Record, frozen=True, kw_only=True):
     interrupted_after: int | None = None
     """Steps after which it was to be undone."""
     outcome: Outcome
-    forward: Way | None = None
-    back: Way | None = None
+    forward: RunLeg | None = None
+    back: RunLeg | None = None
     checks: Mapping[str, Check] = {}
     """Of the referee, when the program had ended."""
     checks_back: Mapping[str, Check] = {}
@@ -132,7 +132,7 @@ def account(runner: Runner, pause: Pause, result: Result, *, after: int | None =
     forward, back, built = way, None, result.referee
     sentences: tuple[str, ...] = (told,)
     if turn is not None:
-        ran = Ran(steps=turn.steps, end="none" if turn.ended else "count")
+        ran = RunResult(steps=turn.steps, end="none" if turn.ended else "count")
         forward, back, sentences = _record(ran), way, (told_run(ran), told)
         lying |= {"run": job.lying("turned"), "undone": job.lying("now")}
         built = result.built or {}
@@ -158,21 +158,21 @@ _OUTCOMES: Final[Mapping[int, Outcome]] = {0: "right", 1: "stopped", 3: "silent"
 """By the exit codes of results."""
 
 
-def _way(runner: Runner, pause: Pause) -> tuple[Way | None, str]:
+def _way(runner: Runner, pause: Pause) -> tuple[RunLeg | None, str]:
     """How far the way has come that a run is on, and that in words; None: the arm refused a step."""
     system, state = job_of(runner), job_of(runner).state
     if pause.kind in ("operator", "trouble") and state.obstacle is None:
         return None, pause.message
     undoing, done = state.turn is not None, len(system.executed)
     steps = done if state.turn is None else state.turn.steps - done
-    ran = Ran(steps=steps, end=_end(pause, undoing=undoing), obstacle=state.obstacle)
+    ran = RunResult(steps=steps, end=_end(pause, undoing=undoing), obstacle=state.obstacle)
     if ran.end == "halted":  # nobody goes on with it by a command of TRIG
         return _record(ran), f"{counted(steps, 'step')} {'undone' if undoing else 'done'}; interrupted"
     return _record(ran), told_run(ran, back=undoing)
 
 
-def _record(ran: Ran) -> Way:
-    return Way(steps=ran.steps, end=ran.end, obstacle=ran.obstacle)
+def _record(ran: RunResult) -> RunLeg:
+    return RunLeg(steps=ran.steps, end=ran.end, obstacle=ran.obstacle)
 
 
 def _end(pause: Pause, *, undoing: bool) -> Literal["count", "none", "halted", "beginning", "stopped"]:

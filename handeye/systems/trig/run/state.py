@@ -13,7 +13,7 @@ from handeye.systems.trig.language.axes_arm import ArmMemory
 from handeye.systems.trig.language.node import NONE, TOP
 from handeye.systems.trig.language.obstacles import Obstacle
 from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.language.program import Done, TrigProgram
+from handeye.systems.trig.language.program import RecordedStep, TrigProgram
 from handeye.systems.trig.run.plan import listing
 
 _FARTHEST: Final = 1000.0
@@ -58,7 +58,7 @@ class TaughtState(SystemState, kw_only=True):
     """Positions as they were taught."""
     positions: dict[str, Place] = msgspec.field(default_factory=dict)
     """As they are now."""
-    trail: list[Done] = msgspec.field(default_factory=list)
+    trail: list[RecordedStep] = msgspec.field(default_factory=list)
     """What was done and not undone."""
     forgotten: bool = False
     cursor: int = TOP
