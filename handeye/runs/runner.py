@@ -15,6 +15,7 @@ from handeye.core.errors import BadArgument, BadFile, PhysicsFailed, Refused
 from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
 from handeye.execution.context import ExecutionContext
+from handeye.execution.scheduler import Deadlock
 from handeye.execution.servo import Halted
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
@@ -242,7 +243,7 @@ class Runner:
         except Halted:
             self._emit(PanicStopped(time=self.time))
             raise
-        except PhysicsFailed as error:
+        except (PhysicsFailed, Deadlock) as error:
             self._broken = str(error)
             return
         self.position += 1

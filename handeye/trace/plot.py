@@ -13,7 +13,7 @@ from handeye.core.files import Kind
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE
 from handeye.program import events as happened
-from handeye.program.events import AnyEvent
+from handeye.program.events import AnyEvent, SystemEvent
 from handeye.program.stage_names import stage_index
 from handeye.tasks import known_any
 from handeye.trace.sentences import measures_of
@@ -157,8 +157,9 @@ def _channels(trace: Trace, begin: float, end: float) -> Iterator[Panel]:
 
 
 def _marks(trace: Trace, begin: float, end: float) -> Iterator[Mark]:
-    """Events that happened, kind by kind."""
-    for name, kind in _MARKED.items():
+    """Events that happened, kind by kind; those of the run's own system by the names of their kinds."""
+    own = {type(event).__name__: type(event) for event in trace.events if isinstance(event, SystemEvent)}
+    for name, kind in {**_MARKED, **own}.items():
         times = (event.time for event in trace.events if isinstance(event, kind))
         inside = tuple(trace.elapsed(time) for time in times if begin <= time <= end)
         if inside:

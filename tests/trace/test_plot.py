@@ -1,6 +1,7 @@
 """The plot of a trace: what it shows, and the file it is drawn to."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from recordings import EVENTS, record
 
 from handeye.core.errors import InvalidInput
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
-from handeye.program.events import GuardTripped
+from handeye.program.events import GuardTripped, SystemEvent
 from handeye.trace.plot import Plot, plot
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
@@ -40,6 +41,16 @@ def test_people_see_degrees_inches_and_ounces(trace: Trace, whole: Plot) -> None
     assert curve(whole, "boom") == pytest.approx(trace.joints[:, 2] / INCH)
     assert curve(whole, "gap") == pytest.approx(trace.gaps / INCH)
     assert curve(whole, "z") == pytest.approx(trace.forces().force[:, 2] / OUNCE_FORCE, nan_ok=True)
+
+
+class Crossed(SystemEvent, frozen=True, kw_only=True):
+    """An event of a system's own."""
+
+
+def test_events_of_a_system_are_marked_by_their_kind(trace: Trace) -> None:
+    crossed = Crossed(time=trace.head.time + 1)
+    marks = plot(replace(trace, events=(*trace.events, crossed))).marks
+    assert [mark.times for mark in marks if mark.name == "Crossed"] == [(1.0,)]
 
 
 def test_events_are_marked_when_they_happened(trace: Trace, whole: Plot) -> None:
