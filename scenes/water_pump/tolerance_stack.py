@@ -27,9 +27,9 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.device_errors import ArmErrors
 from handeye.core.pose import Array, hand
 from handeye.core.units import UNITS
-from handeye.tasks.water_pump.world.dimensions import dimensions, screw_holes, standard
-from handeye.tasks.water_pump.world.nominal import PARK
-from handeye.tasks.water_pump.world.variation import ARM_CENTRE, ARM_PERIOD, JOINT_UNITS, variation
+from handeye.tasks.stanford_cell.arm_variation import ARM_CENTRE, ARM_PERIOD, JOINT_UNITS
+from handeye.tasks.stanford_cell.dimensions import PARK, dimensions, screw_holes, standard
+from handeye.tasks.water_pump.world.variation import variation
 
 WORLDS: Final = 100_000
 SOFT: Final = 5e-5  # m more play of a pin than drawn; measured in the simulation, .03-.05 mm

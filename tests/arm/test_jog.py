@@ -10,7 +10,7 @@ from handeye.arm.samples import Samples
 from handeye.core.pose import hand
 from handeye.core.units import INCH
 from handeye.program.diagnosis.reach import BelowTable, OutOfReach
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 
 PERIOD = 1 / 60
 

@@ -6,7 +6,7 @@ import pytest
 from handeye.arm.dynamics import gravity
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.weighing import mass_factors, weighed
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 
 HEAVIER = weighed(STANFORD, (1.0, 0.97, 1.05, 0.96, 1.02, 1.06))
 

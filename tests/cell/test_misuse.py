@@ -18,7 +18,7 @@ from handeye.core.pose import Array
 from handeye.core.variation import WorldSpec
 from handeye.ports.arm import ArmPort
 from handeye.ports.clock import Clock
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 
 PERIOD = CARTESIAN.servo.period
 

@@ -8,7 +8,7 @@ from released_arm import arm_alone
 from handeye.cell.converter import Converters, converted
 from handeye.core.units import INCH
 from handeye.core.variation import Overrides, WorldSpec
-from handeye.tasks.water_pump.scene.arm import ARM
+from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 

@@ -16,7 +16,7 @@ from handeye.core.errors import InvalidInput
 from handeye.core.resources import scenes
 from handeye.core.units import JIFFY
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 EFFECTS = {

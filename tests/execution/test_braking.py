@@ -10,7 +10,7 @@ from handeye.arm.dynamics import gravity
 from handeye.arm.robots.stanford import STANFORD
 from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 
 
 @pytest.mark.parametrize(

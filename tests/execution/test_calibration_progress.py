@@ -14,7 +14,7 @@ from handeye.execution.state import DriveState
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.tasks import task
 from handeye.tasks.interface import CameraSetup
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 
 OUT_OF_REACH = (9.0, 9.0, 9.0)
 

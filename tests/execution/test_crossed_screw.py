@@ -15,7 +15,7 @@ from handeye.core.errors import WRONG_TRAVEL
 from handeye.core.pose import Pose, planar, pose, rotation_x, translated
 from handeye.core.units import INCH
 from handeye.program.events import GuardTripped
-from handeye.tasks.water_pump.world.dimensions import base_top, screw_holes
+from handeye.tasks.stanford_cell.dimensions import base_top, screw_holes
 
 pytestmark = pytest.mark.slow
 

@@ -15,7 +15,7 @@ from handeye.execution.servo import Halted
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.program.guards import Force, GuardKind
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.touch.guards import monitor
 
 DOWN = np.array([0.0, 0.0, -1.0])

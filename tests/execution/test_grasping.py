@@ -16,7 +16,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.planning.planner import make_plan
 from handeye.ports.workcell import Sensed
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 
 GRASP = GraspModel(speed=0.06, centring=0.03, settle=4)
 ARM = replace(STANFORD, hand=replace(STANFORD.hand, grip=33.0, grasp=GRASP))

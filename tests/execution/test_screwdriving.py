@@ -11,7 +11,7 @@ from handeye.core.mutable_records import copied
 from handeye.core.pose import planar, translated
 from handeye.core.units import INCH, OUNCE_INCH
 from handeye.program.events import GuardTripped, SearchAdvanced
-from handeye.tasks.water_pump.world.dimensions import screw_holes
+from handeye.tasks.stanford_cell.dimensions import screw_holes
 
 pytestmark = pytest.mark.slow
 

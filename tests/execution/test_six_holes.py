@@ -11,7 +11,7 @@ from pump_bench import INSERT, TAUGHT, at_standard, bench, world_of
 
 from handeye.program.events import Saved, StepStarted
 from handeye.program.program import Position
-from handeye.tasks.water_pump.world.dimensions import screw_holes
+from handeye.tasks.stanford_cell.dimensions import screw_holes
 
 pytestmark = pytest.mark.slow
 

@@ -15,8 +15,8 @@ from handeye.execution.friction_measurement import measure_joints
 from handeye.execution.state import DriveState
 from handeye.execution.tool_axes import ToolAxes
 from handeye.ports.workcell import Workcell
+from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.world.nominal import PARK
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 SLOW = 0.01  # m/s

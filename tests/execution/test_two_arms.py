@@ -21,7 +21,7 @@ from handeye.execution.state import DriveState
 from handeye.ports.arm import ArmPort
 from handeye.ports.clock import Clock
 from handeye.ports.workcell import Workcell
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 SIDES = ("left/", "right/")

@@ -13,7 +13,7 @@ from handeye.execution.undo.retracing import retracing
 from handeye.execution.undo.way import GRAIN, RecordedPath, Track, packed, unpacked
 from handeye.planning.motions import GUARDED_SPEED
 from handeye.program.guards import GuardKind
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 
 JOINTS = len(STANFORD.joints)
 

@@ -21,7 +21,7 @@ from handeye.execution.undo.resistance import Resistance
 from handeye.execution.undo.way import RecordedPath, packed, unpacked
 from handeye.program.diagnosis.causes import ScrewFast, ScrewLost, UndoResisted
 from handeye.program.guards import GuardKind
-from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.touch.guards import Reading, Trip
 
 pytestmark = pytest.mark.slow

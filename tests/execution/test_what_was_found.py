@@ -9,7 +9,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.state import VisionResult
 from handeye.execution.vision_actions import just_found
 from handeye.program.diagnosis.causes import NoGasket, PartAstray
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
 from handeye.vision.blob import BoundingBox
 from handeye.vision.gasket import GasketInspection

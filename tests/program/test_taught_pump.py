@@ -7,7 +7,7 @@ from handeye.core.pose import planar
 from handeye.core.resources import plans
 from handeye.program.program import Part
 from handeye.program.taught import load_taught
-from handeye.tasks.water_pump.world.dimensions import (
+from handeye.tasks.stanford_cell.dimensions import (
     base_top,
     dimensions,
     dispenser_places,

@@ -19,7 +19,8 @@ from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import ErrorRaised, Event, StepStarted
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught
-from handeye.tasks.water_pump.world.nominal import DRAWING, PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
+from handeye.tasks.water_pump.world.nominal import DRAWING
 
 Kind = TypeVar("Kind", bound=Event)
 

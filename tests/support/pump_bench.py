@@ -29,8 +29,8 @@ from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import ErrorRaised, Event, OperatorCalled, SearchAdvanced
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught, load_taught
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, screw_holes, standard
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, screw_holes, standard
 from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.tasks.water_pump.world.pump_world import Placing, PumpWorld
 

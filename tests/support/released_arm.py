@@ -13,8 +13,8 @@ from handeye.core.pose import Array
 from handeye.execution.drive import ArmDrive
 from handeye.execution.friction_measurement import measure_joints
 from handeye.execution.state import DriveState
-from handeye.tasks.water_pump.scene.arm import ARM, add_arm
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.arm import ARM, add_arm
+from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 

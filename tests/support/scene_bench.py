@@ -5,8 +5,8 @@ import numpy as np
 
 from handeye.core.pose import Pose, planar
 from handeye.core.units import DEGREE, INCH
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, screw_holes, standard
 from handeye.tasks.water_pump.scene import build
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, screw_holes, standard
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 PARKED = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [1, 1, INCH / DEGREE, 1, 1, 1] * DEGREE

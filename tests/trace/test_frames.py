@@ -9,8 +9,8 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
+from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.world.nominal import PARK
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.trace.frames import Frames
 

@@ -10,11 +10,10 @@ from handeye.cell.looks import MESH, SEEN
 from handeye.core.pose import Array
 from handeye.core.resources import scenes
 from handeye.core.units import INCH
-from handeye.tasks.insertion.world import BenchWorld
-from handeye.tasks.water_pump.scene.arm import add_arm
-from handeye.tasks.water_pump.scene.room import add_camera
-from handeye.tasks.water_pump.scene.shapes import Bore, Shaper
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, pin_seat
+from handeye.tasks.insertion.world import InsertionWorld
+from handeye.tasks.stanford_cell.arm import add_arm
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, pin_seat
+from handeye.tasks.stanford_cell.shapes import Bore, Shaper, add_camera
 
 HOLE: Final = (25 * INCH, 38 * INCH)
 """Where the program was taught that the hole is, m: among those of the pump's base."""
@@ -36,13 +35,13 @@ _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
 """Classes of shapes that rub as the world's parts do."""
 
 
-def build(world: BenchWorld) -> mujoco.MjModel:
+def build(world: InsertionWorld) -> mujoco.MjModel:
     """The compiled scene. Its arm is at joint zero, which joint 3 forbids: set a posture before stepping."""
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
-    add_arm(spec, world.pump)  # first: free bodies before it would shift its joints
+    add_arm(spec, world)  # first: free bodies before it would shift its joints
     shaper = Shaper(spec=spec)
     for style in _METAL:
-        shaper.style(style).geom.friction[0] *= world.pump.friction["part"]
+        shaper.style(style).geom.friction[0] *= world.friction["part"]
     _add_room(shaper)
     _add_plate(shaper, world)
     _add_holder(shaper)
@@ -63,7 +62,7 @@ def _add_room(shaper: Shaper) -> None:
     table.group = SEEN
 
 
-def _add_plate(shaper: Shaper, world: BenchWorld) -> None:
+def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
     """A face with the hole: the nose meets wedges around it; the shoulder a flat land, as on the pump's base."""
     d = dimensions()
     at = [HOLE[0] + world.plate[0], HOLE[1] + world.plate[1], 0.0]

@@ -10,8 +10,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.judge.finding import Findings, at_most
 from handeye.tasks.inserting import Inserting, Witnessed
 from handeye.tasks.interface import Words
-from handeye.tasks.water_pump.world.dimensions import dimensions
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK, dimensions
 
 if TYPE_CHECKING:
     import mujoco
@@ -46,24 +45,24 @@ class Insertion(Inserting):
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         from handeye.tasks.insertion.scene import build
-        from handeye.tasks.insertion.world import BenchWorld
+        from handeye.tasks.insertion.world import InsertionWorld
 
-        return build(BenchWorld.draw(spec))
+        return build(InsertionWorld.draw(spec))
 
     def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:
         from handeye.tasks.insertion.cell import InsertionCell
-        from handeye.tasks.insertion.world import BenchWorld
+        from handeye.tasks.insertion.world import InsertionWorld
 
-        return InsertionCell(BenchWorld.draw(spec))
+        return InsertionCell(InsertionWorld.draw(spec))
 
     def judge(self, truth: Truth) -> Findings:
-        from handeye.tasks.insertion.witness import SEATED, shoulder
+        from handeye.tasks.insertion.cell import SEATED, shoulder
 
         high = shoulder(truth.data) * 1e3
         return {"seat": at_most(high, SEATED * 1e3, "mm", "height of the pin's shoulder over the face")}
 
     def judge_apart(self, truth: Truth) -> Findings:
-        from handeye.tasks.insertion.witness import off_holder
+        from handeye.tasks.insertion.cell import off_holder
 
         away, leans = off_holder(truth.data)
         return {
@@ -78,15 +77,14 @@ class Insertion(Inserting):
         return {"hole.clearance": clearance, "hole.chamfer": chamfer, "plate.x": 0.0, "plate.y": 0.0}
 
     def off(self, truth: Truth, error: tuple[float, float]) -> dict[str, float]:
+        from handeye.tasks.insertion.cell import tip
         from handeye.tasks.insertion.scene import HOLE
-        from handeye.tasks.insertion.witness import tip
 
         end = tip(truth.data)
         return {f"plate.{axis}": float(end[k] - HOLE[k] + error[k]) for k, axis in enumerate("xy")}
 
     def witnessed(self, cell: SimulatedCell) -> Witnessed:
-        from handeye.tasks.insertion.cell import InsertionCell
-        from handeye.tasks.insertion.witness import SEATED, shoulder
+        from handeye.tasks.insertion.cell import SEATED, InsertionCell, shoulder
 
         assert isinstance(cell, InsertionCell)
         seen, right = cell.witness, shoulder(cell.truth.data) <= SEATED

@@ -1,19 +1,17 @@
-"""Variation of the insertion bench: the arm and the hand of the pump's worlds, and one hole."""
+"""Variation of the insertion bench: the arm and the hand as in every cell of theirs, and one hole."""
 
 from dataclasses import dataclass
 from typing import Final, Self
 
 from handeye.core.distributions import Normal, Range
-from handeye.core.variation import Quantity, Variation, World, WorldSpec
+from handeye.core.variation import Quantity, Variation, WorldSpec
 from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD
-from handeye.tasks.water_pump.world.pump_world import PumpWorld
-from handeye.tasks.water_pump.world.variation import variation as pump_variation
+from handeye.tasks.stanford_cell.arm_variation import arm, hand, rubbing
+from handeye.tasks.stanford_cell.arm_world import ArmWorld, arm_values
 
 REACH: Final = 40.0
 """How far off the hole can be along an axis, mm."""
-_TAKEN: Final = ("arm", "hand", "friction.pad", "friction.part")
-"""What the bench has of the pump's world."""
-_PUMP: Final = pump_variation(0)
+_RUBBING: Final = ("pad", "part")
 
 
 def _hole() -> tuple[Quantity, ...]:
@@ -36,34 +34,27 @@ def _hole() -> tuple[Quantity, ...]:
     )  # fmt: skip
 
 
-VARIATION: Final = Variation(*(each for group in _TAKEN for each in _PUMP.select(group)), *_hole())
+VARIATION: Final = Variation(*arm(), *hand(), *rubbing(_RUBBING), *_hole())
 """The quantities of the bench."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BenchWorld:
+class InsertionWorld(ArmWorld):
     """One drawn world of the bench."""
 
-    pump: PumpWorld
-    """Its arm, its hand and how things rub; all else in it is as drawn in a nominal one."""
     clearance: float
-    """Of the hole, in diameter, m."""
+    """Diameter of the hole over that of the pin's nose, m."""
     chamfer: float
-    """m"""
+    """Width of the chamfer around the hole, m."""
     plate: tuple[float, float]
     """How far the hole is off, x and y, m."""
 
     @classmethod
     def draw(cls, spec: WorldSpec) -> Self:
-        """The world of a specification.
-
-        Raises:
-            InvalidInput: it cannot be drawn here.
-        """
+        """The world of a specification; raises InvalidInput if it cannot be drawn here."""
         world = VARIATION.draw(spec)
-        right = {each.name: each.nominal * each.measure.size for each in _PUMP.quantities.values()}
         return cls(
-            pump=PumpWorld.of(World(spec=spec, values={**right, **world.values})),
+            **arm_values(world, _RUBBING),
             clearance=world["hole.clearance"],
             chamfer=world["hole.chamfer"],
             plate=(world["plate.x"], world["plate.y"]),

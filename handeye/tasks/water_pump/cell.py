@@ -13,13 +13,14 @@ from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.signal_lines import SignalLines
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.threads import THREAD_FRICTION, ThreadFigures, Threads
+from handeye.tasks.stanford_cell.arm import ARM
+from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.clamping import Clamping
 from handeye.tasks.water_pump.faults.before import crossing_threads, scarred_threads, slipping_screws
 from handeye.tasks.water_pump.faults.devices import defects
 from handeye.tasks.water_pump.faults.during import Mishaps, due
 from handeye.tasks.water_pump.scene import build
-from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.tasks.water_pump.world.nominal import DRAWING, PARK
+from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 

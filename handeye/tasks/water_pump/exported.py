@@ -16,9 +16,9 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, inverse
 from handeye.core.resources import scenes
 from handeye.tasks.interface import ExportedScene
+from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.scene import specification
 from handeye.tasks.water_pump.scene.textures import add_textures
-from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 RENAMED: Final = {"pin0": "pin1", "pin1": "pin2"}

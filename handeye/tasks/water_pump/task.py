@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.tasks.interface import CameraSetup, Disturbance, ExportedScene, HistoricalTiming, Task, Words
-from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS, PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
+from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS
 from handeye.tasks.water_pump.world.stations import planned_fixtures
 
 if TYPE_CHECKING:

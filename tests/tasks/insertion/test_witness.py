@@ -9,12 +9,11 @@ import pytest
 from handeye.cell.physics_stepper import PhysicsStepper
 from handeye.core.pose import Array
 from handeye.core.variation import Overrides, WorldSpec
+from handeye.tasks.insertion.cell import SEATED, Witness, shoulder, tip
 from handeye.tasks.insertion.scene import CORNERS, FACE, HOLE, build
 from handeye.tasks.insertion.task import INSERTION
-from handeye.tasks.insertion.witness import SEATED, Witness, shoulder, tip
-from handeye.tasks.insertion.world import BenchWorld
-from handeye.tasks.water_pump.world.dimensions import dimensions
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.insertion.world import InsertionWorld
+from handeye.tasks.stanford_cell.dimensions import PARK, dimensions
 
 WORLD = WorldSpec(seed=0, overrides=Overrides(set={"plate.x": 0.0, "plate.y": 0.0}))
 PUSH = 12.0
@@ -28,7 +27,7 @@ class Rig:
         self, high: float, stepper: Callable[[mujoco.MjModel, mujoco.MjData], PhysicsStepper] = Witness
     ) -> None:
         """A pin with its shoulder so far over the face, m."""
-        self.model = build(BenchWorld.draw(WORLD))
+        self.model = build(InsertionWorld.draw(WORLD))
         self.data = mujoco.MjData(self.model)
         self.data.qpos[:6] = PARK
         self.model.dof_frictionloss[:6] = 600.0
@@ -111,7 +110,7 @@ def test_the_hole_is_as_wide_as_its_clearance_says(clearance: float) -> None:
     """A pin pushed to the side, upright, comes to rest the play away from the axis: half the clearance, a tenth more
     where both have flats."""
     world = WorldSpec(seed=0, overrides=Overrides(set={**WORLD.overrides.set, "hole.clearance": clearance}))
-    model = build(BenchWorld.draw(world))
+    model = build(InsertionWorld.draw(world))
     radius = float(model.site("hole").size[0])
     nose = dimensions()("pin.nose_radius")
     assert 2 * (radius - nose) == pytest.approx(clearance)

@@ -15,9 +15,9 @@ from handeye.core.pose import Pose, planar, pose, translated
 from handeye.core.units import JIFFY
 from handeye.judge.measured import Measured
 from handeye.runs.exported_state import ExportedState
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, standard
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.referee import limits
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, standard
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 TIGHTENING = 0.30  # N m

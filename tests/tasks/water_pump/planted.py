@@ -17,8 +17,7 @@ from handeye.cell.threads import ThreadsState, holes_of
 from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, hand, inverse, planar, pose, rotation, rotation_x, translated
 from handeye.core.units import DEGREE
-from handeye.tasks.water_pump.world.dimensions import dimensions, screw_holes, standard
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK, dimensions, screw_holes, standard
 
 MM = 1e-3
 PUMP = ("base", "gasket", "top")

@@ -24,9 +24,9 @@ from handeye.execution.compliance import Course
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
+from handeye.tasks.stanford_cell.arm import ARM
+from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.scene import specification
-from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.tasks.water_pump.world.nominal import PARK
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 STIFFNESS: Final = 2000.0  # N/m

@@ -10,7 +10,7 @@ from finished import enter, stacked, threads_of
 from static_rigs import Force
 
 from handeye.cell.threads import RUNNING_TORQUE, THREAD_FRICTION, THREAD_RADIUS
-from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.stanford_cell.dimensions import dimensions
 
 PERIODS, HELD, MEAN = 60, 20, 10
 """Servo periods in which the torque rises, in which it stays, and over which the clamp force is taken."""

@@ -8,7 +8,7 @@ from driving import tick
 from finished import enter, stacked, tighten
 
 from handeye.cell.simulated import SimulatedCell
-from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.stanford_cell.dimensions import dimensions
 
 PARTS = ("base", "gasket", "top")
 

@@ -16,11 +16,11 @@ from handeye.core.variation import WorldSpec
 from handeye.planfile.store import read_plan
 from handeye.program.flow_operations import Wait
 from handeye.program.motion_operations import Move
+from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.faults.devices import defects, device_faults
 from handeye.tasks.water_pump.faults.expected_detection import PINNED, SCREWED
 from handeye.tasks.water_pump.task import WATER_PUMP
-from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.variation import SEVENTH
 

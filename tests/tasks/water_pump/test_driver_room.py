@@ -6,7 +6,7 @@ import pytest
 from scene_bench import Bench
 
 from handeye.core.pose import translated
-from handeye.tasks.water_pump.world.dimensions import dimensions, screw_holes
+from handeye.tasks.stanford_cell.dimensions import dimensions, screw_holes
 
 DRIVER = ("driver", "bit", "socket")
 

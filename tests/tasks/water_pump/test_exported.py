@@ -18,10 +18,10 @@ from handeye.core.variation import WorldSpec
 from handeye.results.exported_scene import scene_files
 from handeye.results.exported_solids import exported_solids
 from handeye.runs.exported_state import initial_state
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.exported import RENAMED
 from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.referee.findings import judge
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow

@@ -12,11 +12,11 @@ from handeye.cell.solid_scene import SolidScene, Weighed
 from handeye.core.errors import InvalidInput
 from handeye.core.pose import Array, planar
 from handeye.results.exported_solids import ExportedSolids, agrees, checks, exported_solids
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.exported import exported
 from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.referee.findings import judge
 from handeye.tasks.water_pump.scene import solids
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow

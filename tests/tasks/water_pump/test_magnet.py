@@ -8,7 +8,7 @@ import pytest
 from finished import put, stacked
 
 from handeye.core.pose import pose, translated
-from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.stanford_cell.dimensions import dimensions
 
 AIR = translated(np.eye(4), (0.5, 0.2, 0.5))  # m, where the driver is held, with nothing near
 

@@ -13,9 +13,9 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import planar, pose, rotation_x, translated
 from handeye.judge.finding import all_right
 from handeye.judge.measured import Measured
+from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.referee.findings import judge
-from handeye.tasks.water_pump.world.dimensions import dimensions
 
 
 def X(truth: Truth, part: str) -> np.ndarray:

@@ -23,10 +23,10 @@ from handeye.core.resources import plans
 from handeye.core.units import DEGREE
 from handeye.judge.finding import Findings
 from handeye.judge.measured import Measured
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.referee import limits, measure
 from handeye.tasks.water_pump.referee.findings import judge
 from handeye.tasks.water_pump.referee.measure import head_force
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions
 
 pytestmark = pytest.mark.slow
 

@@ -8,10 +8,8 @@ from scene_bench import Bench
 from handeye.core.errors import InvalidInput
 from handeye.core.pose import planar
 from handeye.core.units import INCH
-from handeye.tasks.water_pump.scene import solids
-from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.tasks.water_pump.scene.shapes import Bore
-from handeye.tasks.water_pump.world.dimensions import (
+from handeye.tasks.stanford_cell.arm import ARM
+from handeye.tasks.stanford_cell.dimensions import (
     base_top,
     dimensions,
     parse,
@@ -19,6 +17,8 @@ from handeye.tasks.water_pump.world.dimensions import (
     standard,
     web_centre,
 )
+from handeye.tasks.stanford_cell.shapes import Bore
+from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.stations import Station
 

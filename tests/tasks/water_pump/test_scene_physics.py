@@ -5,7 +5,7 @@ import pytest
 from scene_bench import FREE, Bench, pinned_base, shift
 
 from handeye.core.pose import planar, translated
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, pin_seat, screw_holes, standard
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, pin_seat, screw_holes, standard
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 

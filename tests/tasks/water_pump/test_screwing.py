@@ -12,7 +12,7 @@ from handeye.cell.threads import holes_of
 from handeye.cell.truth import Truth
 from handeye.core.pose import Array
 from handeye.core.units import INCH
-from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.stanford_cell.dimensions import dimensions
 
 DOWN = np.array([0.0, 0.0, -1.0])
 STOP = 0.28  # N m

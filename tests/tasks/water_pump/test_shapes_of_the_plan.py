@@ -13,8 +13,8 @@ from handeye.core.resources import plans
 from handeye.core.units import INCH
 from handeye.program.taught import load_taught
 from handeye.program.world_model import WorldModel
+from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.water_pump.scene import build
-from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 TAUGHT = load_taught(plans() / "water_pump.toml")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import trimesh
 
+from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.scene import solids
-from handeye.tasks.water_pump.world.dimensions import dimensions
 
 SOLIDS = {
     "casting": (solids.casting(6), 1),  # the second large hole; the others have a floor

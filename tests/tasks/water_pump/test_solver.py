@@ -22,8 +22,8 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.pose import Array, hand, planar, translated
 from handeye.core.units import INCH
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, screw_holes, standard, web_centre
 from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, screw_holes, standard, web_centre
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow

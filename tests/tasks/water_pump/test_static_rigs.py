@@ -16,7 +16,7 @@ from handeye.arm.dynamics import GRAVITY
 from handeye.arm.friction import felt_friction
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
-from handeye.tasks.water_pump.world.nominal import PARK
+from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow

@@ -17,8 +17,8 @@ from handeye.program.diagnosis.plan_findings import RunsInto
 from handeye.program.taught import Taught
 from handeye.runs.scripts import taught
 from handeye.tasks import task
+from handeye.tasks.stanford_cell.dimensions import Dimensions, Point, parse
 from handeye.tasks.water_pump.world import stations, variation
-from handeye.tasks.water_pump.world.dimensions import Dimensions, Point, parse
 
 ENTRY = """
 [stations.tool_tray]

@@ -15,8 +15,8 @@ from handeye.cell.sleep import wake
 from handeye.cell.truth import Truth
 from handeye.core.pose import Array, inverse, pose
 from handeye.tasks.interface import Disturbance
+from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.water_pump.faults.during import Scene
-from handeye.tasks.water_pump.scene.arm import ARM
 
 TIGHT_TORQUE_NM: Final = 1.5  # five times what the driver has
 _TIGHTENING_S: Final = 0.5

@@ -23,9 +23,9 @@ from handeye.core.errors import (
 )
 from handeye.core.faults import Expected, Fault, Size
 from handeye.core.units import JIFFY
+from handeye.tasks.stanford_cell.arm_variation import JOINT_UNITS
 from handeye.tasks.water_pump.faults import expected_detection as detect
 from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
-from handeye.tasks.water_pump.world.variation import JOINT_UNITS
 
 _FINGERS: Final = ("finger_switch.plus_y", "finger_switch.minus_y")
 _JUMP: Final = {

@@ -22,10 +22,10 @@ from handeye.core.faults import Expected, Fault, Size
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.core.units import INCH
+from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.water_pump.faults import expected_detection as detect
 from handeye.tasks.water_pump.faults.before import GONE, OVER_TRAY_M
 from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
-from handeye.tasks.water_pump.scene.arm import ARM
 
 PUSH_S: Final = 2.0
 MOVE_S: Final = 1.0

@@ -12,10 +12,10 @@ from handeye.core.pose import yaw
 from handeye.core.units import INCH
 from handeye.judge.finding import Finding, Findings, at_least, at_most, worse
 from handeye.judge.measured import Measured, tilt
+from handeye.tasks.stanford_cell.arm import ARM
+from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.referee import limits, measure
 from handeye.tasks.water_pump.referee.measure import Overlap, deepest
-from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.tasks.water_pump.world.dimensions import dimensions
 
 _PINS: Final = ("pin0", "pin1")
 _PARTS: Final = {"base": limits.APART, "gasket": limits.APART_GASKET, "top": limits.APART}

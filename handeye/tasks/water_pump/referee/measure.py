@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from handeye.core.pose import inverse, pose
 from handeye.judge.measured import Measured, tilt
+from handeye.tasks.stanford_cell.arm import ARM
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.referee.limits import ROTOR_SWING, ROTOR_TORQUE
-from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions
 
 _SWING: Final = 1.5  # s: once to one side, once to the other, and back
 _BEHIND: Final = radians(2.0)  # so far behind its guide, the rotor is turned with its limit

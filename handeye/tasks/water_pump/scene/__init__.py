@@ -5,15 +5,15 @@ from typing import Final
 import mujoco
 
 from handeye.core.resources import scenes
+from handeye.tasks.stanford_cell.arm import add_arm
+from handeye.tasks.stanford_cell.shapes import Shaper
 from handeye.tasks.water_pump.faults.before import break_parts
-from handeye.tasks.water_pump.scene.arm import add_arm
 from handeye.tasks.water_pump.scene.base import add_base
 from handeye.tasks.water_pump.scene.cover import add_gasket, add_merging, add_top
 from handeye.tasks.water_pump.scene.dressing import dress
 from handeye.tasks.water_pump.scene.fasteners import add_pins, add_screws
 from handeye.tasks.water_pump.scene.fixtures import add_blocks, add_plain_stations
 from handeye.tasks.water_pump.scene.room import add_room
-from handeye.tasks.water_pump.scene.shapes import Shaper
 from handeye.tasks.water_pump.scene.tool import add_driver
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from handeye.cell.looks import LATENT
 from handeye.core.pose import Array
+from handeye.tasks.stanford_cell.dimensions import Dimensions, Point, base_top, dimensions, screw_holes
+from handeye.tasks.stanford_cell.shapes import Bore, Shaper, body_inertia, box_moments
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.fasteners import screw_look
-from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia, box_moments
-from handeye.tasks.water_pump.world.dimensions import Dimensions, Point, base_top, dimensions, screw_holes
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 _WEDGES = 24  # around the large holes; 15 degrees each

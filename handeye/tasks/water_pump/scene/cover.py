@@ -5,10 +5,10 @@ from collections.abc import Sequence
 
 import mujoco
 
+from handeye.tasks.stanford_cell.dimensions import Dimensions, Point, dimensions, web_centre
+from handeye.tasks.stanford_cell.shapes import Bore, Shaper, body_inertia
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.fixtures import add_gasket_stand, add_top_stand
-from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
-from handeye.tasks.water_pump.world.dimensions import Dimensions, Point, dimensions, web_centre
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 

@@ -14,12 +14,12 @@ from manifold3d import Manifold  # type: ignore[import-not-found]  # stubs, but 
 from handeye.cell.clock_hands import TURNS
 from handeye.cell.looks import BOX, PLAIN, SEEN
 from handeye.core.pose import Array
+from handeye.tasks.stanford_cell.arm import ARM
+from handeye.tasks.stanford_cell.dimensions import dimensions
+from handeye.tasks.stanford_cell.shapes import Shaper, Vector
 from handeye.tasks.water_pump.scene import solids
-from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.scene.room import LEFT, cabinet
-from handeye.tasks.water_pump.scene.shapes import Shaper, Vector
 from handeye.tasks.water_pump.scene.textures import add_textures
-from handeye.tasks.water_pump.world.dimensions import dimensions
 
 _MATERIALS: Final = {
     "case": (0.70, 0.66, 0.55, 0.25),

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from handeye.cell.looks import MESH
 from handeye.core.pose import Array
+from handeye.tasks.stanford_cell.dimensions import dimensions, dispenser_places, pin_seat
+from handeye.tasks.stanford_cell.shapes import Bore, Shaper, body_inertia
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.fixtures import add_fixture
-from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
-from handeye.tasks.water_pump.world.dimensions import dimensions, dispenser_places, pin_seat
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.stations import Station
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from handeye.cell.looks import SEEN
 from handeye.core.pose import Array, Pose, planar
-from handeye.tasks.water_pump.scene.shapes import Shaper
-from handeye.tasks.water_pump.world.dimensions import Point, dimensions
+from handeye.tasks.stanford_cell.dimensions import Point, dimensions
+from handeye.tasks.stanford_cell.shapes import Shaper
 from handeye.tasks.water_pump.world.pump_world import Placing, PumpWorld
 from handeye.tasks.water_pump.world.stations import Station, plain_stations
 

@@ -6,10 +6,9 @@ from itertools import product
 import mujoco
 import numpy as np
 
-from handeye.core.pose import Array
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.tasks.water_pump.scene.shapes import Shaper
-from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.stanford_cell.dimensions import dimensions
+from handeye.tasks.stanford_cell.shapes import Shaper, add_camera, towards
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 LEFT, BACK, RIGHT, FRONT = -2.4, -2.0, 6.0, 6.0
@@ -117,7 +116,7 @@ def _add_tripod(shaper: Shaper) -> None:
     body, floor = shaper.spec.worldbody, -d("table.height")
     x, y, z = d.all("camera.mount")
     head = body.add_body(
-        name="television_camera", pos=[x, y, z], quat=_towards(np.array([-0.2, -0.75, -1.35]))
+        name="television_camera", pos=[x, y, z], quat=towards(np.array([-0.2, -0.75, -1.35]))
     )
     shaper.box(head, "scenery", (-0.055, -0.065, 0.07), (0.055, 0.065, 0.36), "enamel")
     shaper.cylinder(head, "scenery", 0.048, (0, 0, 0.055), (0, 0, 0.07), "black")
@@ -128,16 +127,6 @@ def _add_tripod(shaper: Shaper) -> None:
     for k, angle in enumerate((0.5, 2.6, 4.7)):
         foot = (x + 0.42 * math.cos(angle), back + 0.30 * math.sin(angle), floor)
         shaper.cylinder(body, "scenery", 0.014, foot, (x, back, 0.55), "black", f"tripod_leg{k}")
-
-
-def _towards(view: Array) -> list[float]:
-    """Quaternion of a frame whose -z axis points along `view`, x level."""
-    z = -view / np.linalg.norm(view)
-    x = np.cross((0.0, 0.0, 1.0), z)
-    x /= np.linalg.norm(x)
-    quat = np.zeros(4)
-    mujoco.mju_mat2Quat(quat, np.column_stack([x, np.cross(z, x), z]).ravel())
-    return [float(value) for value in quat]
 
 
 def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
@@ -169,8 +158,3 @@ def _add_cameras(spec: mujoco.MjSpec) -> None:
         ("belt", (1.62, 1.35, 0.75), (1.13, 0.75, 0.03), 32.0),
     ):
         add_camera(spec, name, np.array(eye), np.array(at)).fovy = fovy
-
-
-def add_camera(spec: mujoco.MjSpec, name: str, eye: Array, at: Array) -> mujoco.MjsCamera:
-    """A camera at `eye` that looks at `at`, upright (m)."""
-    return spec.worldbody.add_camera(name=name, pos=eye.tolist(), quat=_towards(at - eye))

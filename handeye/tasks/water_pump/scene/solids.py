@@ -14,7 +14,7 @@ from manifold3d import CrossSection, Manifold, OpType  # type: ignore[import-not
 from numpy.typing import NDArray
 
 from handeye.core.pose import Array
-from handeye.tasks.water_pump.world.dimensions import Point, base_top, dimensions, screw_holes, web_centre
+from handeye.tasks.stanford_cell.dimensions import Point, base_top, dimensions, screw_holes, web_centre
 
 Surface = tuple[Array, NDArray[np.int32]]
 """Vertices, shape (n, 3), m, and triangles, shape (m, 3)."""

@@ -5,9 +5,9 @@ from typing import Final
 
 import mujoco
 
+from handeye.tasks.stanford_cell.dimensions import dimensions
+from handeye.tasks.stanford_cell.shapes import Bore, Shaper, body_inertia
 from handeye.tasks.water_pump.scene.fixtures import Fixture, add_fixture
-from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
-from handeye.tasks.water_pump.world.dimensions import dimensions
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.stations import Station
 

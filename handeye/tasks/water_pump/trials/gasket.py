@@ -12,10 +12,10 @@ from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import CLOSE_UP
 from handeye.program.program import Part
+from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, standard
 from handeye.tasks.trial import Attempt, Count, Known, Trial
 from handeye.tasks.water_pump.trials.known_camera import known_camera
 from handeye.tasks.water_pump.trials.still_pump import Place, StillPump, look, pump_base, put_base
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, standard
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.vision.camera_model import View
 from handeye.vision.gasket import inspect

@@ -11,10 +11,10 @@ from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import CLOSE_UP, WIDE, Picture, TvCamera
 from handeye.program.program import Hole, Part
+from handeye.tasks.stanford_cell.arm import ARM
+from handeye.tasks.stanford_cell.dimensions import PARK, base_top, dimensions, pin_seat, screw_holes
 from handeye.tasks.water_pump.scene import build
-from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.tasks.water_pump.world.dimensions import base_top, dimensions, pin_seat, screw_holes
-from handeye.tasks.water_pump.world.nominal import DRAWING, PARK
+from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.variation import BELT_LINE, BELT_X, BELT_Y
 from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific

@@ -1,20 +1,13 @@
-"""The pump's cell as drawn: where the arm is parked, where its camera stands, and how the arm shows its lamp to it."""
+"""The pump's cell as drawn: where its camera stands, and how the arm shows its lamp to it."""
 
 from collections.abc import Iterator
 from typing import Final
-
-import numpy as np
 
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
 from handeye.execution.calibration_look import CalibrationLook
 from handeye.ports.camera import CLOSE_UP, LENSES, WIDE
 from handeye.vision.camera_model import CameraModel, LensModel
-
-PARK: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [
-    DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE
-]  # fmt: skip
-"""Hand at (20, 28, 8) in, pointing down. Layout study, section 2."""
 
 DRAWING: Final = CameraModel(
     mount=(34 * INCH, 68 * INCH, 54 * INCH),

@@ -5,18 +5,15 @@ from typing import Self
 
 import numpy as np
 
-from handeye.cell.device_errors import ArmBuild, ArmErrors, CameraErrors, HandErrors
+from handeye.cell.device_errors import CameraErrors
 from handeye.cell.raster import Raster
-from handeye.core.pose import Array, Pose, pose, rotation, rotation_x, rotation_z
-from handeye.core.units import UNITS
+from handeye.core.pose import Pose, pose, rotation, rotation_x, rotation_z
 from handeye.core.variation import Overrides, World, WorldSpec
-from handeye.tasks.water_pump.world.dimensions import Point, dimensions, screw_holes
+from handeye.tasks.stanford_cell.arm_world import ArmWorld, arm_values
+from handeye.tasks.stanford_cell.dimensions import Point, dimensions, screw_holes
 from handeye.tasks.water_pump.world.stations import stations
 from handeye.tasks.water_pump.world.variation import (
-    ARM_CENTRE,
-    ARM_PERIOD,
     DRILLED,
-    JOINT_UNITS,
     RUBBING,
     SEVENTH,
     STOOD,
@@ -56,29 +53,21 @@ class Placing:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PumpWorld:
+class PumpWorld(ArmWorld):
     """One drawn world."""
 
-    drawn: World
     base: Placing
     """The pump base on the belt: its reference point and the direction of its line of centres, in W."""
-    arm: ArmErrors
-    arm_build: ArmBuild
-    hand: HandErrors
     camera: CameraErrors
     light: Light
     fixtures: dict[str, Placing]
     """Error of each fixture."""
     parts: dict[str, Placing]
     """Error of each part's place on its fixture, by its body; pins have none."""
-    lamp: tuple[float, float, float]
-    """Error of the lamp's place on the hand, in T, m."""
     holes: dict[str, tuple[Point, ...]]
     """Error of each screw hole of a part, m, by the names in DRILLED; the base's are the tapped ones."""
     part_mass: float
     """Scale of the masses of base and top."""
-    friction: dict[str, float]
-    """Scales of the coefficients of friction, by the names in RUBBING."""
     thread_phase: tuple[float, ...]
     """Angle at which each thread starts, rad."""
 
@@ -86,11 +75,8 @@ class PumpWorld:
     def of(cls, world: World) -> Self:
         """The values of a drawn world, sorted by device and part."""
         return cls(
-            drawn=world,
+            **arm_values(world, RUBBING),
             base=_placing(world, "base"),
-            arm=_arm(world),
-            arm_build=_arm_build(world),
-            hand=_hand(world),
             camera=_camera(world),
             light=Light(
                 zenith=world["light.zenith"],
@@ -100,10 +86,8 @@ class PumpWorld:
             ),
             fixtures={station: _placing(world, f"fixtures.{station}") for station in stations()},
             parts=_parts(world),
-            lamp=(world["hand.lamp.x"], world["hand.lamp.y"], world["hand.lamp.z"]),
             holes={part: _drilling(world, part) for part in DRILLED},
             part_mass=1 + world["part_mass"],
-            friction={name: 1 + world[f"friction.{name}"] for name in RUBBING},
             thread_phase=world.numbered("thread_phase"),
         )
 
@@ -136,10 +120,6 @@ class PumpWorld:
         drawn = screw_holes(self.screws)
         return tuple((x + dx, y + dy) for (x, y), (dx, dy) in zip(drawn, self.holes[part], strict=True))
 
-    def generator(self, stream: str) -> np.random.Generator:
-        """A source of noise of this world; different `stream`s are independent."""
-        return self.drawn.generator(stream)
-
 
 def _placing(world: World, name: str) -> Placing:
     """The placement error of a name; zero where it has no quantity."""
@@ -167,51 +147,6 @@ def _in_play(world: World, name: str, play: float) -> Placing:
 def _drilling(world: World, part: str) -> tuple[Point, ...]:
     holes = range(1, screws(world.spec.seed) + 1)
     return tuple((world[f"holes.{part}.{hole}.x"], world[f"holes.{part}.{hole}.y"]) for hole in holes)
-
-
-def _arm(world: World) -> ArmErrors:
-    size = np.array([UNITS[unit].size for unit in JOINT_UNITS])
-    return ArmErrors(
-        offset=_joints(world, "offset"),
-        scale=_joints(world, "scale"),
-        wave=_joints(world, "wave"),
-        period=np.array(ARM_PERIOD) * size,
-        phase=_joints(world, "wave_phase"),
-        centre=np.array(ARM_CENTRE) * size,
-        pot_noise=_joints(world, "pot_noise"),
-        pot_step=_joints(world, "pot_step"),
-        tachometer_noise=_joints(world, "tachometer_noise"),
-        tachometer_step=_joints(world, "tachometer_step"),
-        torque_step=_joints(world, "torque_step"),
-        drive_gain=1 + _joints(world, "drive_gain"),
-    )
-
-
-def _arm_build(world: World) -> ArmBuild:
-    return ArmBuild(
-        link_mass=1 + _joints(world, "link_mass"),
-        mass_centre=1 + _joints(world, "mass_centre"),
-        armature=1 + _joints(world, "armature"),
-        damping=1 + _joints(world, "damping"),
-        friction=_joints(world, "friction"),
-        hand_length=world["arm.hand_length"],
-    )
-
-
-def _joints(world: World, name: str) -> Array:
-    """A quantity of each joint, shape (6,)."""
-    return np.array(world.numbered(f"arm.{name}"))
-
-
-def _hand(world: World) -> HandErrors:
-    return HandErrors(
-        gap_offset=world["hand.gap_offset"],
-        gap_scale=world["hand.gap_scale"],
-        gap_noise=world["hand.gap_noise"],
-        gap_step=world["hand.gap_step"],
-        switch_force=(world["hand.switch_force.plus_y"], world["hand.switch_force.minus_y"]),
-        torque_noise=world["screwdriver.torque_noise"],
-    )
 
 
 def _camera(world: World) -> CameraErrors:

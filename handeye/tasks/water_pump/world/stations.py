@@ -9,7 +9,7 @@ from enum import StrEnum
 from handeye.core.errors import BadFile
 from handeye.core.obb import Box
 from handeye.program.program import Fixture
-from handeye.tasks.water_pump.world.dimensions import dimensions
+from handeye.tasks.stanford_cell.dimensions import dimensions
 
 
 class Station(StrEnum):

@@ -10,13 +10,13 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.device_errors import ArmBuild
 from handeye.core.pose import Array, yaw
 from handeye.core.resources import scenes
-from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.tasks.stanford_cell.arm_world import ArmWorld
 
 ARM: Final = "stanford/"
 """Prefix of all names of the arm."""
 
 
-def add_arm(spec: mujoco.MjSpec, world: PumpWorld) -> None:
+def add_arm(spec: mujoco.MjSpec, world: ArmWorld) -> None:
     """The arm on its riser, as it was really built, and with the world's pad friction."""
     arm = mujoco.MjSpec.from_file(str(scenes() / "stanford_arm" / "stanford.xml"))
     _differ(arm, world.arm_build)

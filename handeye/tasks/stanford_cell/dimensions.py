@@ -6,12 +6,19 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
+import numpy as np
+
 from handeye.core.errors import BadFile
 from handeye.core.pose import Pose, planar
 from handeye.core.resources import scenes
 from handeye.core.units import DEGREE, INCH
 
 Point = tuple[float, float]
+
+PARK: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [
+    DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE
+]  # fmt: skip
+"""Where the arm is parked: hand at (20, 28, 8) in, pointing down. Layout study, section 2."""
 
 UNITS: Final = {
     "in": INCH,

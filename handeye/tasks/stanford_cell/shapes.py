@@ -152,3 +152,18 @@ def box_moments(mass: float, size: Vector) -> list[float]:
     """Principal moments of a uniform box of full lengths `size` (m)."""
     x, y, z = size
     return [mass * (y * y + z * z) / 12, mass * (x * x + z * z) / 12, mass * (x * x + y * y) / 12]
+
+
+def towards(view: Array) -> list[float]:
+    """Quaternion of a frame whose -z axis points along `view`, x level."""
+    z = -view / np.linalg.norm(view)
+    x = np.cross((0.0, 0.0, 1.0), z)
+    x /= np.linalg.norm(x)
+    quat = np.zeros(4)
+    mujoco.mju_mat2Quat(quat, np.column_stack([x, np.cross(z, x), z]).ravel())
+    return [float(value) for value in quat]
+
+
+def add_camera(spec: mujoco.MjSpec, name: str, eye: Array, at: Array) -> mujoco.MjsCamera:
+    """A camera at `eye` that looks at `at`, upright (m)."""
+    return spec.worldbody.add_camera(name=name, pos=eye.tolist(), quat=towards(at - eye))

@@ -1,0 +1,88 @@
+"""The arm and the hand of a drawn world: what a cell with them is built from."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from handeye.cell.device_errors import ArmBuild, ArmErrors, HandErrors
+from handeye.core.pose import Array
+from handeye.core.units import UNITS
+from handeye.core.variation import World
+from handeye.tasks.stanford_cell.arm_variation import ARM_CENTRE, ARM_PERIOD, JOINT_UNITS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArmWorld:
+    """One drawn world of a cell with the Stanford arm."""
+
+    drawn: World
+    arm: ArmErrors
+    arm_build: ArmBuild
+    hand: HandErrors
+    lamp: tuple[float, float, float]
+    """Error of the lamp's place on the hand, in T, m."""
+    friction: dict[str, float]
+    """Scales of the coefficients of friction, by kinds of shapes; `pad`: those of the fingers."""
+
+    def generator(self, stream: str) -> np.random.Generator:
+        """A source of noise of this world; different `stream`s are independent."""
+        return self.drawn.generator(stream)
+
+
+def arm_values(world: World, rubbing: Sequence[str]) -> dict[str, Any]:
+    """Values of an `ArmWorld` by its fields; `rubbing`: the kinds of shapes whose friction differs."""
+    return {
+        "drawn": world,
+        "arm": _arm(world),
+        "arm_build": _arm_build(world),
+        "hand": _hand(world),
+        "lamp": (world["hand.lamp.x"], world["hand.lamp.y"], world["hand.lamp.z"]),
+        "friction": {name: 1 + world[f"friction.{name}"] for name in rubbing},
+    }
+
+
+def _arm(world: World) -> ArmErrors:
+    size = np.array([UNITS[unit].size for unit in JOINT_UNITS])
+    return ArmErrors(
+        offset=_joints(world, "offset"),
+        scale=_joints(world, "scale"),
+        wave=_joints(world, "wave"),
+        period=np.array(ARM_PERIOD) * size,
+        phase=_joints(world, "wave_phase"),
+        centre=np.array(ARM_CENTRE) * size,
+        pot_noise=_joints(world, "pot_noise"),
+        pot_step=_joints(world, "pot_step"),
+        tachometer_noise=_joints(world, "tachometer_noise"),
+        tachometer_step=_joints(world, "tachometer_step"),
+        torque_step=_joints(world, "torque_step"),
+        drive_gain=1 + _joints(world, "drive_gain"),
+    )
+
+
+def _arm_build(world: World) -> ArmBuild:
+    return ArmBuild(
+        link_mass=1 + _joints(world, "link_mass"),
+        mass_centre=1 + _joints(world, "mass_centre"),
+        armature=1 + _joints(world, "armature"),
+        damping=1 + _joints(world, "damping"),
+        friction=_joints(world, "friction"),
+        hand_length=world["arm.hand_length"],
+    )
+
+
+def _joints(world: World, name: str) -> Array:
+    """A quantity of each joint, shape (6,)."""
+    return np.array(world.numbered(f"arm.{name}"))
+
+
+def _hand(world: World) -> HandErrors:
+    return HandErrors(
+        gap_offset=world["hand.gap_offset"],
+        gap_scale=world["hand.gap_scale"],
+        gap_noise=world["hand.gap_noise"],
+        gap_step=world["hand.gap_step"],
+        switch_force=(world["hand.switch_force.plus_y"], world["hand.switch_force.minus_y"]),
+        torque_noise=world.values.get("screwdriver.torque_noise", 0.0),
+    )
