@@ -1,6 +1,7 @@
 """The import rules of docs/design.md, read off the source."""
 
 import ast
+import re
 import subprocess
 import sys
 from functools import cache
@@ -237,6 +238,31 @@ def test_only_tasks_and_systems_name_their_robots() -> None:
         if room(m) not in {"arm", "tasks", "systems"}
     }
     assert {module: named for module, named in robots.items() if named} == {}
+
+
+def test_no_system_is_named_outside_of_its_folder() -> None:
+    name = re.compile(r"\bTRIG\b|\btrig\b|Trig[A-Z]|[Tt]aught job|[Pp]alletis|\bbucket\b|systems\.stanford")
+    found = {m for m in MODULES if room(m) != "systems" and name.search(source(m))}
+    assert found == {"__init__", "core.entries"}  # a name of the Python API, and where entries are found
+
+
+def test_nobody_asks_of_which_class_a_system_is() -> None:
+    classes = {"System", "RunningSystem", "Listing", "ExecutionState"}
+    for module in among("systems"):
+        for node in ast.walk(ast.parse(source(module))):
+            bases = {ast.unparse(base) for base in node.bases} if isinstance(node, ast.ClassDef) else set()
+            if isinstance(node, ast.ClassDef) and bases & {"System", "RunningSystem", "SystemState"}:
+                classes.add(node.name)
+    asked = {
+        (module, name.id)
+        for module in MODULES
+        if room(module) != "systems"
+        for node in ast.walk(ast.parse(source(module)))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "isinstance"
+        for name in ast.walk(node.args[1])
+        if isinstance(name, ast.Name) and name.id in classes
+    }
+    assert asked == set()
 
 
 def test_what_shows_runs_drives_none() -> None:

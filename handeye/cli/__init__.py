@@ -29,7 +29,7 @@ app = App(
     console=screen,
     error_console=notes,
 )
-add_commands(app, COMMANDS)
+add_commands(app, COMMANDS, __package__)
 for entry in entries().values():
     add_commands(app, entry.commands)
 completion.register(app)

@@ -56,7 +56,7 @@ bench timing = benches:timing: Assemble once and print the timing table beside t
 bench insertion = benches:insertion: Put one pin into one hole, many times: success, peak force, and time from the first contact to seated.
 """  # noqa: E501
 """`NAME = MODULE:FUNCTION: SENTENCE` of each command, with the sentence that lists say of it, which is the first one of
-its docstring; a group of commands has no function. Modules are those of this folder, or have their full name."""
+its docstring; a group of commands has no function. Modules are those of this folder."""
 
 
 class _Command(CommandSpec):
@@ -66,8 +66,12 @@ class _Command(CommandSpec):
         return super().resolve(parent_app)
 
 
-def add_commands(app: App, table: str) -> None:
-    """Add the commands of a table to those there are; a group stands above its commands."""
+def add_commands(app: App, table: str, folder: str = "") -> None:
+    """Add the commands of a table to those there are, which stay; a group stands above its commands.
+
+    Args:
+        folder: the package whose modules the table names; empty: it gives their full names.
+    """
     for line in table.strip().splitlines():
         named, sentence = line.split(": ", 1)
         name, _, path = named.partition(" = ")
@@ -78,5 +82,5 @@ def add_commands(app: App, table: str) -> None:
         if not path:
             group.command(App(name=last, help=sentence))
             continue
-        path = path if "." in path else f"{__package__}.{path}"
-        group._commands[last] = _Command(import_path=path, name=last, help=sentence)
+        path = f"{folder}.{path}" if folder else path
+        group._commands.setdefault(last, _Command(import_path=path, name=last, help=sentence))

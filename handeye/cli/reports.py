@@ -96,8 +96,10 @@ def page_of(run: Path) -> bytes:
     Raises:
         InvalidInput: there is none, or an older handeye recorded it.
     """
+    from handeye.core.entries import entry_named
     from handeye.report.animation import animation
     from handeye.report.facts.scene import check_scene
+    from handeye.report.page.account_page import account_page
     from handeye.report.page.document import report_page
     from handeye.report.photographs import album
     from handeye.runs.systems import system_of_files
@@ -106,6 +108,8 @@ def page_of(run: Path) -> bytes:
     if own is not None and (page := own.page(run)) is not None:
         return page
     recorded = read_recorded(run)
+    if "plans" not in entry_named(recorded.trace.head.system).can:
+        return account_page(recorded)
     check_scene(recorded)
     return report_page(recorded, album(recorded), animation(recorded))
 

@@ -4,7 +4,7 @@ A system is a folder of `handeye/systems`, or a package of somebody else's that 
 `handeye.systems`. An entry is data: names, sentences, and where the rest is found, as `module:NAME`.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from importlib import import_module
 from typing import Any, Final, Literal
 
@@ -12,7 +12,7 @@ from msgspec import field
 
 from handeye.core.diagnostics import quoted
 from handeye.core.entry_points import entry_points
-from handeye.core.errors import BadArgument, NoSuchName, Refused
+from handeye.core.errors import BadFile, NoSuchName, Refused
 from handeye.core.record import Record
 
 GROUP: Final = "handeye.systems"
@@ -82,26 +82,32 @@ def entries() -> Mapping[str, Entry]:
     return {entry.name: entry for entry in (*_installed(), *_registered.values())}
 
 
-def _installed() -> Iterator[Entry]:
+def _installed() -> list[Entry]:
     if not _found:
         _found.extend(loaded(place) for place in OWN)
-        _found.extend(_checked(name, loaded(place)) for name, place in entry_points(GROUP).items())
-    yield from _found
+        for name, place in entry_points(GROUP).items():
+            try:
+                entry = loaded(place)
+            except Exception as error:
+                _broken[name] = f"{type(error).__name__}: {error}"
+                continue
+            if isinstance(entry, Entry):
+                _found.append(entry)
+            else:
+                _broken[name] = f"its entry point leads to {entry!r}, which is no Entry"
+    return _found
 
 
 _found: Final[list[Entry]] = []
-
-
-def _checked(name: str, entry: object) -> Entry:
-    """Raises BadArgument unless an entry point leads to an entry."""
-    if not isinstance(entry, Entry):
-        raise BadArgument(f"the entry point {quoted(name)} of {GROUP} leads to {entry!r}, which is no Entry")
-    return entry
+_broken: Final[dict[str, str]] = {}
+"""Why the entries of installed packages cannot be used, by the names of their entry points."""
 
 
 def entry_named(name: str) -> Entry:
     """The entry of a system; raises NoSuchName if there is none of that name."""
     known = entries()
+    if name in _broken:
+        raise BadFile(f"the system {quoted(name)} cannot be loaded: {_broken[name]}")
     if name not in known:
         raise NoSuchName(f"there is no system {quoted(name)} here; there are {', '.join(known)}")
     return known[name]

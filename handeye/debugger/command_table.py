@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Final
 
 from handeye.core.diagnostics import quoted
+from handeye.core.entries import Capability
 from handeye.core.errors import NoSuchName, Refused
 from handeye.debugger import commands as acts
 from handeye.debugger.breakpoints import meant
@@ -34,11 +35,26 @@ def find(line: str) -> tuple[StepperCommand, str]:
 
 def commands_of(runner: Runner) -> tuple[StepperCommand, ...]:
     """The commands that do something in a run, with what they do there."""
-    words = runner.kind.words
-    without = (*words.without, *(() if "console" in runner.kind.entry.can else ("type",)))
+    words, can = runner.kind.words, runner.kind.entry.can
+    unable = {name for name, capability in _ASKING.items() if capability not in can}
     return tuple(
-        replace(c, help=words.commands.get(c.usage, c.help)) for c in COMMANDS if c.name not in without
+        replace(each, help=words.commands.get(each.usage, each.help))
+        for command in COMMANDS
+        if command.name not in unable.union(words.without)
+        for each in (_settings(command, runner) if command.name == "set" else [command])
     )
+
+
+_ASKING: Final[dict[str, Capability]] = {"undo": "undo", "type": "console"}
+"""Commands that ask for what not every system can."""
+
+
+def _settings(command: StepperCommand, runner: Runner) -> list[StepperCommand]:
+    """The command that sets something, once for each kind that can be set."""
+    return [
+        replace(command, usage=f"set {kind} {settable.usage}", help=f"set a {settable.noun}")
+        for kind, settable in runner.system.settables().items()
+    ]
 
 
 def manual(runner: Runner) -> str:
@@ -125,12 +141,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
         help="write the last picture, with what was found in it, to a new PNG file",
     ),
     Command(
-        usage="set saved NAME x y z", group=_TRYING, act=acts.experiment,
-        help="set a saved difference",
-    ),
-    Command(
-        usage="set position NAME x y z [o a t]", group=_TRYING, act=acts.experiment,
-        help="set a position, in the frame that `show positions` shows",
+        usage="set KIND NAME x y z", group=_TRYING, act=acts.experiment, help="set what the program remembers"
     ),
     Command(
         usage="type TASK TEXT", group=_TRYING, act=acts.type_line,

@@ -38,7 +38,7 @@ PURBRICK: Final = ArmMachine(
         closed=-0.020,  # it never gets there, and so presses with all its force
         grasping=0.2,
         carried=0.28,  # an ounce: a block weighs as much
-        # Measured: at most 1.8 on the way back of a palletiser of four blocks, where closed fingers come back to the
+        # Measured: at most 1.8 on the way back of a stack of four blocks, where closed fingers come back to the
         # stack; 5.8 and more where a block was pressed a third of a millimetre too deep on it.
         resistance=3.0,
     ),

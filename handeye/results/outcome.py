@@ -19,10 +19,10 @@ def outcome(
 
     Args:
         meter: measures what the run costs the host.
-        judged: the referee is called to a run that has ended.
+        judged: the referee is called to a run that has ended, if it acts on a cell.
         referee: takes the place of the task's.
     """
-    asked = judged and pause.kind != "break"
+    asked = judged and pause.kind != "break" and runner.system.cell is not None
     found = findings(runner, pause, referee) if asked else None
     built = runner.system.built() if asked and runner.undone else {}
     result = summary(runner, pause, findings=found, built=built, host=meter.seconds(runner))

@@ -306,7 +306,7 @@ class StepperWords:
     units: str = "those of the system"
     commands: Mapping[str, str] = field(default_factory=dict)
     """Help on commands that do something of their own, by usage."""
-    without: tuple[str, ...] = ("picture", "set")
+    without: tuple[str, ...] = ("picture",)
     """Names of commands that do nothing."""
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from handeye.cell.photograph import Photograph, Photographer
 from handeye.cell.posed import posed
+from handeye.core.entries import require
 from handeye.core.errors import BadFile, Taken
 from handeye.core.files import check_place, write_over
 from handeye.report.facts.scene import check_scene
@@ -55,6 +56,7 @@ def make_video(
         InvalidInput: there can be no such video, it cannot be written there, the run is of another scene, or there
             is no OpenGL here.
     """
+    require(trace.head.system, "video", trace.name)
     form = format_of(path)
     check_place(path, form.kind)
     if path.exists() and not overwrite:

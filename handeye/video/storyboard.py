@@ -12,7 +12,7 @@ from handeye.core.pose import Array
 from handeye.program.stage_names import stage_index
 from handeye.report.facts.seen import SeenPicture
 from handeye.report.page.figures import clock
-from handeye.trace.planned import plan_of
+from handeye.trace.planned import stage_names
 from handeye.trace.stages import BROKEN_OFF, Stage
 from handeye.trace.trace import SHOWN, Trace
 from handeye.video.captions import Caption
@@ -63,7 +63,7 @@ def storyboard(trace: Trace, wanted: Wanted) -> Storyboard:
     at, over = passage_at(lasts, np.linspace(0, lasts.sum(), frames))
     chosen = [shown[number] for number in at]
     eyes = views(trace, wanted.camera, [passage.stage for passage in chosen], RATE)
-    program = _stages(trace)
+    program = stage_names(trace)
     return Storyboard(
         frames=tuple(
             Frame(
@@ -90,7 +90,7 @@ def _span(trace: Trace, wanted: Wanted) -> Span:
     Raises:
         InvalidInput: there is no such stage, or nothing between them.
     """
-    program, (begin, end) = _stages(trace), trace.covers
+    program, (begin, end) = stage_names(trace), trace.covers
     first, last = (
         None if given is None else stage_index(str(given), program) for given in (wanted.first, wanted.last)
     )
@@ -115,11 +115,6 @@ def _recorded(trace: Trace, name: str) -> list[Stage]:
         there = ", ".join(map(quoted, dict.fromkeys(stage.name for stage in stages)))
         raise BadArgument(f"{trace.name} does not show stage {quoted(name)}, but {there or 'none'}")
     return found
-
-
-def _stages(trace: Trace) -> tuple[str, ...]:
-    """The stages of the program."""
-    return plan_of(trace).program.stages
 
 
 def _paced(shown: tuple[Passage, ...], wanted: Wanted) -> tuple[Array, int]:

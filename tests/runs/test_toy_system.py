@@ -138,7 +138,8 @@ def test_its_trace_tells_what_happened_and_verifies(tmp_path: Path) -> None:
     trace = read_trace(traced(begin_toy(1), tmp_path / "run"))
     assert [line.strip() for line in account(trace.events)][:5] == [
         "toy: 6 steps",
-        f"plan {trace.head.plan};",
+        f"plan {trace.head.plan}; "
+        + ", ".join(f"{name} {version}" for name, version in trace.head.versions.items()),
         "",
         "COUNT: done in 4.0 s",
         "0.00     1  ADD A 1",

@@ -1,16 +1,20 @@
 """A counter machine, the second system: registers, and lines that add to one, jump while one is positive, or call.
 
-It has no arm, no cell and no physics; a line takes a second.
+It has no arm, no cell and no physics; a line takes a second. A program may have several tasks, which go on together.
 """
 
 from typing import ClassVar
 
 import msgspec
+from toy_entry import ENTRY
+from toy_events import CountTold
 
-from handeye.core.entries import Entry, register
+from handeye.core.entries import register
 from handeye.core.errors import InvalidInput
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
+from handeye.core.versions import versions
+from handeye.execution.scheduler import Agenda
 from handeye.planfile.store import written_digest
 from handeye.ports.camera import Renderer
 from handeye.program.events import (
@@ -24,10 +28,13 @@ from handeye.program.events import (
     StepFinished,
     StepStarted,
 )
-from handeye.program.system_state import SystemState
+from handeye.program.system_state import SystemState, TaskPlace
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.system import RunningSystem, Settable, Surroundings, System
+from handeye.runs.system import RunningSystem, Settable, StepperWords, Surroundings, System
+
+SECOND = 1_000_000
+"""Microseconds of the machine's clock that a line takes."""
 
 
 class Line(Record, frozen=True, kw_only=True):
@@ -58,6 +65,9 @@ class Lines(Record, frozen=True, kw_only=True):
     name: str = "toy"
     stages: tuple[str, ...] = ("count",)
     steps: tuple[Line, ...]
+    tasks: dict[str, int] = msgspec.field(default_factory=dict)
+    """The step that each task begins with; none: all steps are of one."""
+    task: str = "counting"
     required: ClassVar[dict[str, str]] = {}
     errors: ClassVar[tuple[int, ...]] = ()
 
@@ -73,8 +83,21 @@ class Lines(Record, frozen=True, kw_only=True):
 class Registers(SystemState, kw_only=True):
     """What the counter machine remembers."""
 
+    cursors: dict[str, int] = msgspec.field(default_factory=dict)
+    """The step that each task does next."""
+    turn: str = ""
+    """The task that goes on next."""
+    agenda: Agenda[int] = msgspec.field(default_factory=lambda: Agenda(now=0))
+
     time: float = 0.0
     values: dict[str, int] = msgspec.field(default_factory=dict)
+
+    @property
+    def places(self) -> tuple[TaskPlace, ...]:
+        if not self.cursors:
+            return super().places
+        waits = self.agenda.waits
+        return tuple(TaskPlace(task, step, waits.get(task, "")) for task, step in self.cursors.items())
 
 
 class CounterMachine(RunningSystem):
@@ -100,9 +123,38 @@ class CounterMachine(RunningSystem):
         steps, plan = self._lines.steps, written_digest(encoded(self._lines))
         begun = RunStarted(
             system="toy", time=0.0, program="toy", steps=len(steps), plan=plan, arm="", arm_digest="",
-            world=self._setup.world, camera=Renderer(method="none"), versions={},
+            world=self._setup.world, camera=Renderer(method="none"), versions=versions(), task=self._setup.task,
         )  # fmt: skip
+        for task, first in self._lines.tasks.items():
+            self._state.cursors[task] = first
+            self._state.agenda.add(task)
+        self._take_turns()
         return [begun]
+
+    def _take_turns(self) -> None:
+        """Find the task that goes on next, if there are several."""
+        state = self._state
+        if self._lines.tasks:
+            state.turn = state.agenda.turn(self._met, lambda time: time) or ""
+            state.at = state.cursors.get(state.turn)
+            state.time = state.agenda.now / SECOND
+
+    def _met(self, task: str) -> bool:
+        register, _, least = self._state.agenda.waits[task].partition(" ")
+        return self._state.values.get(register, 0) >= int(least)
+
+    def _go_on(self, line: Line, onward: int | None) -> None:
+        """Let the task that had its turn stand at its next line."""
+        state, task = self._state, self._state.turn
+        if onward is None:
+            del state.cursors[task]
+            state.agenda.end(task)
+            return
+        state.cursors[task] = onward
+        if line.word == "WAIT":
+            state.agenda.wait(task, line.text.removeprefix("WAIT "))
+        else:
+            state.agenda.sleep(task, SECOND)
 
     def step(self) -> None:
         at = self._state.at
@@ -112,11 +164,15 @@ class CounterMachine(RunningSystem):
         self._around.emit(StepStarted(time=self.time, step=at, line=line.line, text=line.text))
         onward = self._interpret(line)
         self._state.at = onward
+        if self._lines.tasks:
+            self._go_on(line, onward)
         self._around.emit(StepFinished(time=self.time, step=at, hand=None, planned=None, gap=None))
         if line.word == "CALL":
             self._state.stopped = OperatorCalled(time=self.time, message="the operator is wanted", error=None)
             self._around.emit(self._state.stopped)
             self._state.at, self._state.onward = None, onward
+        else:
+            self._take_turns()
         self._leave()
 
     def _interpret(self, line: Line) -> int | None:
@@ -125,6 +181,9 @@ class CounterMachine(RunningSystem):
         self._state.time += 1.0
         if word == "ADD":
             values[register_name] = values.get(register_name, 0) + int(operand[0])
+        if word == "TELL":
+            held = values.get(register_name, 0)
+            self._around.emit(CountTold(time=self.time, register=register_name, value=held))
         if word == "JUMP" and values.get(register_name, 0) > 0:
             return line.ways[-1]
         return line.ways[0]
@@ -193,6 +252,12 @@ class ToySystem(System):
     """Programs of the counter machine."""
 
     name, plan, state = "toy", Lines, Registers
+    words = StepperWords(
+        about=("The counter machine counts a line at a time; the arrow stands before the next one.",),
+        units="lines and seconds",
+        commands={"retry": "count from the first line"},
+        without=("picture",),
+    )
 
     def encode(self, plan: Lines) -> bytes:
         return encoded(plan)
@@ -208,7 +273,7 @@ class ToySystem(System):
 
 
 TOY = ToySystem()
-register(Entry(name="toy", title="the counter machine", help="Counts.", system="toy_system:TOY"))
+register(ENTRY)
 
 
 def counting(times: int = 5) -> Lines:

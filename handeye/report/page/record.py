@@ -31,7 +31,7 @@ from handeye.trace.sentences import renderer_name
 def record_section(run: Recorded) -> Markup:
     """The section."""
     return section(
-        "record", "World, versions, and how to do it again", *_again(run), _facts(run), *_world(run)
+        "record", "World, versions, and how to do it again", *_again(run), facts(run), *_world(run)
     )
 
 
@@ -49,7 +49,8 @@ def _again(run: Recorded) -> Iterator[Markup]:
         yield note("plan.json is the plan in the folder of the run.")
 
 
-def _facts(run: Recorded) -> Markup:
+def facts(run: Recorded) -> Markup:
+    """What the run hangs on, a line each."""
     head = run.trace.head
     rows: list[tuple[str, Child]] = [*_overrides(run)]
     rows += [

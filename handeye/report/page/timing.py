@@ -22,6 +22,7 @@ from handeye.report.page.plots import bar, drawing
 from handeye.report.recorded import Recorded
 from handeye.tasks import known
 from handeye.tasks.interface import HistoricalTiming
+from handeye.trace.planned import stage_names
 from handeye.trace.stats import Figures, StageFigures, statistics
 
 _WIDE: Final = 300.0
@@ -131,7 +132,7 @@ def _stage(number: int, stage: StageFigures, begin: float, longest: float) -> li
 
 def _unreached(run: Recorded, stages: list[StageFigures]) -> Iterator[tuple[int, str]]:
     begun = {stage.stage for stage in stages}
-    left = [name for name in run.program.stages if name not in begun]
+    left = [name for name in stage_names(run.trace) if name not in begun]
     return enumerate(left, len(stages) + 1)
 
 

@@ -316,6 +316,9 @@ class PlanSystem(System):
             "stage or a piece of its name, or an error (error:23). WHAT is one of",
         ),
         units="inches, degrees, ounces",
+        commands={
+            "set position NAME x y z [o a t]": "set a position, in the frame that `show positions` shows",
+        },
         without=(),
     )
 
