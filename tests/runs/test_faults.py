@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from short_runs import begin, history, through
 
-from handeye.cell.signal_lines import DefectState, LinesState
+from handeye.cell.signal_lines import DefectState, SignalLinesState
 from handeye.core.errors import InvalidInput
 from handeye.core.faults import Fault
 from handeye.program.events import RunStarted
@@ -42,7 +42,7 @@ def start(*faults: Fault) -> Checkpoint:
 def defect(runner: Runner) -> DefectState:
     """The state of the one defect of a run's cell."""
     state = runner.cell.truth.states["lines"]
-    assert isinstance(state, LinesState)
+    assert isinstance(state, SignalLinesState)
     (found,) = state.defects
     return found
 
