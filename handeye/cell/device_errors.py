@@ -19,7 +19,7 @@ class ArmErrors:
     wave: Array
     """Amplitude of the waviness of a potentiometer."""
     period: Array
-    """Wave number of the waviness."""
+    """Wavelength of the waviness."""
     phase: Array
     """Phase of the waviness, rad."""
     centre: Array

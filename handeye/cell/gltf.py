@@ -13,8 +13,7 @@ from trimesh.visual import ColorVisuals, TextureVisuals
 from trimesh.visual.material import PBRMaterial
 
 from handeye.cell.keyframe import body_pose
-from handeye.cell.solid_scene import SolidScene
-from handeye.cell.solids import Solid
+from handeye.cell.solids import Solid, SolidScene
 from handeye.core.pose import Array, Pose, inverse, pose
 
 FRAME: Final = "scene"

@@ -1,6 +1,7 @@
 """A simulated cell: a MuJoCo model, the devices in it, and what a task adds to its physics, under one clock."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, Final
 
 import mujoco
@@ -16,6 +17,7 @@ from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.sleep import asleep
 from handeye.cell.snapshot_cell import SnapshotCell
+from handeye.core.record import Vector3
 from handeye.ports.camera import Renderer
 from handeye.ports.clock import Clock, whole_steps
 from handeye.ports.workcell import Workcell
@@ -116,3 +118,14 @@ class SimulatedCell(Clock, SnapshotCell):
     def _read(self) -> None:
         for part in self._mechanisms:
             part.after()
+
+
+@contextmanager
+def pushed(cell: SimulatedCell, force: Vector3) -> Iterator[None]:
+    """Push the hand with a force (N, in W) for a while: an act of the experimenter, which no program can do."""
+    applied, body = cell.truth.data.xfrc_applied, cell.arm.last_link
+    applied[body, :3] = force
+    try:
+        yield
+    finally:
+        applied[body] = 0.0

@@ -1,13 +1,13 @@
-"""Solids of a scene by their names, as trimesh has them: closed surfaces, each with a colour.
+"""Solids of a scene by their names, as trimesh has them: coloured surfaces, whether they are closed, what they weigh.
 
 A surface that the scene has in pieces of several colours is one solid here. Where two colours meet, its corners have
 the lighter one: a surface is closed only if its faces share their corners, and a corner has one colour.
 """
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Self
 
 import mujoco
 import numpy as np
@@ -111,3 +111,56 @@ def _pose(quat: Array, place: Array) -> Pose:
     R = np.empty(9)
     mujoco.mju_quat2Mat(R, quat)
     return pose(R.reshape(3, 3), place)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Weighed:
+    """A body of solid metal, weighed by its volume."""
+
+    body: str
+    mass: float
+    """By volume and density, kg."""
+    mass_there: float
+    """In the scene, kg."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SolidScene:
+    """Bodies of a scene with their solids."""
+
+    spec: mujoco.MjSpec
+    model: mujoco.MjModel
+    """The specification, compiled."""
+    bodies: Mapping[str, tuple[Solid, ...]]
+    """By the names of bodies, as in the scene."""
+
+    @classmethod
+    def of(cls, spec: mujoco.MjSpec, wanted: Collection[str] | None) -> Self:
+        """Those of some bodies, by default of all, the world itself with what stands around for people included."""
+        model = spec.compile()
+        bodies = [body for body in spec.bodies if wanted is None or body.name in wanted]
+        return cls(
+            spec=spec, model=model, bodies={body.name: tuple(solids_of(spec, model, body)) for body in bodies}
+        )
+
+    @property
+    def open(self) -> tuple[str, ...]:
+        """Names of the solids whose surface is not closed."""
+        found = (solid for body in self.bodies.values() for solid in body if not solid.shape.is_watertight)
+        return tuple(dict.fromkeys(solid.name for solid in found))
+
+    def weighed(self, densities: Mapping[str, float]) -> Iterator[Weighed]:
+        """The bodies of which every solid has a density, by the names of the solids, kg/m3."""
+        for name, body in self.bodies.items():
+            if body and all(solid.name in densities for solid in body):
+                mass = float(self.model.body(name).mass[0])
+                yield Weighed(body=name, mass=_mass(body, densities), mass_there=mass)
+
+
+def _mass(body: Sequence[Solid], densities: Mapping[str, float]) -> float:
+    """Mass of solids by their volumes, kg; what lies in two of one density counts once."""
+    total = 0.0
+    for density in sorted({densities[solid.name] for solid in body}):
+        shapes = [placed(solid) for solid in body if densities[solid.name] == density]
+        total += density * float(trimesh.boolean.union(shapes).volume)
+    return total

@@ -5,8 +5,9 @@ import numpy as np
 
 from handeye.cell.camera import SimulatedCamera, true_camera
 from handeye.cell.device_errors import CameraErrors
+from handeye.cell.keyframe import body_pose
 from handeye.cell.renderers import make_renderer
-from handeye.core.pose import Array, Pose, pose
+from handeye.core.pose import Array, Pose
 from handeye.vision.camera_model import CameraModel
 
 
@@ -49,5 +50,4 @@ class StillCell:
 
     def pose(self, part: str) -> Pose:
         """`X_WP` of a body."""
-        body = self._data.body(part)
-        return pose(body.xmat.reshape(3, 3).copy(), body.xpos.copy())
+        return body_pose(self._data, part)

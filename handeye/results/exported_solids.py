@@ -6,7 +6,7 @@ from itertools import groupby
 from typing import Final
 
 from handeye.cell.gltf import glb
-from handeye.cell.solid_scene import SolidScene, Weighed
+from handeye.cell.solids import SolidScene, Weighed
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import NoSuchName
 from handeye.core.files import Kind

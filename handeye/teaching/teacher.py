@@ -12,7 +12,7 @@ from handeye.arm.ik import IKResult
 from handeye.arm.jog import jog
 from handeye.arm.line import pivot
 from handeye.arm.samples import Samples
-from handeye.cell.pushing import pushed
+from handeye.cell.simulated import pushed
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import CannotWrite, NoSuchName, Refused
 from handeye.core.files import write_whole

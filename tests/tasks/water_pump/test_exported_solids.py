@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from finished import exhibit, finished, finished_cell, put
 
-from handeye.cell.solid_scene import SolidScene, Weighed
+from handeye.cell.solids import SolidScene, Weighed
 from handeye.core.errors import InvalidInput
 from handeye.core.pose import Array, planar
 from handeye.results.exported_solids import ExportedSolids, agrees, checks, exported_solids
