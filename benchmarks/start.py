@@ -1,5 +1,6 @@
 """CPU seconds that commands take which move nothing, beside those of importing what every command rests on."""
 
+import os
 import resource
 import subprocess
 import sys
@@ -31,7 +32,8 @@ def starts(times: int) -> Iterator[tuple[str, float, float]]:
 
 
 def _cpu_s(call: list[str], folder: str) -> float:
+    compiled = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([sys.executable, *call], cwd=folder, capture_output=True, check=True)  # noqa: S603
+    subprocess.run([sys.executable, *call], cwd=folder, env=compiled, capture_output=True, check=True)  # noqa: S603
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

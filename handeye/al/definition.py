@@ -1,11 +1,11 @@
 """Definitions of instructions: operands, their units, and their role in the flow."""
 
-from dataclasses import dataclass
 from enum import Enum, StrEnum
 from typing import Final
 
 from handeye.al.syntax import Value
 from handeye.core import units
+from handeye.core.record import Record
 
 MAX_NUMBER: Final = 1e6  # keeps squares of numbers finite
 ANY: Final = "numbers in a program go up to a million"
@@ -15,8 +15,7 @@ AXES: Final = ("X", "Y", "Z")  # unit vectors where a vector stands; counted by 
 NIL: Final = "NIL"  # dialect of 1977: no force or moment
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class OperandUnit:
+class OperandUnit(Record, frozen=True, kw_only=True):
     """A unit as written, and its SI value."""
 
     name: str
@@ -47,8 +46,7 @@ class Refers(StrEnum):
     NEW = "new name"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Operand:
+class Operand(Record, frozen=True, kw_only=True):
     """One operand of an instruction, and what it accepts."""
 
     name: str  # in the manual
@@ -102,8 +100,7 @@ MOTION, MODIFIER, SHIFT, SKIP, JUMP, DECLARATION, STEP = (
 )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Instruction:
+class Instruction(Record, frozen=True, kw_only=True):
     """An instruction of the language."""
 
     op: str

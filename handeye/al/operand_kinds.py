@@ -1,7 +1,8 @@
 """Kinds of operands that instructions share."""
 
-from dataclasses import replace
 from typing import Final
+
+from msgspec.structs import replace
 
 from handeye.al.definition import (
     ANY,

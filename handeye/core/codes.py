@@ -1,14 +1,16 @@
 """Every kind of diagnostic, by code."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Final, Literal
+
+from msgspec import field
+
+from handeye.core.record import Record
 
 Severity = Literal["error", "warning"]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Code:
+class Code(Record, frozen=True, kw_only=True):
     """A kind of diagnostic, with a text that causes it and the files that text requires."""
 
     severity: Severity

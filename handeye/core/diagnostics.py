@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 from handeye.core.codes import CODES, Severity
+from handeye.core.record import Record
 from handeye.core.source import Source, Span
 
 LIMIT: Final = 20  # diagnostics per text
@@ -21,22 +22,19 @@ class Label:
     text: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class SimilarName:
+class SimilarName(Record, frozen=True):
     """A known name similar to the unknown one."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class KnownNames:
+class KnownNames(Record, frozen=True):
     """All known names, if they are few and none is similar."""
 
     names: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class MissingMark:
+class MissingMark(Record, frozen=True):
     """A missing mark after a word."""
 
     mark: str

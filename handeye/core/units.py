@@ -6,8 +6,9 @@ Inside the program every quantity is SI: metres, radians, newtons, newton metres
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
+
+from handeye.core.record import Record
 
 INCH: Final = 0.0254  # m, exact by definition
 MILLIMETRE: Final = 0.001  # m
@@ -20,8 +21,7 @@ GAP: Final = 0.105  # m, the widest opening of its hand [Scheinman's data sheet,
 PERCENT: Final = 0.01
 
 
-@dataclass(frozen=True, slots=True)
-class Unit:
+class Unit(Record, frozen=True):
     """A unit as written after a number, and its SI value."""
 
     name: str
@@ -52,8 +52,7 @@ UNITS: Final = {
 """Units by name; the last is that of a plain number."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Measures:
+class Measures(Record, frozen=True, kw_only=True):
     """The units in which a run's lengths and forces are shown."""
 
     length: Unit

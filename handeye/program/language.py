@@ -2,11 +2,11 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path, PurePath
 
 from handeye.core.diagnostics import Diagnostic
 from handeye.core.entries import entries, entry_of_file, loaded, refusal
+from handeye.core.record import Record
 from handeye.core.source import Source
 from handeye.program.diagnosis.plan_findings import PlanFinding
 from handeye.program.diagnosis.reach_text import NamedArm
@@ -17,8 +17,7 @@ Compiled = tuple[Program | None, list[Diagnostic]]
 """A program, None if there are errors, and diagnostics."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Language:
+class Language(Record, frozen=True, kw_only=True):
     """A scripting language."""
 
     name: str  # as stored in programs and plans

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
+
+from msgspec import field
 
 from handeye.arm.model import ArmModel, digest
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import Refused
 from handeye.core.faults import Catalogue
+from handeye.core.record import Record
 from handeye.core.units import INCHES, Measures
 
 if TYPE_CHECKING:  # a plan is made and checked without a simulator, and soon
@@ -30,8 +32,7 @@ if TYPE_CHECKING:  # a plan is made and checked without a simulator, and soon
     from handeye.vision.camera_model import CameraModel
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CameraSetup:
+class CameraSetup(Record, frozen=True, kw_only=True):
     """The television camera of a cell as the program knows it before it is calibrated."""
 
     drawing: CameraModel
@@ -39,8 +40,7 @@ class CameraSetup:
     """How the arm shows its lamp to it, in order."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HistoricalTiming:
+class HistoricalTiming(Record, frozen=True, kw_only=True):
     """How long the same work took in its day, s."""
 
     year: int
@@ -50,8 +50,7 @@ class HistoricalTiming:
     """By the names `planning`, `manipulation`, `lens` and `vision`."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ExportedScene:
+class ExportedScene(Record, frozen=True, kw_only=True):
     """A scene for other programs."""
 
     spec: mujoco.MjSpec
@@ -63,8 +62,7 @@ class ExportedScene:
     """Of the solids that are of one metal throughout, by their names, kg/m3."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Disturbance:
+class Disturbance(Record, frozen=True, kw_only=True):
     """Something that somebody changes between what the arm did and its undoing."""
 
     name: str
@@ -76,8 +74,7 @@ class Disturbance:
     """Number of the stage behind whose end it is done; None: the last."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Words:
+class Words(Record, frozen=True, kw_only=True):
     """Words for what a task makes."""
 
     product: str

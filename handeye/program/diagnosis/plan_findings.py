@@ -1,7 +1,6 @@
 """Planning findings: facts in SI units, each at a step; a language words them."""
 
-from dataclasses import dataclass
-
+from handeye.core.record import Record
 from handeye.program.diagnosis.reach import (
     BelowTable,
     InLine,
@@ -12,8 +11,7 @@ from handeye.program.diagnosis.reach import (
 from handeye.program.guards import Exerted
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class NoConfiguration:
+class NoConfiguration(Record, frozen=True, kw_only=True):
     """No joint positions exist for a goal, or at a distance `along` (m) on the way to it."""
 
     step: int
@@ -36,8 +34,7 @@ class NoConfiguration:
         return "path-leaves-reach" if on_the_way else "unreachable-position"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GoalBelowTable:
+class GoalBelowTable(Record, frozen=True, kw_only=True):
     """A goal is `depth` (m) below the table top."""
 
     step: int
@@ -46,8 +43,7 @@ class GoalBelowTable:
     code: str = "hand-through-table"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RunsInto:
+class RunsInto(Record, frozen=True, kw_only=True):
     """The hand, or what it holds, would pass through a fixture or the table."""
 
     step: int
@@ -65,8 +61,7 @@ class RunsInto:
         return f"{who}-through-{'table' if self.fixture is None else 'fixture'}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TooHeavy:
+class TooHeavy(Record, frozen=True, kw_only=True):
     """A load of `weight` (N) cannot be held up; `joint`, from 0, fails first, at `most` (N)."""
 
     step: int
@@ -78,8 +73,7 @@ class TooHeavy:
     code: str = "load-beyond-arm"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TooWeak:
+class TooWeak(Record, frozen=True, kw_only=True):
     """A force or moment is beyond the arm; `joint`, from 0, fails first, at `most` (N, N m)."""
 
     step: int
@@ -94,8 +88,7 @@ class TooWeak:
         return "stop-beyond-arm" if self.guard else "force-beyond-arm"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TooFaint:
+class TooFaint(Record, frozen=True, kw_only=True):
     """A guard's threshold is hard to tell from joint friction, felt there as `friction` (N, N m)."""
 
     step: int
