@@ -51,11 +51,7 @@ def main() -> NoReturn:
 
 
 def _carried_out() -> int:
-    """The exit code of the command that was typed.
-
-    Raises:
-        OSError: what there was to say cannot be written.
-    """
+    """The exit code of the command that was typed; raises OSError if what there was to say cannot be written."""
     try:
         with terminable():
             code = app(result_action="return_value", exit_on_error=False, print_error=False)

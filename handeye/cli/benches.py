@@ -109,11 +109,7 @@ def insertion(
 def _conditions(
     clearance: float | None, chamfer: float | None, sd: float | None, search: Literal["gentle", "1973"]
 ) -> "list[Condition]":
-    """The condition that is asked for, or the grid.
-
-    Raises:
-        InvalidInput: it cannot be tried.
-    """
+    """The condition that is asked for, or the grid; raises InvalidInput if it cannot be tried."""
     from handeye.trials.insertion import Condition, grid
 
     if clearance is None and chamfer is None and sd is None:

@@ -48,11 +48,7 @@ CameraKind = Literal["auto", "gl", "ray"]
 
 
 def whole(_: type, tokens: Sequence[Token]) -> int:
-    """A whole number as typed.
-
-    Raises:
-        ValueError: it is none, as 1.5 is, or larger than anything here.
-    """
+    """A whole number as typed; raises ValueError if it is none, as 1.5 is, or larger than anything here."""
     typed = tokens[0].value
     if not re.fullmatch(r"[+-]?[0-9]+", typed):
         raise ValueError(f"{quoted(typed)} is not a whole number")

@@ -54,13 +54,11 @@ def compare(
 
 
 def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comparison":
-    """Write the page of two runs, by their folders or traces; what it shows.
+    """Write the page of two runs, by their folders or traces; what it shows; raises InvalidInput if there is no such
+    run, they cannot be compared, or the page cannot be written there.
 
     Args:
         overwrite: a page of two runs that is there may be replaced.
-
-    Raises:
-        InvalidInput: there is no such run, they cannot be compared, or the page cannot be written there.
     """
     from handeye.comparison.comparison import comparison
     from handeye.comparison.page import PAGE, comparison_page

@@ -68,10 +68,8 @@ def _check_apart(path: Path, out: Path | None) -> None:
 
 
 def _newest(path: Path) -> "Checkpoint":
-    """The checkpoint in a file, or a run's folder as the run has left it; what is left out is told.
-
-    Raises:
-        InvalidInput: there is none.
+    """The checkpoint in a file, or a run's folder as the run has left it; what is left out is told; raises InvalidInput
+    if there is none.
     """
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.runs.folder import EVENTS, open_again

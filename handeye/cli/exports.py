@@ -67,11 +67,7 @@ def _told(written: "Export", *, json: bool) -> int:
 
 
 def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
-    """What is to be exported; a note says what is wrong with it.
-
-    Raises:
-        InvalidInput: there is no such run or world.
-    """
+    """What is to be exported; a note says what is wrong with it. Raises InvalidInput if there is no such run."""
     from handeye.runs.exported_state import initial_state, kept_state
 
     wanted = made_known(world.task)

@@ -344,11 +344,7 @@ class _Work:
 
 
 def work(job: Job) -> int:
-    """Do a job; the exit code.
-
-    Raises:
-        InvalidInput: something it needs cannot be used, or a file cannot be written.
-    """
+    """Do a job; returns the exit code. Raises InvalidInput if a file cannot be used or written."""
     with PanicButton() as panic, ExitStack() as closing:
         under_way = _Work(job, panic)
         if under_way.folder is not None:

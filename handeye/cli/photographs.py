@@ -37,11 +37,7 @@ class FineOptions:
     ] = None
 
     def take(self, posed: "Posed", camera: str, width: int, height: int) -> "Photograph":
-        """The photograph, and its progress on the terminal.
-
-        Raises:
-            InvalidInput: no such camera, the size or so many exposures cannot be, or no OpenGL on this machine.
-        """
+        """The photograph, and its progress on the terminal; raises InvalidInput if camera or size cannot be."""
         from handeye.cell.exposures import exposing, photographed
 
         how = exposing(fine=self.fine, film=self.film, exposures=self.exposures)

@@ -20,13 +20,11 @@ _CAMERAS: Final[dict[str, CameraKind]] = {"opengl": "gl", "rays": "ray"}
 
 
 def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
-    """The setup of a plan in the world of a recorded run, with its faults, and pictures made as they were.
+    """The setup of a plan in the world of a recorded run, with its faults, and pictures made as they were; raises
+    InvalidInput if there is no such run, or its world cannot be built here for this plan.
 
     Args:
         path: the folder of the run, its trace, or its event list.
-
-    Raises:
-        InvalidInput: there is no such run, or its world cannot be built here for this plan.
     """
     begun = _beginning(path)
     _check_drawing(path, begun)

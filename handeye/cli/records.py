@@ -47,11 +47,7 @@ def _way_on(folder: Path, result: "Result") -> str:
 
 
 def shown(folder: Path, *, json: bool) -> "KeptRun":
-    """Print what is known of the run in a folder.
-
-    Raises:
-        InvalidInput: there is no run that could be shown.
-    """
+    """Print what is known of the run in a folder; raises InvalidInput if there is no run that could be shown."""
     from handeye.results.kept_run import kept_run
     from handeye.results.page import page
     from handeye.results.result import to_json
@@ -60,8 +56,6 @@ def shown(folder: Path, *, json: bool) -> "KeptRun":
     kept = kept_run(folder)
     for fault in kept.faults:
         note(f"left out: {fault}")
-    if kept.missing:
-        note(f"an older handeye left this result, which does not say: {', '.join(kept.missing)}")
     if json:
         sys.stdout.buffer.write(to_json(kept.result))
         sys.stdout.flush()

@@ -73,14 +73,11 @@ def _beside(run: Path) -> Path:
 
 
 def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
-    """Write the report of a run.
+    """Write the report of a run; raises InvalidInput if there is no such run, or the report cannot be written there.
 
     Args:
         run: its folder, or its trace.
         overwrite: a report that is there may be replaced.
-
-    Raises:
-        InvalidInput: there is no such run, or the report cannot be written there.
     """
     from handeye.core.files import check_free, check_place, write_over
     from handeye.report.page.document import REPORT
@@ -91,10 +88,8 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
 
 
 def page_of(run: Path) -> bytes:
-    """The page of the run in a folder or a trace.
-
-    Raises:
-        InvalidInput: there is none, or an older handeye recorded it.
+    """The page of the run in a folder or a trace; raises InvalidInput if there is none, or an older handeye recorded
+    it.
     """
     from handeye.core.entries import entry_named
     from handeye.report.animation import animation
@@ -115,11 +110,7 @@ def page_of(run: Path) -> bytes:
 
 
 def read_recorded(run: Path) -> "Recorded":
-    """The run in a folder or a trace, as far as it can be read.
-
-    Raises:
-        InvalidInput: there is none.
-    """
+    """The run in a folder or a trace, as far as it can be read; raises InvalidInput if there is none."""
     from handeye.results.recorded_run import recorded_run
     from handeye.trace.reading import is_cut_short, read_trace
 

@@ -178,10 +178,8 @@ def teacher_of(
     first: Path | None,
     observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
 ) -> "Teacher":
-    """A cell, and the taught file that is given, or that stands beside a script.
-
-    Raises:
-        InvalidInput: a file or an option cannot be used.
+    """A cell, and the taught file that is given, or that stands beside a script; raises InvalidInput if a file or an
+    option cannot be used.
     """
     from handeye.teaching.teacher import Teacher
 
@@ -213,10 +211,8 @@ def _workplace(
     first: Path | None,
     observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
 ) -> "Workplace":
-    """The cell to work in.
-
-    Raises:
-        InvalidInput: a file or an option cannot be used, or the camera cannot work as asked.
+    """The cell to work in; raises InvalidInput if a file or an option cannot be used, or the camera cannot work as
+    asked.
     """
     from handeye.execution.servo import Halted
     from handeye.runs.checkpoint_file import read_checkpoint

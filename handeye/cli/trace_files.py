@@ -13,10 +13,8 @@ TraceFile = Annotated[Path, Parameter(help="A trace.mcap, or the folder of a run
 
 
 def trace_file(path: Path) -> Path:
-    """The trace of the run in a folder, or its event list if there is no trace; of a file, the file.
-
-    Raises:
-        InvalidInput: the run has not begun, or the folder is a batch's.
+    """The trace of the run in a folder, or its event list if there is no trace; of a file, the file; raises
+    InvalidInput if the run has not begun, or the folder is a batch's.
     """
     from handeye.runs.folder import EVENTS, TRACE, check_holds_run
     from handeye.trace.recorder import part
@@ -45,10 +43,8 @@ def check_no_batch(folder: Path) -> None:
 
 
 def motion_file(path: Path) -> Path:
-    """The same, where it must say where things were.
-
-    Raises:
-        InvalidInput: there is no run, it has not begun, or there is only its event list.
+    """The same, where it must say where things were; raises InvalidInput if there is no run, it has not begun, or there
+    is only its event list.
     """
     file = trace_file(path)
     if file.suffix == ".jsonl":

@@ -85,11 +85,7 @@ def video(
 
 
 def _size(typed: str) -> tuple[int, int]:
-    """A size as typed.
-
-    Raises:
-        InvalidInput: it is none.
-    """
+    """A size as typed; raises InvalidInput if it is none."""
     found = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", typed)
     if found is None:
         raise BadArgument(f"{quoted(typed)} is no size; one is written as 480x360")
@@ -97,11 +93,7 @@ def _size(typed: str) -> tuple[int, int]:
 
 
 def _trace(run: Path) -> "Trace":
-    """The trace of a run, as far as it can be read.
-
-    Raises:
-        InvalidInput: there is none.
-    """
+    """The trace of a run, as far as it can be read; raises InvalidInput if there is none."""
     from handeye.trace.reading import is_cut_short, read_trace
 
     file = motion_file(run)

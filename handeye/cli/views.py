@@ -88,11 +88,7 @@ def view(
 
 
 def _play(run: Path, port: int) -> int:
-    """Show the report of a run until Ctrl-C.
-
-    Raises:
-        InvalidInput: there is no such run, or the port cannot be had.
-    """
+    """Show the report of a run until Ctrl-C; raises InvalidInput if there is no such run, or the port cannot be had."""
     from handeye.view.link import Link
     from handeye.view.server import Server
 
@@ -108,10 +104,8 @@ def _play(run: Path, port: int) -> int:
 
 
 def _teach(file: Path, port: int, world: WorldOptions, fault: Faults, camera: str) -> int:
-    """Let positions be taught in a browser.
-
-    Raises:
-        InvalidInput: a file or an option cannot be used, or the port cannot be had.
+    """Let positions be taught in a browser; raises InvalidInput if a file or an option cannot be used, or the port
+    cannot be had.
     """
     from handeye.debugger.pace import Pace
     from handeye.teaching.teach_commands import TeachSession

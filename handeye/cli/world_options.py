@@ -70,11 +70,7 @@ class ErrorOptions:
         return replace(self, task=name)
 
     def spec(self, seed: int) -> WorldSpec:
-        """The world of a seed with these errors.
-
-        Raises:
-            InvalidInput: no such seed, name, unit or value.
-        """
+        """The world of a seed with these errors; raises InvalidInput if there is no such seed, name, unit or value."""
         checked_seed(seed)
         off = self._names()
         if "" in off:
@@ -151,11 +147,7 @@ class WorldOptions:
 
     @property
     def spec(self) -> WorldSpec:
-        """The world.
-
-        Raises:
-            InvalidInput: no such seed, name, unit or value.
-        """
+        """The world; raises InvalidInput if there is no such seed, name, unit or value."""
         return self.errors.spec(self.seed or 0)
 
     def apart(self) -> "tuple[WorldOptions, tuple[Sense, ...]]":
@@ -170,13 +162,10 @@ class WorldOptions:
 def broken(
     world: WorldSpec, options: list[str] | None, work: "AnyTask", listing: "Listing | None" = None
 ) -> WorldSpec:
-    """A world of a task with faults.
+    """A world of a task with faults; raises InvalidInput if there is no such fault, value or stage.
 
     Args:
         listing: tells the stages with which they may set in; None: there are none.
-
-    Raises:
-        InvalidInput: no such fault, value or stage.
     """
     if not options:
         return world

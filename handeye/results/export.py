@@ -45,10 +45,8 @@ class Export(Record, frozen=True, kw_only=True):
 
 
 def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:
-    """Write the folder of a scene.
-
-    Raises:
-        InvalidInput: it cannot be written there, there is nothing to show, or its task exports no scene.
+    """Write the folder of a scene; raises InvalidInput if it cannot be written there, there is nothing to show, or its
+    task exports no scene.
     """
     check_folder(path, EXPORT, overwrite=overwrite)
     exhibit = shown()
@@ -59,10 +57,8 @@ def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:
 
 
 def export_glb(path: Path, shown: Shown, *, part: str = WHOLE) -> Export:
-    """Write the solids of a cell, or of a part of it, in the place of any GLB file that is there.
-
-    Raises:
-        InvalidInput: it cannot be written there, there is nothing to show, or its task has no such part.
+    """Write the solids of a cell, or of a part of it, in the place of any GLB file that is there; raises InvalidInput
+    if it cannot be written there, there is nothing to show, or its task has no such part.
     """
     check_place(path, GLB)
     exhibit = shown()
@@ -86,10 +82,8 @@ def _weights(made: ExportedSolids) -> list[Weight]:
 
 
 def export(path: Path, shown: Shown, *, part: str | None, overwrite: bool) -> Export:
-    """Write solids to a file whose name ends in .glb, and a scene to any other folder.
-
-    Raises:
-        InvalidInput: it cannot be written there, or a part of a scene is asked for.
+    """Write solids to a file whose name ends in .glb, and a scene to any other folder; raises InvalidInput if it cannot
+    be written there, or a part of a scene is asked for.
     """
     if path.suffix == GLB.ending:
         return export_glb(path, shown, part=WHOLE if part is None else part)

@@ -22,10 +22,8 @@ EXPORT: Final = FolderKind(
 
 
 def scene_files(exhibit: ExportedState) -> dict[str, bytes]:
-    """The files of an exhibit by their names in its folder; equal exhibits give equal bytes.
-
-    Raises:
-        InvalidInput: its task exports no scene, or this MuJoCo cannot write one.
+    """The files of an exhibit by their names in its folder; equal exhibits give equal bytes; raises InvalidInput if its
+    task exports no scene, or this MuJoCo cannot write one.
     """
     scene = task(exhibit.task).exported(exhibit.world, exhibit.truth, exhibit.moment)
     files = mjcf_files(scene.spec, _MARK, told(exhibit))

@@ -36,10 +36,8 @@ class ExportedSolids:
 
 
 def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
-    """The solids of an exhibit; equal exhibits give equal bytes.
-
-    Raises:
-        InvalidInput: its task exports no scene, or has no such part.
+    """The solids of an exhibit; equal exhibits give equal bytes; raises InvalidInput if its task exports no scene, or
+    has no such part.
     """
     exported = task(exhibit.task).exported(exhibit.world, exhibit.truth, exhibit.moment)
     parts = {**exported.parts, WHOLE: None}

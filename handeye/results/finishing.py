@@ -22,15 +22,13 @@ def finished(
 ) -> Result:
     """Finish a run, unless it only pauses; its result, which is kept in its folder with the pictures.
 
-    The result is written last: where there is one, all else is there, too.
+    The result is written last: where there is one, all else is there, too. Raises InvalidInput if the folder cannot be
+    written to.
 
     Args:
         meter: measures what the run costs the host.
         judged: the referee is called to a run that has ended.
         referee: takes the place of the task's.
-
-    Raises:
-        InvalidInput: the folder cannot be written to.
     """
     if pause.kind != "break":
         runner.finish()

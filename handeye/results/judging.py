@@ -39,10 +39,8 @@ def findings_so_far(runner: Runner) -> Findings:
 
 
 def checked_findings(referee: str, findings: object) -> Findings:
-    """Findings that a referee of somebody's own gave; the referee is told by its name.
-
-    Raises:
-        InvalidInput: they are none.
+    """Findings that a referee of somebody's own gave; the referee is told by its name; raises InvalidInput if they are
+    none.
     """
     if not isinstance(findings, Mapping) or not all(
         isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
@@ -52,11 +50,7 @@ def checked_findings(referee: str, findings: object) -> Findings:
 
 
 def checked_limits(limits: Limits) -> dict[str, float]:
-    """Limits that somebody gave.
-
-    Raises:
-        InvalidInput: a name is none, or a limit is no number.
-    """
+    """Limits that somebody gave; raises InvalidInput if a name is none, or a limit is no number."""
     checked: dict[str, float] = {}
     for name, limit in limits.items():
         if not isinstance(name, str):
@@ -68,21 +62,15 @@ def checked_limits(limits: Limits) -> dict[str, float]:
 
 
 def check_limits(runner: Runner) -> None:
-    """Make sure before a run that each of its limits has a finding: at its end it would be late.
-
-    Raises:
-        InvalidInput: one has none.
+    """Make sure before a run that each of its limits has a finding: at its end it would be late; raises InvalidInput if
+    one has none.
     """
     if runner.setup.limits:
         limited(runner.task.judge(runner.cell.truth), runner.setup.limits)
 
 
 def limited(findings: Findings, limits: Limits) -> Findings:
-    """Findings against other limits.
-
-    Raises:
-        InvalidInput: there is no finding of the name of a limit.
-    """
+    """Findings against other limits; raises InvalidInput if there is no finding of the name of a limit."""
     found = dict(findings)
     for name, limit in limits.items():
         if name not in found:

@@ -21,8 +21,7 @@ from handeye.program.events import (
     StageStarted,
     beginning,
 )
-from handeye.results.kept_result import read_result
-from handeye.results.result import Result
+from handeye.results.result import Result, read_result
 from handeye.results.summary import camera_report, interventions, stage_times, timing, warnings
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS, EVENTS, HOST, PLAN, RESULT, check_holds_run
@@ -39,8 +38,6 @@ class KeptRun:
     """A run as its folder tells of it."""
 
     result: Result
-    missing: tuple[str, ...] = ()
-    """Names of what an older handeye did not record."""
     faults: tuple[str, ...] = ()
     """What of the folder cannot be read, a sentence each."""
     left: bool = True
@@ -48,16 +45,14 @@ class KeptRun:
 
 
 def kept_run(path: Path) -> KeptRun:
-    """What the folder of a run tells of it.
-
-    Raises:
-        InvalidInput: it is no folder of a run, the run has not begun, or what is there cannot be read.
+    """What the folder of a run tells of it; raises InvalidInput if it is no folder of a run, the run has not begun, or
+    what is there cannot be read.
     """
     faults = []
     if (path / RESULT).exists():
-        result, missing = read_result(path / RESULT)
-        if _belongs(result, missing, _readable_events(path)):
-            return KeptRun(result=result, missing=missing)
+        result = read_result(path / RESULT)
+        if _belongs(result, _readable_events(path)):
+            return KeptRun(result=result)
         faults.append(
             f"{path / RESULT} is of another run: of {quoted(result.program)} in the world of {result.world}"
         )
@@ -78,13 +73,12 @@ def _readable_events(path: Path) -> list[AnyEvent]:
         return []
 
 
-def _belongs(result: Result, missing: Sequence[str], events: Sequence[AnyEvent]) -> bool:
+def _belongs(result: Result, events: Sequence[AnyEvent]) -> bool:
     """A result may be that of the run of these events, by the program, the task and the world that both name."""
     begun = next((event for event in events if isinstance(event, RunStarted)), None)
-    names = [name for name in ("program", "task", "world") if name not in missing]
     return begun is None or (
-        result.seed == begun.world.seed
-        and all(getattr(result, name) == getattr(begun, name) for name in names)
+        (result.program, result.task, result.world, result.seed)
+        == (begun.program, begun.task, begun.world, begun.world.seed)
     )
 
 
@@ -97,10 +91,10 @@ def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
     if not newest.ended or not (path / RESULT).exists():
         return False
     try:
-        result, missing = read_result(path / RESULT)
+        result = read_result(path / RESULT)
     except InvalidInput:  # it is made anew
         return False
-    own = _belongs(result, missing, newest.events)
+    own = _belongs(result, newest.events)
     told = result.assembled is not None or result.apart is not UNSET
     return own and result.completed and (told or not judged)
 
@@ -144,10 +138,8 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
 
 
 def _listing(path: Path, begun: RunStarted) -> Listing:
-    """Stages and steps of the plan in a folder.
-
-    Raises:
-        InvalidInput: it is not sound, or not the one that is carried out.
+    """Stages and steps of the plan in a folder; raises InvalidInput if it is not sound, or not the one that is carried
+    out.
     """
     kind, data = system_named(begun.system), read_whole(path / PLAN)
     plan = kind.decode(data, str(path / PLAN))

@@ -22,10 +22,8 @@ _QUALITY: Final = 70
 
 
 def annotated_png(system: RunningSystem, name: str) -> bytes:
-    """A picture the program took, with what it found in it, as a PNG file.
-
-    Raises:
-        InvalidInput: what it found is so far outside that it cannot be drawn.
+    """A picture the program took, with what it found in it, as a PNG file; raises InvalidInput if what it found is so
+    far outside that it cannot be drawn.
     """
     done, data = cv2.imencode(".png", _annotated(system, name))
     assert done
@@ -33,11 +31,7 @@ def annotated_png(system: RunningSystem, name: str) -> bytes:
 
 
 def annotated_webp(system: RunningSystem, name: str) -> bytes:
-    """The same as a small WebP file, for pages.
-
-    Raises:
-        InvalidInput: as `annotated_png`.
-    """
+    """The same as a small WebP file, for pages."""
     image = _annotated(system, name)
     high = round(_WIDE * image.shape[0] / image.shape[1])
     small = cv2.resize(image, (_WIDE, high), interpolation=cv2.INTER_AREA)
@@ -54,10 +48,8 @@ def _annotated(system: RunningSystem, name: str) -> NDArray[np.uint8]:
 
 
 def keep_pictures(folder: Path, runner: Runner) -> None:
-    """Write the program's pictures, and photographs of the cell as it is where there is OpenGL.
-
-    Raises:
-        InvalidInput: the folder cannot be written to.
+    """Write the program's pictures, and photographs of the cell as it is where there is OpenGL; raises InvalidInput if
+    the folder cannot be written to.
     """
     try:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer

@@ -1,15 +1,21 @@
 """The result of a run: one record, printed as a page or as one JSON object."""
 
-from typing import Literal
+from math import nan
+from pathlib import Path
+from typing import Any, Final, Literal
 
 import msgspec
 from msgspec import UNSET, UnsetType
 
+from handeye.core.errors import BadFile
+from handeye.core.files import read_whole
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.judge.finding import Finding, Relation
 from handeye.program.senses import Sense
 
+_LARGEST: Final = 1 << 24
+"""Bytes: thousands of times what a result has."""
 Status = Literal["done", "under way", "skipped", "stopped", "not reached", "undone"]
 """How far a stage has come."""
 
@@ -29,30 +35,27 @@ class Timing(Record, frozen=True, kw_only=True):
     clock) is the host's, is another each time, and is summed over all sessions of a run that was resumed.
     """
 
-    friction_s: float | None
-    """Simulated: the arm measured the friction of its joints, before the working phase. None: an older handeye, which
-    did not."""
-    calibration_s: float | None
-    """Simulated: the camera was calibrated, before the working phase. None, here and below: an older handeye did
-    not record it."""
+    friction_s: float
+    """Simulated: the arm measured the friction of its joints, before the working phase."""
+    calibration_s: float
+    """Simulated: the camera was calibrated, before the working phase."""
     manipulation_s: float
     """Simulated: the working phase but for the time in which the arm waited for the camera."""
     lens_s: float
     """Simulated: the arm waited for lens change, aim, focus and pictures."""
-    overlapped_s: float | None
-    """Simulated: besides, the camera's mechanism was busy while the arm went on. None: an older handeye, which let it
-    wait."""
+    overlapped_s: float
+    """Simulated: besides, the camera's mechanism was busy while the arm went on."""
     working_s: float
     """Simulated: the working phase, which is manipulation and lens."""
     planning_cpu_s: float
     """0: the plan was there already."""
     vision_cpu_s: float
-    run_cpu_s: float | None
+    run_cpu_s: float
     run_wall_s: float
     """From the start of the process, or the call from Python, to the verdict; waiting for people included."""
     real_time_factor: float
     """Simulated seconds, those of setting up included, for one of `run_wall_s`: the host's, and another each time."""
-    host_from_step: int | None
+    host_from_step: int
     """Steps done before the host's seconds were counted; 0: they are those of the whole run."""
 
 
@@ -187,3 +190,22 @@ def to_json(result: Result, *, line: bool = False) -> bytes:
     """The result as one JSON object, laid out for people or on one `line`, with a final newline."""
     encoded = msgspec.json.encode(result)
     return (encoded if line else msgspec.json.format(encoded, indent=1)) + b"\n"
+
+
+def read_result(path: Path) -> Result:
+    """The result in a file; raises InvalidInput if it cannot be read, or is no result."""
+    try:
+        written = msgspec.json.decode(read_whole(path, _LARGEST))
+        for name in ("referee", "built") if isinstance(written, dict) else ():
+            restore_figures(written.get(name))
+        return msgspec.convert(written, Result)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise BadFile(f"{path} is not the result of a run: {error}") from None
+
+
+def restore_figures(findings: Any) -> None:
+    """Set figures of findings that JSON has as null, for what is not finite, to NaN."""
+    for check in findings.values() if isinstance(findings, dict) else ():
+        for name in ("value", "limit"):
+            if isinstance(check, dict) and name in check and check[name] is None:
+                check[name] = nan

@@ -28,11 +28,7 @@ class Format:
     """Sides have an even number of points."""
 
     def check(self, frames: int, width: int, height: int) -> None:
-        """See whether there can be such a video.
-
-        Raises:
-            InvalidInput: there cannot.
-        """
+        """See whether there can be such a video; raises InvalidInput if there cannot."""
         if self.even and (width % 2 or height % 2):
             raise BadArgument(
                 f"a {self.kind.name} of {width} x {height} cannot be made; both sides must be even"
@@ -45,10 +41,8 @@ class Format:
 
 
 def format_of(path: Path) -> Format:
-    """The format that the name of a file asks for.
-
-    Raises:
-        InvalidInput: it is none, or one that is not written, for a reason that is told.
+    """The format that the name of a file asks for; raises InvalidInput if it is none, or one that is not written, for a
+    reason that is told.
     """
     ending = path.suffix.lower()
     if ending in FORMATS:

@@ -46,15 +46,12 @@ class Video:
 def make_video(
     trace: Trace, path: Path, wanted: Wanted, *, overwrite: bool, told: Told = lambda done, of: None
 ) -> Video:
-    """Write a video of a recorded run, whole or not at all. Nothing is simulated.
+    """Write a video of a recorded run, whole or not at all. Nothing is simulated; raises Taken if a video is there, and
+    may not be replaced and raises InvalidInput if there can be no such video, it cannot be written there, the run is of
+    another scene, or there is no OpenGL here.
 
     Args:
         overwrite: a video that is there may be replaced.
-
-    Raises:
-        Taken: a video is there, and may not be replaced.
-        InvalidInput: there can be no such video, it cannot be written there, the run is of another scene, or there
-            is no OpenGL here.
     """
     require(trace.head.system, "video", trace.name)
     form = format_of(path)
@@ -89,10 +86,8 @@ def _said(drawn: Photograph, frame: Frame) -> Photograph:
 
 
 def _marked(seen: SeenPicture) -> Photograph:
-    """A picture that the program took, with what it found in it.
-
-    Raises:
-        InvalidInput: that is so far outside that it cannot be drawn.
+    """A picture that the program took, with what it found in it; raises InvalidInput if that is so far outside that it
+    cannot be drawn.
     """
     try:
         return annotate(seen.picture, seen.marks, scale=1)[:, :, ::-1]

@@ -41,13 +41,11 @@ class Passage:
 
 
 def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
-    """The passages of a time, without waits for the camera's mechanism.
+    """The passages of a time, without waits for the camera's mechanism; raises InvalidInput if there is no motion in
+    that time.
 
     Args:
         looks: the run stands still where a picture was taken, so that it can be looked at.
-
-    Raises:
-        InvalidInput: there is no motion in that time.
     """
     pictures = _pictures(trace) if looks else {}
     edges = sorted({*pictures, *(stage.begin for stage in trace.stages_both_ways)})

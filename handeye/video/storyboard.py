@@ -51,11 +51,8 @@ class Storyboard:
 
 
 def storyboard(trace: Trace, wanted: Wanted) -> Storyboard:
-    """Plan a video of a recorded run.
-
-    Raises:
-        InvalidInput: there is no such stage or camera, nothing was recorded there, it would be too long, or an older
-            handeye recorded the run.
+    """Plan a video of a recorded run; raises InvalidInput if there is no such stage or camera, nothing was recorded
+    there, it would be too long, or an older handeye recorded the run.
     """
     shown = passages(trace, _span(trace, wanted), looks=wanted.captions)
     lasts, held = _paced(shown, wanted)
@@ -85,10 +82,8 @@ def _times(chosen: Sequence[Passage], over: Array) -> list[float]:
 
 
 def _span(trace: Trace, wanted: Wanted) -> Span:
-    """The time of the run that is asked for, as far as it was recorded.
-
-    Raises:
-        InvalidInput: there is no such stage, or nothing between them.
+    """The time of the run that is asked for, as far as it was recorded; raises InvalidInput if there is no such stage,
+    or nothing between them.
     """
     program, (begin, end) = stage_names(trace), trace.covers
     first, last = (
@@ -104,11 +99,7 @@ def _span(trace: Trace, wanted: Wanted) -> Span:
 
 
 def _recorded(trace: Trace, name: str) -> list[Stage]:
-    """A stage each time that it was carried out, and its motions recorded.
-
-    Raises:
-        InvalidInput: it was not.
-    """
+    """A stage each time that it was carried out, and its motions recorded; raises InvalidInput if it was not."""
     stages = [stage for stage in trace.stages if stage.end > trace.begins]
     found = [stage for stage in stages if stage.name == name]
     if not found:
@@ -118,10 +109,8 @@ def _recorded(trace: Trace, name: str) -> list[Stage]:
 
 
 def _paced(shown: tuple[Passage, ...], wanted: Wanted) -> tuple[Array, int]:
-    """How long each passage is in the video (s), and for how many periods more its last frame stands.
-
-    Raises:
-        InvalidInput: the video would be too long.
+    """How long each passage is in the video (s), and for how many periods more its last frame stands; raises
+    InvalidInput if the video would be too long.
     """
     share, most = _HELD
     if wanted.speed is None:

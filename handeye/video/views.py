@@ -29,15 +29,12 @@ _GLIDE: Final = 0.9
 
 
 def views(trace: Trace, camera: str, stages: Sequence[int], rate: float) -> list[View]:
-    """The view of each frame.
+    """The view of each frame; raises InvalidInput if there is no such camera.
 
     Args:
         camera: a camera of the scene, `orbit` or `follow`.
         stages: which stage each frame is of, by its number in `trace.stages_both_ways`; shape (n,).
         rate: frames a second.
-
-    Raises:
-        InvalidInput: there is no such camera.
     """
     cameras = [trace.scene.camera(number).name for number in range(trace.scene.ncam)]
     if camera == ORBIT:

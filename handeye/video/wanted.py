@@ -20,11 +20,7 @@ FOLLOW: Final = "follow"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wanted:
-    """What is asked of a video.
-
-    Raises:
-        InvalidInput: there can be no such video.
-    """
+    """What is asked of a video; raises InvalidInput if there can be no such video."""
 
     camera: str = ORBIT
     """A camera of the scene, `orbit` or `follow`."""

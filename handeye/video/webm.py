@@ -18,13 +18,10 @@ _TRACK: Final = re.compile(rb"\x73\xc5\x88(.{8})", re.DOTALL)
 
 
 def webm(frames: Frames, held: int) -> bytes:
-    """A WebM file (VP8), the same to the byte for the same frames.
+    """A WebM file (VP8), the same to the byte for the same frames; raises InvalidInput if this OpenCV cannot write any.
 
     Args:
         held: for how many periods longer the last frame stands.
-
-    Raises:
-        InvalidInput: this OpenCV cannot write any.
     """
     frame = next(frames)
     height, width = frame.shape[:2]

@@ -1,10 +1,10 @@
 """What the planner finds are facts; the language of the script puts them into words, and another language may too."""
 
 from collections.abc import Iterable
-from dataclasses import replace
 from pathlib import PurePath
 
 import pytest
+from msgspec.structs import replace
 
 from handeye.al import AL, compile_text
 from handeye.arm.robots.stanford import STANFORD

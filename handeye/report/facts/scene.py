@@ -6,10 +6,8 @@ from handeye.report.recorded import Recorded
 
 
 def check_scene(run: Recorded) -> None:
-    """Make sure that what moved in a run is in its scene.
-
-    Raises:
-        InvalidInput: it is not, or no task of that name is known here.
+    """Make sure that what moved in a run is in its scene; raises InvalidInput if it is not, or no task of that name is
+    known here.
     """
     scene = run.trace.scene
     there = {scene.body(number).name for number in range(scene.nbody)}

@@ -35,11 +35,7 @@ class SeenPicture:
 
 
 def seen_pictures(run: Recorded) -> tuple[SeenPicture, ...]:
-    """The pictures, in order.
-
-    Raises:
-        InvalidInput: a message about one cannot be understood.
-    """
+    """The pictures, in order; raises InvalidInput if a message about one cannot be understood."""
     return tuple(_seen(run))
 
 

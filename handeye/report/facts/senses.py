@@ -24,10 +24,8 @@ class Senses:
 
 
 def senses_at(run: Recorded, seconds: float) -> Senses | None:
-    """What the senses told at a time since the run began; None: that was not recorded.
-
-    Raises:
-        InvalidInput: a message about the hand cannot be understood.
+    """What the senses told at a time since the run began; None: that was not recorded; raises InvalidInput if a message
+    about the hand cannot be understood.
     """
     until = nanoseconds(run.trace.head.time + seconds)
     told = [message for message in run.trace.messages if message.topic == HAND and message.time <= until]

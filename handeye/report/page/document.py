@@ -39,13 +39,11 @@ REPORT: Final = Kind("report of handeye", MARK.encode(), ending=".html")
 
 
 def report_page(run: Recorded, photographs: Album, animated: Animation | None) -> bytes:
-    """The report of a run; the same for the same trace and result on one machine.
+    """The report of a run; the same for the same trace and result on one machine; raises InvalidInput if its trace
+    cannot be understood.
 
     Args:
         animated: what is shown to walk round in; None: photographs only.
-
-    Raises:
-        InvalidInput: its trace cannot be understood.
     """
     came, heard = outcome(run), told(run)
     scripts = [*([] if animated is None else [player.script()]), resource("page.js")]

@@ -107,11 +107,7 @@ def _world(run: Recorded) -> Iterator[Markup]:
 
 
 def _quantities(run: Recorded) -> tuple[QuantityReport, ...]:
-    """The quantities of its world, those that were set first.
-
-    Raises:
-        InvalidInput: they were drawn in another way.
-    """
+    """The quantities of its world, those that were set first; raises InvalidInput if they were drawn in another way."""
     task, world = known(run.trace.head.task), run.trace.head.world
     if task is None:
         return ()

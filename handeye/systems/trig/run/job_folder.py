@@ -1,13 +1,13 @@
 """What a taught job leaves in the folder of its run, besides what every run does: its account, program, and report."""
 
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import msgspec
 
 from handeye.core.errors import BadFile
 from handeye.core.files import read_whole
-from handeye.results.kept_result import restore_figures
+from handeye.results.result import restore_figures
 from handeye.runs.folder import REPORT
 from handeye.systems.trig import ENTRY
 from handeye.systems.trig.language.program import TrigProgram
@@ -47,8 +47,8 @@ def kept_job_page(path: Path) -> bytes | None:
 def _read_account(path: Path) -> JobReport:
     try:
         written = msgspec.json.decode(read_whole(path, _LARGEST))
-        for check in _all_checks(written):
-            restore_figures(check)
+        for name in ("checks", "checks_back") if isinstance(written, dict) else ():
+            restore_figures(written.get(name))
         done = msgspec.convert(written, JobReport)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise BadFile(f"{path} is no account of a job: {error}") from None
@@ -58,9 +58,3 @@ def _read_account(path: Path) -> JobReport:
     if any(abs(figure) > _FARTHEST for figure in (*lying, *(x for goal in done.goals for x in goal))):
         raise BadFile(f"{path} is no account of a job: a block lies farther away than anything")
     return done
-
-
-def _all_checks(written: Any) -> list[Any]:
-    """The findings of the referee in what was read, if it is an account."""
-    tables = [written.get(name) for name in ("checks", "checks_back")] if isinstance(written, dict) else []
-    return [check for table in tables if isinstance(table, dict) for check in table.values()]
