@@ -58,11 +58,7 @@ def whole(_: type, tokens: Sequence[Token]) -> int:
 
 
 def positive(count: int, what: str) -> None:
-    """Make sure that at least one is asked for, and no more than a year of a processor and its memory bear.
-
-    Raises:
-        InvalidInput: so many cannot be had; `what`: one of them.
-    """
+    """See that a count is at least 1 and at most MOST; `what` is the singular of what is counted."""
     if count < 1:
         raise BadArgument(f"at least one {what} is needed; {count} is too few")
     if count > MOST:

@@ -18,11 +18,7 @@ _LEAVE_OUT: Final = "leave --task out, or name another"
 
 
 def compiled(file: Path, work: "Task | None" = None) -> Plan:
-    """The plan of a script for a task, by default its own; or its diagnostics and the end.
-
-    Raises:
-        InvalidInput: the script has errors; they have been shown.
-    """
+    """The plan of a script for a task, by default its own; or its diagnostics and the end."""
     made = plan_script(file, work=work)
     show(made.diagnostics, made.source, json=False)
     if made.plan is not None:

@@ -320,11 +320,7 @@ def _check_order(listing: "Listing", first: str | None, last: str | None) -> Non
 
 
 def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
-    """Say of breaks that they lie behind where a run begins.
-
-    Raises:
-        InvalidInput: the step does at which it is to stop; it would run on to its end.
-    """
+    """Note breaks that lie behind where a run begins; raises Refused if the step to stop at does."""
     from handeye.debugger.breakpoints import breakpoint, is_ahead
     from handeye.runs.stops import BeforeStep
     from handeye.runs.systems import listing_of

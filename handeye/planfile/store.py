@@ -54,11 +54,7 @@ def _separated(lines: list[str]) -> list[str]:
 
 
 def decode(text: str | bytes, name: str) -> Plan:
-    """The plan in a text.
-
-    Raises:
-        InvalidInput: not a plan, cut short, of another format version, or not sound.
-    """
+    """The plan in a text; raises BadFile if it is cut short, not sound, or of another format version."""
     try:
         head = msgspec.json.decode(text)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -83,11 +79,7 @@ def decode(text: str | bytes, name: str) -> Plan:
 
 
 def read_plan(path: Path) -> Plan:
-    """The plan in a file.
-
-    Raises:
-        InvalidInput: as `decode`, or the file cannot be read.
-    """
+    """The plan in a file; raises BadFile as `decode`, or if the file cannot be read."""
     entry, _ = entry_of_file(path.name)
     if entry is not None:
         raise refusal(entry.name, "plans", str(path))
@@ -98,11 +90,7 @@ def read_plan(path: Path) -> Plan:
 
 
 def write_plan(path: Path, plan: Plan) -> None:
-    """Write a plan, whole or not at all, over nothing but a plan.
-
-    Raises:
-        InvalidInput: it cannot be written there.
-    """
+    """Write a plan, whole or not at all, over nothing but a plan; raises InvalidInput if it cannot be written there."""
     write_over(path, encode(plan).encode(), PLAN)
 
 

@@ -86,11 +86,7 @@ def option(name: str) -> tuple[str, ...]:
 
 
 def any_task(name: str) -> AnyTask:
-    """The task of a name, whatever kind of system does it.
-
-    Raises:
-        InvalidInput: there is none such.
-    """
+    """The task of a name, whatever kind of system does it; raises InvalidInput if there is none such."""
     if not isinstance(name, str):
         raise BadArgument(f"a task is given by its name, not {name!r}")
     found = known_any(name)
@@ -102,11 +98,7 @@ def any_task(name: str) -> AnyTask:
 
 
 def task(name: str = DEFAULT) -> Task:
-    """The task of a name that planned programs do.
-
-    Raises:
-        InvalidInput: there is none such.
-    """
+    """The task of a name that planned programs do; raises InvalidInput if there is none such."""
     return planned(any_task(name))
 
 
@@ -166,11 +158,7 @@ def _entry_points() -> dict[str, str]:
 
 
 def _loaded(words: str) -> AnyTask:
-    """The task MODULE:NAME; its module is imported.
-
-    Raises:
-        InvalidInput: there is none, or importing it fails.
-    """
+    """The task MODULE:NAME; its module is imported; raises InvalidInput if there is none, or importing it fails."""
     module, _, name = words.partition(":")
     if not all(part.isidentifier() for part in (*module.split("."), name)):
         raise BadArgument(f"a task is named as MODULE:NAME, such as my_task:TASK; {quoted(words)} is not")

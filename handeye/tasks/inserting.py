@@ -1,4 +1,4 @@
-"""What the insertion bench asks of its task: a thing is put into a hole, and a witness sees how."""
+"""The interface of a task of one hole, for trials that measure insertions: a witness sees the truth of each."""
 
 from __future__ import annotations
 
@@ -16,43 +16,43 @@ if TYPE_CHECKING:
 CLEARANCE: Final = 0.114
 """Diameter of the hole over that of what goes into it, mm: that of Factory's peg (docs/insertion.md)."""
 CHAMFER: Final = 1.0
-"""mm, as of the holes of the pump's base."""
+"""Width of the chamfer, mm, as at the holes of the pump's base."""
 SPREAD: Final = 1.0
 """Sigma of the error of the hole's place along each axis, mm: as in Factory."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Witnessed:
-    """What a witness has seen of an insertion, which the program never knows."""
+    """The truth of an insertion, which the program never knows."""
 
     peak: float
-    """The greatest force between the two in any physics step, N: of the resultant of all their contacts."""
+    """Greatest resultant of all contacts between the two in any physics step, N."""
     first: float | None
-    """When they first touched, s by the cell's clock."""
+    """Time of the first contact, s on the cell's clock."""
     seated: float | None
-    """When it was first seated, likewise."""
+    """Time at which it was first seated, s on the cell's clock."""
     right: bool
-    """It is seated now."""
+    """Whether it is seated now."""
 
 
 class Inserting(Task):
-    """A task of one hole; its programs fetch in their first stage what goes into it."""
+    """A task of one hole; its programs fetch what goes into it in their first stage."""
 
     programs: Mapping[str, str]
-    """Files among the plans, by the name of their search."""
+    """Script files among the plans, by the name of their search."""
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:
-        """How far off (m) a hole may be and still catch what goes into it; of its clearance and chamfer, m."""
+        """Greatest error of a hole's place at which it still catches what goes into it, m; arguments in m."""
 
     @abstractmethod
     def hole(self, clearance: float, chamfer: float) -> dict[str, float]:
-        """Quantities of a world in which the hole is so, and where it was taught, SI."""
+        """Quantities of a world with this clearance and chamfer (m), the hole where it was taught; SI."""
 
     @abstractmethod
     def off(self, truth: Truth, error: tuple[float, float]) -> dict[str, float]:
-        """Quantities of a world in which the hole is off by an error (x, y, m) from under what is held over it."""
+        """Quantities of a world whose hole is off by an error (x, y, m) from below what is held over it; SI."""
 
     @abstractmethod
     def witnessed(self, cell: SimulatedCell) -> Witnessed:
-        """What has been seen in a cell of this task so far."""
+        """What the witness in a cell of this task has seen so far."""

@@ -51,38 +51,38 @@ class HistoricalTiming(Record, frozen=True, kw_only=True):
 
 
 class ExportedScene(Record, frozen=True, kw_only=True):
-    """A scene for other programs."""
+    """A scene for other programs, with what they are told about it."""
 
     spec: mujoco.MjSpec
     about: str
-    """Its names, and what of it differs from the cell: a piece of Markdown."""
+    """Markdown: its names, and how it differs from the cell."""
     parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    """Names of the bodies of what it can be asked for by a name of its own."""
+    """Names of bodies that can be exported on their own, by the name of the whole they make."""
     densities: Mapping[str, float] = field(default_factory=dict)
-    """Of the solids that are of one metal throughout, by their names, kg/m3."""
+    """Densities of solids of one metal throughout, by their names, kg/m3."""
 
 
 class Disturbance(Record, frozen=True, kw_only=True):
-    """Something that somebody changes between what the arm did and its undoing."""
+    """A change of the cell between what the arm did and its reversal."""
 
     name: str
     meaning: str
-    """A sentence."""
+    """What is changed, in a sentence."""
     make: Callable[[SimulatedCell], None]
-    """Does it."""
+    """Makes the change in a cell."""
     after: int | None = None
-    """Number of the stage behind whose end it is done; None: the last."""
+    """Number of the stage after which it is made; None: the last."""
 
 
 class Words(Record, frozen=True, kw_only=True):
-    """Words for what a task makes."""
+    """Words for the product of a task."""
 
     product: str
-    """With its article: `the pump`."""
+    """The product with its article: `the pump`."""
     done: str
-    """A sentence: it is finished, and right."""
+    """Sentence for a product that is finished and right."""
     apart: str = "Everything is back where the run found it."
-    """A sentence: the arm has undone all it did."""
+    """Sentence for a run of which the arm has undone everything."""
 
 
 class AnyTask(ABC):
@@ -96,9 +96,9 @@ class AnyTask(ABC):
     """Cameras of the scene whose view of the end is kept for people."""
 
     force_axes: str = "world axes"
-    """The axes that forces of the hand are told along."""
+    """The axes along which forces of the hand are given."""
     measures: Measures = INCHES
-    """The units in which people are told of its runs."""
+    """The units in which its runs are shown to people."""
 
     @property
     @abstractmethod
@@ -115,21 +115,21 @@ class AnyTask(ABC):
 
     @abstractmethod
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        """The scene of a world as people are shown it, before anything has happened in it: it is never simulated.
+        """The scene of a world for pictures, before anything has happened in it; it is never simulated.
 
-        It has the cameras that the task names, and shapes in the groups that people see (`handeye/cell/looks.py`); who
-        asks for it by `shown` is told what it lacks.
+        It must have the cameras that the task names, and shapes in the groups that pictures show
+        (`handeye/cell/looks.py`): `shown` checks it.
 
         Raises:
             InvalidInput: there is no such world.
         """
 
     def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
-        """The same of a run with a plan, which may say what lies there; arguments and errors are those of `scene`."""
+        """The scene of a run with a plan, which may say what lies there; arguments and errors are those of `scene`."""
         return self.scene(spec)
 
     def shown(self, spec: WorldSpec, plan: bytes | None = None) -> mujoco.MjModel:
-        """The scene of a world, or of a run with a plan, when it has been seen to offer what people are shown.
+        """The scene of a world, or of a run with a plan, checked for what pictures need.
 
         Raises:
             InvalidInput: there is no such world, or the scene lacks a camera or anything to be seen.
@@ -148,12 +148,12 @@ class AnyTask(ABC):
 
     @property
     def judges_apart(self) -> bool:
-        """Its referee looks at what the arm has undone."""
+        """Whether its referee looks at what the arm has undone."""
         return type(self).judge_apart is not AnyTask.judge_apart
 
 
 def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
-    """Raises Refused if a scene lacks a camera that its task names, or has nothing that people are shown."""
+    """Raises Refused if a scene lacks a camera that its task names, or shows nothing."""
     from handeye.cell.looks import LATENT, SCENERY, SEEN
 
     cameras = [scene.camera(number).name for number in range(scene.ncam)]
@@ -170,11 +170,11 @@ def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
 
 
 class Task(AnyTask):
-    """One kind of work for an arm that a planned program drives: its cell, its worlds, and its referee."""
+    """Work for an arm that a planned program drives: its cell, its worlds, and its referee."""
 
     arm: ArmModel
     park: Array
-    """Where the arm stands when the cell is switched on, shape (n,)."""
+    """Joint positions when the cell is switched on, rad or m, shape (n,)."""
     script: str | None = None
     """The program that is taken where none is named: a file among the plans, or the path of one elsewhere."""
     other_scripts: tuple[str, ...] = ()
@@ -195,30 +195,33 @@ class Task(AnyTask):
         return {}
 
     def fixtures(self) -> Mapping[str, Fixture]:
-        """What the planner keeps motions clear of where the program has not been taught otherwise."""
+        """Obstacles that the planner keeps clear of, unless the program is taught others."""
         return {}
 
     @abstractmethod
     def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:
-        """The cell of a world, switched on; pictures are made by `auto`, `gl` or `ray`, or by what is made so.
+        """The cell of a world, switched on.
+
+        Args:
+            camera: how pictures are made: `auto`, `gl` or `ray`, or what makes a renderer.
 
         Raises:
             InvalidInput: there is no such world, or pictures cannot be made so here.
         """
 
     def disturbances(self) -> tuple[Disturbance, ...]:
-        """What can be changed before its work is undone; by default nothing."""
+        """Changes that can be made before its work is undone; by default none."""
         return ()
 
     def bystanders(self, truth: Truth) -> Mapping[str, Array]:
-        """Where the parts are that the hand does not hold, m, each of shape (3,), by their names."""
+        """Places of the parts that the hand does not hold, by their names, m, each of shape (3,)."""
         return {}
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
-        """The scene of a world as a truth of its cell has it, for other programs.
+        """The scene of a world in the state of a truth of its cell, for other programs.
 
         Args:
-            keyframe: name of the last keyframe, which is that truth.
+            keyframe: name of the last keyframe, which is that state.
 
         Raises:
             InvalidInput: this task exports none.

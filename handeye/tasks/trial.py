@@ -9,17 +9,17 @@ from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 
 Known = Literal["lamp", "sightings", "drawn", "true"]
-"""What the program knows of its camera: what its own lamp shows it, as in a run; what so many simulated sightings of a
-lamp would; its drawing; everything."""
+"""How the camera is known: calibrated with the arm's lamp as in a run, by simulated sightings of a lamp, as drawn, or
+exactly."""
 
 
 class Attempt(Record, frozen=True, kw_only=True):
-    """One attempt, with what came of it."""
+    """One attempt and its outcome."""
 
     seed: int
-    """Of its world."""
+    """Seed of the world."""
     number: int
-    """Of the attempt in that world, from 0."""
+    """Index of the attempt in that world, from 0."""
 
 
 A = TypeVar("A", bound=Attempt)
@@ -30,34 +30,30 @@ class Count:
     """Counts over many attempts."""
 
     figures: Mapping[str, object]
-    """For programs."""
+    """Counts by their names, as JSON has them."""
     lines: tuple[str, ...]
-    """For people."""
+    """The same as lines of text."""
     wrong: int
-    """How often something wrong was taken for right."""
+    """Attempts in which something wrong was taken for right."""
 
 
 class Trial(ABC, Generic[A]):
-    """One thing to try."""
+    """Something that can be tried without a program."""
 
     attempt: type[A]
     """The class of its attempts."""
 
     @abstractmethod
     def attempts(self, world: WorldSpec, number: int, *, camera: str, known: Known) -> Iterator[A]:
-        """So many attempts in a world, its camera calibrated once; pictures made by `auto`, `gl` or `ray`.
-
-        Raises:
-            InvalidInput: there is no such world, or pictures cannot be made so here.
-        """
+        """`number` attempts in a world, its camera calibrated once; pictures made by `auto`, `gl` or `ray`."""
 
     @abstractmethod
     def sentence(self, attempt: A) -> str:
-        """What came of an attempt, for people."""
+        """The outcome of an attempt in a sentence."""
 
     @abstractmethod
     def count(self, attempts: Sequence[A]) -> Count:
-        """All attempts counted; there is at least one."""
+        """Counts over attempts, of which there is at least one."""
 
     def outcome(self, attempt: A) -> Literal["right", "missed", "wrong"]:
         """How an attempt counts: by default as right, unless something wrong was taken for right."""

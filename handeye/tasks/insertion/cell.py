@@ -22,17 +22,17 @@ SEATED: Final = 2e-4
 
 
 class Witness(PhysicsStepper):
-    """Makes the same steps as a stepper, and looks at pin and plate after each in which anything touches."""
+    """Steps the physics, and looks at pin and plate after each step in which anything touches."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         super().__init__(model, data)
         self._push = data.sensor(PUSH).data
         self.peak = 0.0
-        """The greatest force between pin and plate in any step so far, N: of the resultant of all their contacts."""
+        """Greatest resultant of all contacts of pin and plate in any step so far, N."""
         self.first: float | None = None
-        """When they first touched, s by the cell's clock."""
+        """Time of the first contact, s on the cell's clock."""
         self.seated: float | None = None
-        """When the pin was first seated, likewise."""
+        """Time at which the pin was first seated, s on the cell's clock."""
 
     def _closely(self, steps: int) -> None:
         for _ in range(steps):
@@ -70,12 +70,12 @@ def shoulder(data: mujoco.MjData) -> float:
 
 
 def off_holder(data: mujoco.MjData) -> tuple[float, float]:
-    """How far the pin is from its place in the holder, m, and how far it leans, rad."""
+    """Distance of the pin from its place in the holder, m, and its lean, rad."""
     pin = data.body("pin")
     return float(np.linalg.norm(pin.xpos - in_holder())), math.acos(min(1.0, float(pin.xmat[8])))
 
 
 def tip(data: mujoco.MjData) -> Array:
-    """Where the middle of the nose's end is, shape (3,), m, W."""
+    """Middle of the nose's end in W, m, shape (3,)."""
     pin = data.body("pin")
     return np.asarray(pin.xpos - dimensions()("pin.nose_length") * pin.xmat.reshape(3, 3)[:, 2])

@@ -1,4 +1,4 @@
-"""Insertion as a task: one pin is fetched and put into one hole."""
+"""Insertion as a task: fetch one pin and put it into one hole."""
 
 from __future__ import annotations
 
