@@ -9,7 +9,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, WholeNumber, complain, note, put_json, say, screen
 from handeye.cli.panic_button import PanicButton
-from handeye.core.errors import BadArgument, InvalidInput
+from handeye.core.errors import BadArgument, InvalidInput, Refused
 from handeye.core.extras import MissingExtra
 from handeye.systems.trig.cli.jobs import bucket, palletise
 
@@ -81,7 +81,7 @@ def run(
                 with watched(session, panic):
                     ways.append(session.runner.back(ALL))
                 tell(told_run(ways[1], back=True))
-        except InvalidInput as error:  # by the arm: the program was read
+        except Refused as error:  # by the arm
             complain(error)
             return 1
     if json:

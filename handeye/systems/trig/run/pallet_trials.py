@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import PhysicsFailed, Refused
 from handeye.core.random_streams import random_numbers
 from handeye.runs.runner import Runner
 from handeye.systems.trig.run.job import JobReport, carried_out, setup_of_job
@@ -62,7 +62,7 @@ def tried(blocks: int, interrupt: bool, seed: int) -> JobReport:
     """One trial."""
     try:
         runner = Runner(setup_of_job("palletise", seed, blocks))
-    except InvalidInput as error:  # by the arm: it cannot go where it is driven
+    except (Refused, PhysicsFailed) as error:  # it cannot go where it is driven
         return JobReport(job="palletise", seed=seed, blocks=blocks, outcome="stopped", told=(str(error),))
     after = broken_off_after(seed, blocks) if interrupt else None
     return carried_out(runner, after=after)
