@@ -7,7 +7,6 @@ import pytest
 from conftest import Command
 from two_machines import TwoMachines, begin_hour
 
-from handeye.report.page.channels import channels_section
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode
 from handeye.runs.folder import TRACE, open_again, open_new
@@ -86,8 +85,10 @@ def test_its_channels_are_in_csv_and_report(hour: Path, tmp_path: Path, command:
     assert code == 0, err
     head = (tmp_path / "tables" / "channels.csv").read_text(encoding="utf-8").splitlines()[0]
     assert head == "time,stage,step,line,gripper.pad,gripper.ever,pusher.range"
-    section = channels_section(read_trace(hour / TRACE))
-    assert ['aria-label="gripper.pad: 0 to 1"' in section, "pusher.range" in section] == [True, True]
+    code, _, err = command("report", str(hour), "-o", str(tmp_path / "page.html"))
+    assert code == 0, err
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert ['aria-label="gripper.pad: 0 to 1"' in page, "pusher.range" in page] == [True, True]
 
 
 def test_its_channels_are_in_the_live_view() -> None:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from handeye.core.markup import Markup
 from handeye.core.plain_text import printable
 from handeye.report.facts.outcome import outcome
+from handeye.report.page.channels import channels_section
 from handeye.report.page.document import MARK, head, resource
 from handeye.report.page.elements import element, section
 from handeye.report.page.record import facts
@@ -29,6 +30,7 @@ def account_page(run: Recorded) -> bytes:
 def _sections(run: Recorded) -> Iterator[Markup]:
     yield section("account", "What happened", element("pre", "\n".join(account(run.trace.events))))
     yield timing_section(run)
+    yield channels_section(run.trace)
     if run.result is not None and run.result.checks:
         yield section("referee", "What the referee measured", findings_table(run.result.checks))
     yield section("record", "World and versions", facts(run))
