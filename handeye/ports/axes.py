@@ -86,12 +86,7 @@ class Axes(ABC):
 
     @abstractmethod
     def put(self, goal: Array) -> None:
-        """Name where the axes are to go from now on, shape (n,), rad or m.
-
-        Raises:
-            InvalidInput: a goal is not a finite number.
-            Refused: the power is off.
-        """
+        """Name where the axes are to go from now on, shape (n,), rad or m."""
 
     def power(self, on: bool) -> None:
         """Switch its servos on, which hold where they are then, or off.

@@ -1,1 +1,1 @@
-"""Videos of recorded runs: which moments, from where, with which words, and as which file."""
+"""Videos of recorded runs: moments, views, captions and files."""

@@ -1,4 +1,4 @@
-"""Words over the frames of a video: the stage under way and its place among all, the clock, and pictures."""
+"""Captions over video frames: the present stage and its place among all, the clock, and pictures."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,40 +12,35 @@ from numpy.typing import NDArray
 from handeye.cell.photograph import Photograph
 
 Mask = NDArray[np.float32]
-"""How much of the ink is on each point, 0 to 1, shape (height, width)."""
+"""Ink coverage of each point, 0 to 1, shape (height, width)."""
 _BAND, _BAR, _LETTERS, _MARGIN = 0.105, 0.016, 0.05, 0.025
-"""Heights of the band of words, of the bar of stages below it and of letters, and the space beside these, in heights of
-the frame."""
-_DARK: Final = 0.35
-"""What is left of the light under the words."""
-_SMALLEST: Final = 0.6
-"""Of their height that letters have left before words are cut."""
+"""Heights of the caption band, the stage bar below it and the letters, and the margin, as fractions of the frame
+height.
+"""
+_DARK: Final = 0.35  # remaining brightness under the caption
+_MIN_SCALE: Final = 0.6  # of the letter height before words are cut
 _INK: Final = np.array([255, 250, 240], dtype=np.float32)
 DONE: Final = np.array([228, 164, 52], dtype=np.uint8)
 STOPPED: Final = np.array([214, 48, 40], dtype=np.uint8)
 TO_COME: Final = np.array([70, 70, 74], dtype=np.uint8)
-_INSET: Final = 0.42
-"""Height of a picture over the frame."""
+_INSET: Final = 0.42  # height of a picture over the frame's
 _FINER: Final = 4
 _FONT: Final = cv2.FONT_HERSHEY_SIMPLEX
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Caption:
-    """What is said over a frame."""
+    """The caption of a frame."""
 
     words: str
     clock: str
-    stages: int
-    """How many there are."""
-    begun: int
-    """How many of them have begun."""
-    stopped: bool
-    """The last one that has begun was stopped."""
+    stages: int  # in all
+    begun: int  # begun so far
+    stopped: bool  # the last one was stopped
 
 
 def captioned(frame: Photograph, caption: Caption, inset: Photograph | None) -> Photograph:
-    """A frame with a caption on its lower edge, and a picture in its upper right corner."""
+    """A frame with a caption at its lower edge, and a picture in its upper right corner."""
     said = frame.copy()
     if inset is not None:
         _put_inset(said, inset)
@@ -55,7 +50,7 @@ def captioned(frame: Photograph, caption: Caption, inset: Photograph | None) -> 
 
 
 def _put_inset(frame: Photograph, inset: Photograph) -> None:
-    """Lay a picture over the upper right corner, with a white edge."""
+    """Put a picture in the upper right corner, with a white edge."""
     height = max(round(_INSET * len(frame)), 1)
     width = min(round(height * inset.shape[1] / inset.shape[0]), frame.shape[1])
     edge = max(len(frame) // 180, 1)
@@ -67,7 +62,7 @@ def _put_inset(frame: Photograph, inset: Photograph) -> None:
 
 
 def _put_words(frame: Photograph, caption: Caption) -> None:
-    """Stage on the left, clock on the right, on a darkened band."""
+    """Write stage (left) and clock (right) on a darkened band."""
     height, width = frame.shape[:2]
     top, bottom = round((1 - _BAND - _BAR) * height), round((1 - _BAR) * height)
     band = frame[top:bottom]
@@ -79,7 +74,7 @@ def _put_words(frame: Photograph, caption: Caption) -> None:
 
 
 def _put_bar(frame: Photograph, caption: Caption) -> None:
-    """A piece for each stage: done, stopped, to come."""
+    """Draw a segment for each stage: done, stopped, to come."""
     height, width = frame.shape[:2]
     bar = frame[round((1 - _BAR) * height) :]
     bar[:] = 0
@@ -91,7 +86,7 @@ def _put_bar(frame: Photograph, caption: Caption) -> None:
 
 
 def lettered(words: str, size: Sequence[int], room: int, *, margin: int, right: bool = False) -> Mask:
-    """A line of letters in the middle of a band (height, width), within its room (points)."""
+    """A line of text in the middle of a band (height, width), within `room` (points)."""
     height, width = size
     words, scale = _fitted(words, _FINER * height * _LETTERS / _BAND / _letter_height(), _FINER * room)
     long, high = _extent(words, scale)
@@ -104,8 +99,8 @@ def lettered(words: str, size: Sequence[int], room: int, *, margin: int, right: 
 
 
 def _fitted(words: str, scale: float, room: int) -> tuple[str, float]:
-    """Words as long as a room (points), and their scale: smaller first, then shorter."""
-    least = _SMALLEST * scale
+    """Words and scale that fit a room (points): first smaller, then cut."""
+    least = _MIN_SCALE * scale
     while scale > least and _extent(words, scale)[0] > room:
         scale *= 0.95
     whole = words
@@ -122,7 +117,7 @@ def _extent(words: str, scale: float) -> tuple[int, int]:
 
 
 def _letter_height() -> float:
-    """Points that a capital is high at scale 1."""
+    """Height of a capital at scale 1, points."""
     return float(_extent("M", 1)[1])
 
 
@@ -131,6 +126,6 @@ def _weight(scale: float) -> int:
 
 
 def _inked(mask: Mask) -> int:
-    """How wide what is written is."""
+    """Width of the inked area."""
     columns = np.flatnonzero(mask.any(axis=0))
     return int(np.ptp(columns)) if len(columns) else 0

@@ -1,4 +1,4 @@
-"""The files that a video can be: animated WebP and WebM, which browsers play and OpenCV writes."""
+"""Video formats: animated WebP and WebM, which browsers play and OpenCV writes."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,24 +11,22 @@ from handeye.video.frames import Frames
 from handeye.video.webm import webm
 from handeye.video.webp import webp
 
-_MOST: Final = 1 << 30
-"""Bytes of the frames of a WebP animation, which are all in memory at once."""
+_MAX_BYTES: Final = 1 << 30  # of a WebP animation's frames, all in memory at once
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Format:
-    """A kind of file for videos."""
+    """A video format."""
 
     kind: Kind
-    encode: Callable[[Frames, int], bytes]
-    """Makes a file of the frames; the last one stands for so many periods longer."""
-    largest: int | None
-    """Bytes of all frames together, at most."""
-    even: bool
-    """Sides have an even number of points."""
+    encode: Callable[
+        [Frames, int], bytes
+    ]  # frames and number of periods that the last one is held, to a file
+    largest: int | None  # limit on bytes of all frames
+    even: bool  # needs even sides
 
     def check(self, frames: int, width: int, height: int) -> None:
-        """See whether there can be such a video; raises InvalidInput if there cannot."""
+        """Raise BadArgument for an impossible size or length."""
         if self.even and (width % 2 or height % 2):
             raise BadArgument(
                 f"a {self.kind.name} of {width} x {height} cannot be made; both sides must be even"
@@ -41,9 +39,7 @@ class Format:
 
 
 def format_of(path: Path) -> Format:
-    """The format that the name of a file asks for; raises InvalidInput if it is none, or one that is not written, for a
-    reason that is told.
-    """
+    """The format of a file name; raises BadArgument."""
     ending = path.suffix.lower()
     if ending in FORMATS:
         return FORMATS[ending]
@@ -57,7 +53,7 @@ FORMATS: Final = {
     ".webp": Format(
         kind=Kind("WebP picture", rb"(?s)RIFF....WEBP", ending=".webp"),
         encode=webp,
-        largest=_MOST,
+        largest=_MAX_BYTES,
         even=False,
     ),
     ".webm": Format(
@@ -69,4 +65,4 @@ REFUSED: Final = {
     (".png", ".apng"): "an animated PNG would be twenty times as large",
     (".mp4", ".m4v", ".mov"): "every browser would play H.264 there, which OpenCV does not write",
 }
-"""Why files with these endings are not made."""
+"""Endings that are refused, and why."""

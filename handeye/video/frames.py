@@ -1,4 +1,4 @@
-"""Frames of a video, on their way into a file."""
+"""Frames of a video."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -7,11 +7,10 @@ import numpy as np
 
 from handeye.cell.photograph import Photograph
 
-RATE: Final = 12
-"""Frames a second."""
+RATE: Final = 12  # frames a second
 Frames = Iterator[Photograph]
 
 
 def bgr(frame: Photograph) -> Photograph:
-    """A frame as OpenCV has colours: blue, green, red."""
+    """A frame in OpenCV's order: blue, green, red."""
     return np.ascontiguousarray(frame[:, :, ::-1])

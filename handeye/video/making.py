@@ -1,4 +1,4 @@
-"""A video of a recorded run is drawn and written."""
+"""Draws and writes the video of a recorded run."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -23,36 +23,26 @@ from handeye.video.storyboard import Frame, Storyboard, storyboard
 from handeye.video.wanted import Wanted
 from handeye.vision.drawing import annotate
 
-_FINER: Final = 2
-"""Points of the drawing for one of a frame, along a side."""
+_FINER: Final = 2  # drawn points per frame point along a side
 _SHADOW: Final = 2048
 
-Told = Callable[[int, int], None]
-"""Is told how many frames are drawn, and of how many."""
+Told = Callable[[int, int], None]  # progress: frames drawn, and their number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Video:
-    """A video that was written."""
+    """A written video."""
 
     path: Path
-    seconds: float
-    """How long it is."""
-    frames: int
-    """How many were drawn; the last one stands for a while."""
+    seconds: float  # duration
+    frames: int  # drawn; the last one is held for a while
     bytes: int
 
 
 def make_video(
     trace: Trace, path: Path, wanted: Wanted, *, overwrite: bool, told: Told = lambda done, of: None
 ) -> Video:
-    """Write a video of a recorded run, whole or not at all. Nothing is simulated; raises Taken if a video is there, and
-    may not be replaced and raises InvalidInput if there can be no such video, it cannot be written there, the run is of
-    another scene, or there is no OpenGL here.
-
-    Args:
-        overwrite: a video that is there may be replaced.
-    """
+    """Write a video of a recorded run, whole or not at all, without simulation; raises Taken unless `overwrite`."""
     require(trace.head.system, "video", trace.name)
     form = format_of(path)
     check_place(path, form.kind)
@@ -67,7 +57,7 @@ def make_video(
 
 
 def _drawn(trace: Trace, board: Storyboard, wanted: Wanted, told: Told) -> Iterator[Photograph]:
-    """The frames, one after the other."""
+    """Draw the frames in order."""
     photographer = Photographer(
         trace.scene, width=_FINER * wanted.width, height=_FINER * wanted.height, shadow=_SHADOW
     )
@@ -79,16 +69,14 @@ def _drawn(trace: Trace, board: Storyboard, wanted: Wanted, told: Told) -> Itera
 
 
 def _said(drawn: Photograph, frame: Frame) -> Photograph:
-    """A frame with what is said over it."""
+    """A frame with its caption."""
     if frame.caption is None:
         return drawn
     return captioned(drawn, frame.caption, None if frame.looked_at is None else _marked(frame.looked_at))
 
 
 def _marked(seen: SeenPicture) -> Photograph:
-    """A picture that the program took, with what it found in it; raises InvalidInput if that is so far outside that it
-    cannot be drawn.
-    """
+    """A picture with the marks of what was found in it."""
     try:
         return annotate(seen.picture, seen.marks, scale=1)[:, :, ::-1]
     except ValueError:

@@ -1,4 +1,4 @@
-"""Which passages of a run a video shows, and for how long each."""
+"""Selects the passages of a run that a video shows, and their durations."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -14,39 +14,29 @@ from handeye.report.facts.seen import SeenPicture, seen_pictures
 from handeye.report.recorded import Recorded
 from handeye.trace.trace import Trace
 
-PATIENCE: Final = 1.0
-"""s that is left of a wait for the camera's mechanism."""
-_LOOK: Final = 0.7
-"""s of the video for which a picture is looked at."""
-_LOOKING: Final = 0.4
-"""Of a video that may go into that, at most."""
+MAX_WAIT_S: Final = 1.0
+"""What is left of a wait for the camera's mechanism."""
+_LOOK: Final = 0.7  # s of the video to show a picture
+_LOOKING: Final = 0.4  # fraction of a video for pictures, at most
 _LEAST: Final = 2 / 3
-"""Of the time that every stage would have if all had the same: what each has at least."""
+"""Least duration of a stage, over an equal share."""
 
-Span = tuple[float, float]
-"""From when to when, s on the cell's clock."""
+Span = tuple[float, float]  # begin, end, s by the cell's clock
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Passage:
-    """A time of the run that is shown without a cut, within one stage; or a moment of it, for a picture's sake."""
+    """A continuous part of the run within one stage, or a moment of it to show a picture."""
 
-    begin: float
-    """s, on the cell's clock"""
+    begin: float  # s by the cell's clock
     end: float
     stage: int
-    """Counted through the stages as the arm went through them, either way; -1 before the first."""
-    looked_at: SeenPicture | None = None
-    """The picture that is shown while the run stands still."""
+    """Index among the stages as carried out, either way; -1 before the first."""
+    looked_at: SeenPicture | None = None  # picture shown while the run stands still
 
 
 def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
-    """The passages of a time, without waits for the camera's mechanism; raises InvalidInput if there is no motion in
-    that time.
-
-    Args:
-        looks: the run stands still where a picture was taken, so that it can be looked at.
-    """
+    """Passages of a time span without waits for the camera; `looks` adds stops at pictures."""
     pictures = _pictures(trace) if looks else {}
     edges = sorted({*pictures, *(stage.begin for stage in trace.stages_both_ways)})
     found: list[Passage] = []
@@ -62,17 +52,17 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
 
 
 def _pictures(trace: Trace) -> dict[float, SeenPicture]:
-    """The pictures that were taken, by the clock."""
+    """Pictures by the clock."""
     clocks = {trace.elapsed(picture.time): picture.time for picture in trace.pictures}
     return {clocks[picture.time]: picture for picture in seen_pictures(Recorded(trace=trace))}
 
 
 def _without_waits(trace: Trace, span: Span) -> Iterator[Span]:
-    """What is left of a time where waits are cut out."""
+    """A span without its waits."""
     begin, end = span
     for event in trace.events:
-        if isinstance(event, CameraBusy) and event.seconds > PATIENCE:
-            cut = min(event.time - event.seconds + PATIENCE, end)
+        if isinstance(event, CameraBusy) and event.seconds > MAX_WAIT_S:
+            cut = min(event.time - event.seconds + MAX_WAIT_S, end)
             if begin < cut:
                 yield begin, cut
             begin = max(begin, event.time)
@@ -81,21 +71,21 @@ def _without_waits(trace: Trace, span: Span) -> Iterator[Span]:
 
 
 def _pieces(spans: Iterable[Span], edges: list[float]) -> Iterator[Span]:
-    """Times, cut at edges."""
+    """Spans cut at edges."""
     for begin, end in spans:
         cuts = [begin, *(edge for edge in edges if begin < edge < end), end]
         yield from pairwise(cuts)
 
 
 def at_speed(shown: tuple[Passage, ...], speed: float) -> Array:
-    """How long each passage is in the video (s), shape (n,), if all are so many times as fast as they were."""
+    """Durations in the video (s), shape (n,), at a constant speed-up."""
     return _took(shown) / speed + _LOOK * _still(shown)
 
 
 def within(shown: tuple[Passage, ...], seconds: float) -> Array:
-    """How long each passage is in the video (s), shape (n,), if they take so long together.
+    """Durations in the video (s), shape (n,), for a total length.
 
-    All are equally fast, but for those of short stages: slower, so that each can be seen.
+    All have the same speed except those of short stages, which are slower, to be seen.
     """
     still, took = _still(shown), _took(shown)
     look = min(_LOOK, _LOOKING * seconds / max(still.sum(), 1))
@@ -111,12 +101,12 @@ def _took(shown: tuple[Passage, ...]) -> Array:
 
 
 def _still(shown: tuple[Passage, ...]) -> Array:
-    """1 for those that stand still, 0 for others."""
+    """1 for passages that stand still, else 0."""
     return np.array([float(passage.looked_at is not None) for passage in shown])
 
 
 def _shares(took: Array, least: float) -> Array:
-    """Shares of the whole as `took` has them, but none below `least`, shape (n,)."""
+    """Shares proportional to `took`, but none below `least`, shape (n,)."""
     short = np.zeros(len(took), dtype=bool)
     while True:
         rest = 1 - least * short.sum()
@@ -127,7 +117,7 @@ def _shares(took: Array, least: float) -> Array:
 
 
 def passage_at(lasts: Array, times: Array) -> tuple[Array, Array]:
-    """The number of the passage that stands at each time of the video (s), and how much of it is over by then."""
+    """Index of the passage at each time of the video (s), and the fraction of it that has passed."""
     ends = np.cumsum(lasts)
     at = np.minimum(np.searchsorted(ends, times, side="right"), len(lasts) - 1)
     return at, np.clip((times - (ends - lasts)[at]) / lasts[at], 0, 1)

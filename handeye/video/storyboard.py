@@ -1,4 +1,4 @@
-"""What each frame of a video shows: which moment of the run, from where, and with which words."""
+"""Plans the frames of a video: moment, view and caption."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,38 +22,34 @@ from handeye.video.views import View, views
 from handeye.video.wanted import LONGEST, SECONDS, Wanted
 
 _HELD: Final = 0.1, 1.5
-"""How long the last frame stands: of the whole video, and s at most."""
+"""Duration of the last frame: fraction of the video, and s at most."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Frame:
     """A frame of a video."""
 
-    time: float
-    """s, on the cell's clock"""
+    time: float  # s by the cell's clock
     view: View
     caption: Caption | None
-    looked_at: SeenPicture | None
-    """The picture that is shown in a corner."""
+    looked_at: SeenPicture | None  # picture in a corner
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Storyboard:
-    """The frames of a video in order, and for how many periods longer the last of them stands."""
+    """The frames of a video in order, and the number of periods that the last one is held."""
 
     frames: tuple[Frame, ...]
     held: int
 
     @property
     def seconds(self) -> float:
-        """How long the video is."""
+        """Duration of the video."""
         return (len(self.frames) + self.held) / RATE
 
 
 def storyboard(trace: Trace, wanted: Wanted) -> Storyboard:
-    """Plan a video of a recorded run; raises InvalidInput if there is no such stage or camera, nothing was recorded
-    there, it would be too long, or an older handeye recorded the run.
-    """
+    """Plan a video of a recorded run."""
     shown = passages(trace, _span(trace, wanted), looks=wanted.captions)
     lasts, held = _paced(shown, wanted)
     frames = max(round(lasts.sum() * RATE), 1)
@@ -76,15 +72,13 @@ def storyboard(trace: Trace, wanted: Wanted) -> Storyboard:
 
 
 def _times(chosen: Sequence[Passage], over: Array) -> list[float]:
-    """Times of the run (s) at which so much of each passage is over."""
+    """Times of the run (s) at these fractions of passages."""
     spans = np.array([(passage.begin, passage.end) for passage in chosen])
     return list((spans[:, 0] + over * np.ptp(spans, axis=1)).tolist())
 
 
 def _span(trace: Trace, wanted: Wanted) -> Span:
-    """The time of the run that is asked for, as far as it was recorded; raises InvalidInput if there is no such stage,
-    or nothing between them.
-    """
+    """The requested time span, as far as it was recorded."""
     program, (begin, end) = stage_names(trace), trace.covers
     first, last = (
         None if given is None else stage_index(str(given), program) for given in (wanted.first, wanted.last)
@@ -99,7 +93,7 @@ def _span(trace: Trace, wanted: Wanted) -> Span:
 
 
 def _recorded(trace: Trace, name: str) -> list[Stage]:
-    """A stage each time that it was carried out, and its motions recorded; raises InvalidInput if it was not."""
+    """Every recorded execution of a stage; raises BadArgument if there is none."""
     stages = [stage for stage in trace.stages if stage.end > trace.begins]
     found = [stage for stage in stages if stage.name == name]
     if not found:
@@ -109,9 +103,7 @@ def _recorded(trace: Trace, name: str) -> list[Stage]:
 
 
 def _paced(shown: tuple[Passage, ...], wanted: Wanted) -> tuple[Array, int]:
-    """How long each passage is in the video (s), and for how many periods more its last frame stands; raises
-    InvalidInput if the video would be too long.
-    """
+    """Durations of passages (s), and the periods that the last frame is held."""
     share, most = _HELD
     if wanted.speed is None:
         periods = max(round((wanted.seconds or SECONDS) * RATE), 1)

@@ -1,4 +1,4 @@
-"""What is asked of a video."""
+"""Options of a video."""
 
 import math
 from dataclasses import dataclass
@@ -8,34 +8,25 @@ from handeye.cell.photograph import LARGEST, SMALLEST
 from handeye.core.errors import BadArgument
 from handeye.core.whole_numbers import whole
 
-SECONDS: Final = 14.0
-"""How long a video is where nobody says."""
-LONGEST: Final = 600.0
-"""s of a video."""
-ORBIT: Final = "orbit"
-"""The view that sways slowly round all of the cell."""
-FOLLOW: Final = "follow"
-"""The view that goes near to where the hand works, stage by stage."""
+SECONDS: Final = 14.0  # default duration
+LONGEST: Final = 600.0  # s
+ORBIT: Final = "orbit"  # a view that sways slowly around the cell
+FOLLOW: Final = "follow"  # a view close to the hand's work, stage by stage
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wanted:
-    """What is asked of a video; raises InvalidInput if there can be no such video."""
+    """Options of a video; raises BadArgument for impossible ones."""
 
-    camera: str = ORBIT
-    """A camera of the scene, `orbit` or `follow`."""
+    camera: str = ORBIT  # a camera of the scene, `orbit` or `follow`
     width: int = 480
     height: int = 360
-    seconds: float | None = None
-    """How long it is; by default `SECONDS`."""
-    speed: float | None = None
-    """How many times as fast as the run it is, instead."""
+    seconds: float | None = None  # duration; `SECONDS` by default
+    speed: float | None = None  # speed-up over the run, instead of a duration
     first: str | int | None = None
-    """The stage that it begins with: number, name, or a piece of the name; by default the first."""
-    last: str | int | None = None
-    """The stage that it ends with."""
-    captions: bool = False
-    """It says which stage is under way, and shows the pictures that the program takes."""
+    """First stage: number, name, or part of the name; by default the first one."""
+    last: str | int | None = None  # last stage
+    captions: bool = False  # show the stage, and the program's pictures
 
     def __post_init__(self) -> None:
         sides = [whole(side) for side in (self.width, self.height)]

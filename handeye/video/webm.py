@@ -1,4 +1,4 @@
-"""WebM files (VP8), by OpenCV and FFmpeg in it."""
+"""WebM files (VP8), by OpenCV with FFmpeg."""
 
 import os
 import re
@@ -14,15 +14,11 @@ from handeye.core.errors import Refused
 from handeye.video.frames import RATE, Frames, bgr
 
 _TRACK: Final = re.compile(rb"\x73\xc5\x88(.{8})", re.DOTALL)
-"""The number that a WebM file gives its track, which FFmpeg draws anew for each: identifier, length, eight bytes."""
+"""Track number of a WebM file, random in FFmpeg: identifier, length, eight bytes."""
 
 
 def webm(frames: Frames, held: int) -> bytes:
-    """A WebM file (VP8), the same to the byte for the same frames; raises InvalidInput if this OpenCV cannot write any.
-
-    Args:
-        held: for how many periods longer the last frame stands.
-    """
+    """A WebM file (VP8), reproducible to the byte; the last frame is held for `held` periods."""
     frame = next(frames)
     height, width = frame.shape[:2]
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder:
@@ -49,7 +45,7 @@ def _writer(path: Path, width: int, height: int) -> cv2.VideoWriter:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """While OpenCV would say on standard error that VP80 is no name for what it writes under that name."""
+    """Silence OpenCV's warning on standard error about the name VP80."""
     try:
         kept = os.dup(2)
     except OSError:  # there is no standard error
@@ -65,6 +61,6 @@ def _quiet() -> Iterator[None]:
 
 
 def _numbered(data: bytes) -> bytes:
-    """A WebM file whose track has the number 1."""
+    """A WebM file with track number 1."""
     track = _TRACK.search(data)
     return data if track is None else data.replace(track[1], (1).to_bytes(8))

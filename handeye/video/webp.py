@@ -11,17 +11,12 @@ from handeye.video.frames import RATE, Frames, bgr
 
 _QUALITY: Final = 75
 _ALIKE: Final = 5
-"""How far values of a point may differ for libwebp to leave the point as it is, at this quality."""
-_BLOCK: Final = 8
-"""Points along a side of what is left as it is."""
+"""Differences that libwebp ignores at this quality."""
+_BLOCK: Final = 8  # side of an ignored block, points
 
 
 def webp(frames: Frames, held: int) -> bytes:
-    """An animated WebP file, which begins anew when it is over.
-
-    Args:
-        held: for how many periods longer the last frame stands.
-    """
+    """A looping animated WebP file; the last frame is held for `held` periods."""
     animation = cv2.Animation()
     animation.frames = [bgr(frame) for frame in settled(frames)]
     ends = np.arange(1, len(animation.frames) + 1)
@@ -33,9 +28,9 @@ def webp(frames: Frames, held: int) -> bytes:
 
 
 def settled(frames: Frames) -> Frames:
-    """Frames of which a block changes when it differs enough from what is shown.
+    """Frames whose blocks change only when they differ enough from what is shown.
 
-    libwebp leaves out what is like the frame before. What changes slowly is always like that, and would never be shown.
+    libwebp skips what resembles the frame before, so that slow changes would never be shown.
     """
     shown = next(frames)
     yield shown
@@ -45,7 +40,7 @@ def settled(frames: Frames) -> Frames:
 
 
 def _changed(frame: Photograph, shown: Photograph) -> NDArray[np.bool_]:
-    """Which points lie in a block in which any differs enough, shape (height, width)."""
+    """Mask of the points in blocks with a sufficient difference, shape (height, width)."""
     height, width = frame.shape[:2]
     rows, columns = -(-height // _BLOCK), -(-width // _BLOCK)
     differs = np.zeros((rows * _BLOCK, columns * _BLOCK), dtype=bool)

@@ -26,8 +26,7 @@ ArmKind = Annotated[
 TrigFile = Annotated[
     Path, Parameter(help="A script of typed lines (.trig), or a program that W has written (.trig.json).")
 ]
-ALL: Final = 1_000_000_000
-"""Steps: more than are ever remembered."""
+ALL: Final = 1_000_000_000  # steps: more than can be recorded
 
 trig = App(
     name="trig", help="TRIG (MIT, 1982): teach a program by doing, see it as it grows, run it backwards."
@@ -121,12 +120,12 @@ def show(
 
 
 def at_terminal() -> bool:
-    """Whether somebody sits at a terminal who can type and see."""
+    """True if standard input and output are a terminal."""
     return sys.stdin.isatty() and sys.stdout.isatty()
 
 
 def _piped(session: "Session", halted: Callable[[], bool]) -> int:
-    """Hear the lines of standard input; one that is refused is told, and the next is heard."""
+    """Carry out lines of standard input; a refused one is reported, and the next is read."""
     from handeye.systems.trig.language.hearing import hear
     from handeye.systems.trig.language.script import Script
 
@@ -142,7 +141,7 @@ def _piped(session: "Session", halted: Callable[[], bool]) -> int:
 
 
 def _conversed(session: "Session", arm: str) -> int:
-    """Converse with somebody at a terminal: on a screen, or line by line where that cannot be had."""
+    """Run a session at a terminal: on a screen, or line by line where that is missing."""
     try:
         from handeye.systems.trig.cli.screen import PACE, Screen
     except ModuleNotFoundError:

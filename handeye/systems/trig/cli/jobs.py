@@ -33,7 +33,7 @@ Seed = Annotated[WholeNumber, Parameter(help="The world: how far off people teac
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KeptOptions:
-    """What is left of a job."""
+    """What to keep of a job."""
 
     out: Annotated[
         Path | None,
@@ -55,8 +55,8 @@ NOTHING: Final = KeptOptions()
 CODES: Final = {"right": 0, "stopped": 1, "silent": 3}
 
 
-class _Told(Observer):
-    """Tells at a terminal how far a job is."""
+class _Progress(Observer):
+    """Shows a job's progress at a terminal."""
 
     def __init__(self, runner: "Runner", status: Status) -> None:
         self._runner, self._status = runner, status
@@ -131,7 +131,7 @@ def _carried_out(
     folder: "RunFolder | None",
     video: "JobVideo | None",
 ) -> "tuple[JobReport, TaughtJob]":
-    """Teach a job and carry it out; what it comes to is in its folder before anybody can break it off."""
+    """Teach a job and carry it out; its result is in the folder before the user can interrupt."""
     from handeye.results.finishing import finished
     from handeye.results.outcome import outcome
     from handeye.runs.host_seconds import Meter
@@ -142,7 +142,7 @@ def _carried_out(
 
         def observers(runner: "Runner") -> "Sequence[Observer]":
             watching = [] if folder is None else [folder.watch(runner, start, again=False, meter=meter)]
-            return [_Told(runner, status), *watching]
+            return [_Progress(runner, status), *watching]
 
         runner = _taught(start, panic, folder, observers)
         job = job_of(runner).job
@@ -164,11 +164,7 @@ def _taught(
     folder: "RunFolder | None",
     observers: "Callable[[Runner], Sequence[Observer]]",
 ) -> "Runner":
-    """The run, its job taught; where it cannot be, a new folder is as if nobody had asked for it.
-
-    Raises:
-        KeyboardInterrupt: somebody wanted it to stop.
-    """
+    """The run with its job taught; on failure a new folder is removed."""
     from handeye.execution.servo import Halted
     from handeye.runs.runner import Runner
 
@@ -184,7 +180,7 @@ def _taught(
 
 
 def _filmed(video: "JobVideo", job: "TaughtJob", done: "JobReport") -> bool:
-    """Write the video; False if it cannot be, which is told, and the verdict stands."""
+    """Write the video; False if it cannot be made, which is reported."""
     try:
         with drawing() as told:
             video.write(job, done.ended_s, told)
@@ -195,7 +191,7 @@ def _filmed(video: "JobVideo", job: "TaughtJob", done: "JobReport") -> bool:
 
 
 def _check_apart(kept: KeptOptions) -> None:
-    """Raises InvalidInput if the video is to lie in the folder of the run, which holds nothing else."""
+    """Raise CannotWrite if the video would lie in the run's folder."""
     if kept.out is None or kept.video is None:
         return
     if kept.video.absolute().is_relative_to(kept.out.absolute()):
@@ -203,7 +199,7 @@ def _check_apart(kept: KeptOptions) -> None:
 
 
 def _tell(done: "JobReport") -> None:
-    """What the referee has found, and the verdict."""
+    """Print the referee's findings and the verdict."""
     for title, checks in (("The program has ended:", done.checks), ("Undone:", done.checks_back)):
         if checks:
             say(title)

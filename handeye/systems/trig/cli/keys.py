@@ -1,4 +1,4 @@
-"""Keys of the screen: what is typed while a line, the teach box, or the end of a run is waited for."""
+"""Key bindings of the screen, by what it waits for."""
 
 from typing import TYPE_CHECKING, Final
 
@@ -14,17 +14,16 @@ JOGS: Final = {
     "x": (0, -1), "X": (0, 1), "y": (1, -1), "Y": (1, 1), "z": (2, -1), "Z": (2, 1),
     "r": (3, -1), "R": (3, 1), "p": (4, -1), "P": (4, 1), "w": (5, -1), "W": (5, 1),
 }  # fmt: skip
-"""Axis and direction of each key of the teach box."""
+"""Axis and direction of each teach box key."""
 BOX_HELP: Final = "xXyYzZrRpPwW or ←→↓↑PgDnPgUp: drive   Enter: record   k: kill   +-:"
 LINE_HELP: Final = "HELP: commands   Tab: complete   Ctrl-C: drop the line   Q or Ctrl-D: leave"
 BUSY_HELP: Final = "any key stops the arm"
 PAGE_HELP: Final = "PgUp PgDn, then any line"
-STEPS: Final = (0.1, 1.0, 5.0, 10.0, 50.0)
-"""mm or deg by which a key of the teach box moves an axis."""
+STEPS: Final = (0.1, 1.0, 5.0, 10.0, 50.0)  # mm or deg per teach box key
 
 
 def bindings(screen: "Screen") -> KeyBindings:
-    """What keys do, by what the screen waits for."""
+    """Key bindings by mode."""
     keys = KeyBindings()
     _bind_box(keys, screen)
     _bind_line(keys, screen)

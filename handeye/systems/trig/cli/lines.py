@@ -1,4 +1,4 @@
-"""A desk of lines: TRIG at a terminal that only takes lines and puts lines out."""
+"""A desk for terminals without a screen: lines in, lines out."""
 
 import sys
 from collections import deque
@@ -21,12 +21,11 @@ from handeye.systems.trig.language.symbols import symbols_for
 
 PROMPT = ">"
 BOX_PROMPT = "teach box (X 30, Z BY -5, RECORD, KILL)> "
-ROWS = 12
-"""Of the partial display."""
+ROWS = 12  # of the partial display
 
 
 class LineDesk(Desk):
-    """Asks and tells line by line; the teach box is typed."""
+    """A desk of typed lines, the teach box included."""
 
     def __init__(self, panic: PanicButton) -> None:
         self._panic = panic
@@ -34,7 +33,7 @@ class LineDesk(Desk):
         self.words: Callable[[], Iterable[str]] = lambda: COMMANDS
 
     def line(self, prompt: str) -> str | None:
-        """A typed line; None: there is none."""
+        """A typed line, or None at the end."""
         return next(typed_lines(prompt, self._panic.aside, self.words, droppable=prompt == PROMPT), None)
 
     def answer(self, question: str) -> str:
@@ -66,7 +65,7 @@ class LineDesk(Desk):
 
 
 def converse(session: Session, panic: PanicButton) -> None:
-    """Hear lines until somebody leaves; both displays are shown after each that changed something."""
+    """Carry out lines until the user leaves, showing both displays after each change."""
     session.desk = desk = LineDesk(panic)
     desk.words = lambda: (*COMMANDS, *_names(session))
     shown = ""
@@ -89,7 +88,7 @@ def _names(session: Session) -> Iterable[str]:
 
 
 def _picture(session: Session) -> str:
-    """Both displays, and where the arm is."""
+    """Both displays, and the arm's place."""
     symbols, width = symbols_for(sys.stdout.encoding), screen.width
     lines = [*full_display(session.program, width, ROWS, symbols), []]
     lines += partial_display(session.program, width, ROWS, symbols)

@@ -1,4 +1,4 @@
-"""The command that palletises in many worlds and counts."""
+"""The command for palletising trials."""
 
 from typing import Annotated
 

@@ -1,7 +1,7 @@
-"""A desk with a screen: TRIG at a terminal, with both displays live and keys for the teach box.
+"""A desk with a screen: live displays, and keys for the teach box.
 
-The session works in a thread of its own, so that the screen hears keys while the arm moves. The displays are drawn by
-whichever of the two may look at the program: the screen while the session waits, the session while it works.
+The session runs in its own thread, so that the screen reads keys while the arm moves. The displays are drawn by the
+thread that may read the program: the screen's while the session waits, the session's while it works.
 """
 
 from collections import deque
@@ -26,17 +26,15 @@ from handeye.systems.trig.language.session import Session
 
 PROMPT: Final = ">"
 PACE: Final = 0.08
-"""s that a step of an arm without a clock of its own is shown, so that it can be seen and stopped."""
-LONG: Final = 4
-"""Lines; what is longer is shown on a page of its own."""
-_KEPT: Final = 500
-"""Lines that have been told."""
+"""s that a step of an arm without a clock is shown, to be seen and stopped."""
+LONG: Final = 4  # lines; longer answers get a page of their own
+_KEPT: Final = 500  # lines of history
 
 Mode = Literal["line", "box", "busy"]
 
 
 class Screen(Desk):
-    """Shows a session, and hears what is typed."""
+    """Shows a session, and reads its input."""
 
     def __init__(
         self,
@@ -47,21 +45,16 @@ class Screen(Desk):
         input: Input | None = None,
         output: Output | None = None,
     ) -> None:
-        """Sit down at a session.
-
-        Args:
-            pace: s that each step is shown.
-            waits: called when a line or a key is waited for.
-        """
+        """Attach to a session; each step is shown for `pace` (s), and `waits` is called when input is awaited."""
         self.session, self.question = session, PROMPT
         self.mode: Mode = "busy"
-        """What is waited for."""
+        """What input is awaited."""
         self.step = 3
-        """Which of the steps of the teach box."""
+        """Index of the teach box step."""
         self.told: deque[tuple[str, str]] = deque(maxlen=_KEPT)
         """Style and text of lines."""
         self.page: list[str] = []
-        """A long answer, which is shown in the place of the partial display until the next line."""
+        """A long answer, shown instead of the partial display until the next line."""
         self.scroll = 0
         self._pace, self._waits = pace, waits
         self._lines, self._buttons = SimpleQueue[str | None](), SimpleQueue[Button | None]()
@@ -106,7 +99,7 @@ class Screen(Desk):
         self.app.invalidate()
 
     def _work(self) -> None:
-        """Hear lines until somebody leaves."""
+        """Carry out lines until the session ends."""
         try:
             while not self.session.over and (line := self._line(PROMPT)) is not None:
                 self.page = []
@@ -152,45 +145,45 @@ class Screen(Desk):
             raise self._failed[0]
 
     def picture(self) -> Picture:
-        """What is to be seen now."""
+        """The present picture."""
         if self.mode != "busy":
             self._picture = pictured(self.session, self.size)
         return self._picture
 
     def accept(self, buffer: Buffer) -> bool:
-        """Take a line that was typed."""
+        """Accept a typed line."""
         if self.mode == "line":
             self.put_line(buffer.text)
         return False
 
     def put_line(self, line: str | None) -> None:
-        """Hand the session a line; None: there is none."""
+        """Pass a line to the session; None at the end."""
         self.mode = "busy"
         self._lines.put(line)
 
     def put_button(self, button: Button | None) -> None:
-        """Hand the session what was done with the teach box; None: it was put down."""
+        """Pass a teach box action to the session; None if it was put down."""
         if not isinstance(button, Jog):
             self.mode = "busy"
         self._buttons.put(button)
 
     def jog(self, axis: int, sign: int) -> None:
-        """Press a button of an axis."""
+        """Press the button of an axis."""
         self.put_button(Jog(axis, sign * STEPS[self.step] * SIZES[axis]))
 
     def change_step(self, by: int) -> None:
-        """Make the steps of the teach box larger or smaller."""
+        """Change the teach box step."""
         self.step = max(0, min(self.step + by, len(STEPS) - 1))
 
     def turn_page(self, by: int) -> None:
-        """Show more of a long answer, or what was before."""
+        """Scroll a long answer."""
         self.scroll = max(0, min(self.scroll + 8 * by, len(self.page) - 1))
 
     def drop_line(self) -> None:
-        """Give up what is asked for; at the prompt there is nothing to give up but the line."""
+        """Cancel the question; at the prompt only the line is dropped."""
         if self.question != PROMPT:
             self.put_line(None)
 
     def strike(self) -> None:
-        """Stop what is under way."""
+        """Stop the present motion or run."""
         self._struck.set()

@@ -1,4 +1,4 @@
-"""Sessions of TRIG as the command line opens them: with an arm, and what a file brings."""
+"""Opens TRIG sessions for the command line."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -19,17 +19,12 @@ from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.storage import ENDING, read_program
 from handeye.systems.trig.language.teachable import Halted
 
-_SEEN: Final = 0.1
-"""s: nobody sees what stands there for a shorter time."""
+_REFRESH_S: Final = 0.1
+"""Least time between updates of the progress line."""
 
 
 def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Session:
-    """A session with an arm: a new one, or one in which a script has been typed, or a program read.
-
-    Raises:
-        InvalidInput: the file cannot be used.
-        KeyboardInterrupt: somebody wanted to stop while a script was typed.
-    """
+    """A session with an arm: empty, or with a script typed or a program read."""
     session = new_session(arm)
     if file is not None and file.name.endswith(ENDING):
         session.program, session.file = read_program(file), file
@@ -44,7 +39,7 @@ def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Sessi
 
 @contextmanager
 def watched(session: Session, halted: Halted) -> Iterator[None]:
-    """While a program runs, show at a terminal how far it is: an arm with physics takes its time."""
+    """Show a running program's progress at a terminal."""
     with watched_desk(session, halted) as desk:
         session.desk = desk
         yield
@@ -52,13 +47,13 @@ def watched(session: Session, halted: Halted) -> Iterator[None]:
 
 @contextmanager
 def watched_desk(session: Session, halted: Halted) -> Iterator[Desk]:
-    """A desk that shows at a terminal how far a program is."""
+    """A desk that shows progress at a terminal."""
     with notes.status("running") as status:
         yield _Watched(session, status, halted)
 
 
 class _Watched(Script):
-    """A desk that shows where a run is."""
+    """A desk that shows progress."""
 
     def __init__(self, session: Session, status: Status, halted: Halted) -> None:
         super().__init__((), note, halted)
@@ -66,8 +61,8 @@ class _Watched(Script):
         self._since = HostTimer()
 
     def refresh(self) -> None:
-        """Tell where it is, at most so often as people can see: to count what a long run has done takes its time."""
-        if self._since.wall_s < _SEEN:
+        """Update the progress, rarely enough, as counting executed steps takes time."""
+        if self._since.wall_s < _REFRESH_S:
             return
         self._since = HostTimer()
         program = self._session.program
@@ -78,7 +73,7 @@ class _Watched(Script):
 
 
 def interrupting(halted: Callable[[], bool]) -> Halted:
-    """Asked while a script is typed, where nobody could say how to go on: to halt is to interrupt."""
+    """A halt function for typing a script, where a halt interrupts everything."""
 
     def ask() -> bool:
         if halted():

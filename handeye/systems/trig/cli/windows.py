@@ -1,4 +1,4 @@
-"""Windows of the screen: full display, partial display, program editor, and a line about the arm."""
+"""Windows of the screen: full display, partial display, program editor, and arm status."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -50,16 +50,14 @@ STYLE: Final = Style.from_dict(
         "help": "ansibrightblack",
     }
 )
-FULL_ROWS: Final = 5
-"""Of the full display, at most."""
-EDITOR_ROWS: Final = 5
-"""Of what has been typed and told, at most."""
+FULL_ROWS: Final = 5  # of the full display, at most
+EDITOR_ROWS: Final = 5  # of input and answers, at most
 DRIVE: Final = "Drive the arm to the place, and record it. "
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Picture:
-    """What is to be seen of a program and its arm."""
+    """The displays of a program, and its arm's status."""
 
     full: list[Line]
     partial: list[Line]
@@ -68,7 +66,7 @@ class Picture:
 
 
 def pictured(session: Session, size: tuple[int, int]) -> Picture:
-    """Draw both displays for a terminal of so many columns and rows."""
+    """Draw both displays for a terminal of this many columns and rows."""
     columns, rows = size
     symbols = symbols_for("utf-8")
     full = full_display(session.program, columns - 2, FULL_ROWS, symbols)
@@ -83,14 +81,14 @@ def pictured(session: Session, size: tuple[int, int]) -> Picture:
 
 
 def editor_rows(rows: int) -> int:
-    """Rows of a terminal of so many that are for what has been typed and told."""
+    """Terminal rows for input and answers."""
     return max(1, min(EDITOR_ROWS, rows // 4 - 1))
 
 
 def application(
     screen: "Screen", keys: KeyBindings, input: Input | None, output: Output | None
 ) -> Application[None]:
-    """The whole terminal."""
+    """The application that fills the terminal."""
     line = TextArea(
         multiline=False,
         height=1,
@@ -124,7 +122,7 @@ def application(
 
 
 def _told(screen: "Screen") -> StyleAndTextTuples:
-    """What was typed and told last, down to the line that is typed now."""
+    """The latest input and answers."""
     room = editor_rows(screen.size[1])
     last = list(screen.told)[-room:]
     lines = [("", "")] * (room - len(last)) + last
@@ -132,20 +130,20 @@ def _told(screen: "Screen") -> StyleAndTextTuples:
 
 
 def _text(text: Callable[[], StyleAndTextTuples], height: Callable[[], int] | None = lambda: 1) -> Window:
-    """A window that shows a text; without a height, it takes the room that is left."""
+    """A text window; without a height it takes the remaining rows."""
     rows = Dimension(weight=1) if height is None else lambda: Dimension.exact(height())
     return Window(FormattedTextControl(text), height=rows)
 
 
 def _rule(title: str, beside: str, screen: "Screen") -> StyleAndTextTuples:
-    """A line across the terminal with a title in it."""
+    """A rule with a title."""
     end = f" {beside} ─" if beside else ""
     room = screen.size[0] - len(title) - len(end) - 4
     return [("class:rule", "── "), ("class:title", title), ("class:rule", f" {'─' * max(0, room)}{end}")]
 
 
 def _drawn(lines: list[Line]) -> StyleAndTextTuples:
-    """A display, a blank away from the edge."""
+    """A display, indented by a blank."""
     drawn: StyleAndTextTuples = []
     for line in lines:
         drawn += [("", " "), *((f"class:{style}", text) for style, text in line), ("", "\n")]
@@ -153,24 +151,24 @@ def _drawn(lines: list[Line]) -> StyleAndTextTuples:
 
 
 def _page(screen: "Screen") -> StyleAndTextTuples:
-    """A long answer, from where it has been turned to."""
+    """A long answer from its scroll position."""
     return [("", "\n".join(f" {line}" for line in screen.page[screen.scroll :]))]
 
 
 def _help(screen: "Screen") -> str:
-    """What can be typed now."""
+    """Help for the present input."""
     if screen.mode == "box":
         return f"{BOX_HELP}   step {STEPS[screen.step]:g}"
     return LINE_HELP if screen.mode == "line" else BUSY_HELP
 
 
 def _file(session: Session) -> str:
-    """The file, with a star if there is something that it has not."""
+    """The file name, starred if there are unsaved changes."""
     star = "*" if session.program.changed else ""
     return f"{printable(str(session.file))}{star}" if session.file else "not written" if star else ""
 
 
 def _words(session: Session) -> list[str]:
-    """What a word may be completed to."""
+    """Completions of a word."""
     steps = [node.name for node in session.program.graph.nodes.values() if node.name]
     return sorted({*COMMANDS, "HELP", *steps, *filter(is_named, session.program.positions)})

@@ -1,1 +1,1 @@
-"""Blocks on the platter of a Purbrick arm: the bench on which TRIG's examples are carried out."""
+"""The bench of TRIG's examples: blocks on the platter of a Purbrick arm."""

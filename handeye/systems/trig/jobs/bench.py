@@ -9,6 +9,6 @@ NOMINAL = BlocksWorld()
 
 
 def purbrick(world: BlocksWorld = NOMINAL) -> tuple[AxesArm, BlockTable]:
-    """An arm that is switched on, with its hand open above the middle of an empty platter."""
+    """A switched-on arm with an open hand above the middle of an empty platter."""
     table = BlockTable(world)
     return AxesArm(PURBRICK.on_bench(table.bench, world.bending), table.bench, PURBRICK.limits), table

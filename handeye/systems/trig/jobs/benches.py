@@ -1,4 +1,4 @@
-"""Benches by name: machines that no task's program drives, opened where somebody asks for one, and jobs on them."""
+"""Benches and jobs by name, which load physics when they are opened."""
 
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Literal
@@ -22,43 +22,35 @@ if TYPE_CHECKING:
 
 ArmName = Literal["none", "purbrick"]
 JobName = Literal["palletise", "bucket"]
-MOST_BLOCKS = 20
-"""Of the palletiser's stack: the arm reaches over no more."""
-_LONGEST = 100_000
-"""Characters of a script: those of the paper have a thousand."""
+MOST_BLOCKS = 20  # of the palletiser's stack, by the arm's reach
+_LONGEST = 100_000  # characters of a script; the paper's have a thousand
 
 
 class SeenTable(Tabletop):
-    """What lies before an arm, and can be looked at."""
+    """A table that can be photographed."""
 
     @abstractmethod
     def photograph(self, width: int, height: int) -> "Photograph":
-        """Arm and table as somebody sees them who stands before them; the program never does.
-
-        Raises:
-            InvalidInput: no OpenGL on this machine.
-        """
+        """A photograph of arm and table for people; the program never sees it."""
 
 
 def open_bench(name: Literal["purbrick"]) -> "tuple[TrigArm, SeenTable]":
-    """An arm for TRIG that is switched on, and what lies before it, in the world without errors."""
+    """A switched-on TRIG arm and its table, in the world without errors."""
     from handeye.systems.trig.jobs.bench import purbrick  # with its physics: only where it is asked for
 
     return {"purbrick": purbrick}[name]()
 
 
-class Lying(Record, frozen=True, kw_only=True):
-    """How a block truly lies, by its middle over the platter."""
+class BlockPose(Record, frozen=True, kw_only=True):
+    """The true pose of a block's middle over the platter."""
 
     name: str
-    at: tuple[float, float, float]
-    """mm"""
-    turned: float
-    """deg about the vertical."""
+    at: tuple[float, float, float]  # mm
+    turned: float  # deg about the vertical
 
 
 def new_session(arm: ArmName) -> "Session":
-    """A session of TRIG in which nothing was done, at an arm that is imagined or at one with physics."""
+    """A new TRIG session with an imaginary or simulated arm."""
     from handeye.systems.trig.language.no_arm import NoArm
     from handeye.systems.trig.language.script import Script
     from handeye.systems.trig.language.session import Session
@@ -71,27 +63,23 @@ def new_session(arm: ArmName) -> "Session":
 
 
 Moment = Literal["taught", "turned", "now"]
-"""A moment of a job: it had just been taught, or was about to be undone, or the present."""
+"""A moment of a job: just taught, about to be reversed, or now."""
 
 
 class TaughtPlan(Record, frozen=True, kw_only=True):
-    """A job, and what is typed for it: each world teaches it a little otherwise."""
+    """A job and its script; each world teaches it with other errors."""
 
     job: JobName
     script: str
 
     @property
     def task(self) -> JobName:
-        """Name of the task: that of the job."""
+        """Name of the task, which is the job's."""
         return self.job
 
 
 def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
-    """The plan in some bytes; its script has not been typed.
-
-    Raises:
-        InvalidInput: there is none.
-    """
+    """A plan from bytes, its script not yet typed; raises BadFile."""
     try:
         plan = msgspec.json.decode(data, type=TaughtPlan)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -102,72 +90,68 @@ def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
 
 
 class TaughtJob(ABC):
-    """A program of TRIG that is taught in a drawn world, carried out, and judged by a referee."""
+    """A TRIG program that is taught in a drawn world, executed, and judged by a referee."""
 
     task: "AnyTask"
-    session: "Session"
-    """A new one; the desk is whoever's carries it out."""
-    arm: "AxesArm"
-    """That of the session."""
-    axes: "Axes"
-    """Its port."""
-    undoable: bool
-    """What it does can be undone."""
+    session: "Session"  # new, without a desk
+    arm: "AxesArm"  # the session's
+    axes: "Axes"  # the arm's port
+    undoable: bool  # can be reversed
 
     @abstractmethod
     def teach(self, halted: "Halted") -> None:
-        """Type the program, as the paper has it, with a teach box that is a little off, and lay the table for a run."""
+        """Type the program with imprecise teaching, and lay the table for a run."""
 
     @abstractmethod
     def lay(self) -> None:
-        """Lay the table as it is when the program has been taught, for a state that is put back."""
+        """Lay the table as after teaching, before restoring a state."""
 
     @property
     @abstractmethod
     def bench(self) -> "Bench":
-        """What it is carried out on."""
+        """Its bench."""
 
     @property
     @abstractmethod
     def cell(self) -> "SnapshotCell":
-        """The same with the table laid for a run, to be kept, put back and judged."""
+        """The bench as a cell that can be captured, restored and judged."""
 
     @abstractmethod
-    def lying(self, when: "Moment") -> tuple[Lying, ...]:
-        """How the blocks lay at a moment, in the order in which they are taken, for a report."""
+    def lying(self, when: "Moment") -> tuple[BlockPose, ...]:
+        """Block poses at a moment, in the order of taking."""
 
     @abstractmethod
     def turn(self) -> None:
-        """Remember how everything stands, for the referee: from here on it is undone."""
+        """Record the scene for the referee before the reversal."""
 
     def built(self) -> "Findings":
-        """Findings of the referee on the work as it stood where it was about to be undone; none if nothing was."""
+        """The referee's findings on the work before its reversal; empty if there was none."""
         return {}
 
     @property
     def stack(self) -> int | None:
-        """Blocks of the stack that is laid for a run; None: there is none."""
+        """Size of the stack for a run, if any."""
         return None
 
     @property
     @abstractmethod
     def goals(self) -> tuple[tuple[float, float], ...]:
-        """Where the referee wants blocks laid by the program, mm, in the order in which they are taken."""
+        """Goals of the blocks, mm, in the order of taking."""
 
     def remembered(self) -> "Findings":
-        """Whether the program is as it was taught, when it has been undone; by default nobody asks."""
+        """Findings on the program after its reversal; empty by default."""
         return {}
 
 
 def job_script(name: JobName, blocks: int = MOST_BLOCKS) -> str:
-    """What is typed for a job; `blocks` are those of the palletiser's stack."""
+    """The script of a job; `blocks` is the size of the palletiser's stack."""
     from handeye.systems.trig.jobs.jobs import script_of
 
     return script_of(name, blocks)
 
 
 def open_job(name: JobName, seed: int | None, script: str) -> TaughtJob:
-    """A job in the world of a seed, or in the one without errors, in which nothing has been typed yet."""
+    """A job in the world of a seed, or without errors if None, with nothing typed yet."""
     from handeye.systems.trig.jobs.jobs import BucketJob, PalletJob
     from handeye.systems.trig.jobs.world import BlocksWorld
 

@@ -1,4 +1,4 @@
-"""Both examples of the paper as jobs: typed line by line in a drawn world, carried out, and judged."""
+"""The paper's two examples as jobs: taught line by line in a drawn world, executed, and judged."""
 
 import math
 import re
@@ -15,11 +15,11 @@ from handeye.core.source import read_source
 from handeye.core.units import MILLIMETRE
 from handeye.judge.finding import Findings
 from handeye.machines.purbrick import PURBRICK
-from handeye.systems.trig.jobs.benches import JobName, Lying, Moment, TaughtJob
+from handeye.systems.trig.jobs.benches import BlockPose, JobName, Moment, TaughtJob
 from handeye.systems.trig.jobs.referee import judge_program
 from handeye.systems.trig.jobs.table import BlockTable
 from handeye.systems.trig.jobs.task import BUCKET, BUCKET_TASK, PALLET, lay
-from handeye.systems.trig.jobs.witness import Stood, Witness, stands
+from handeye.systems.trig.jobs.witness import ObservedScene, Witness, stands
 from handeye.systems.trig.jobs.world import BlocksWorld
 from handeye.systems.trig.language.axes_arm import AxesArm
 from handeye.systems.trig.language.script import Script, type_script
@@ -27,11 +27,11 @@ from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.teachable import Halted
 
 _LAST_STACK: Final = re.compile(r"\* STACK 20 (X \S+ Y \S+)")
-"""What is laid for a run; the stack before it is for teaching."""
+"""The stack for a run; the one before it is for teaching."""
 
 
 def script_of(name: JobName, blocks: int) -> str:
-    """What is typed for a job; `blocks` are those of the palletiser's stack."""
+    """The script of a job; `blocks` is the size of the palletiser's stack."""
     text = read_source(plans() / f"{name}.trig").text
     if name == "bucket":
         return text
@@ -39,7 +39,7 @@ def script_of(name: JobName, blocks: int) -> str:
 
 
 class _Job(TaughtJob):
-    """A script, and the bench on which it is typed."""
+    """A script and its bench."""
 
     axes: BenchAxes
 
@@ -67,13 +67,15 @@ class _Job(TaughtJob):
     def lay(self) -> None:
         lay(self._table, self._script)
 
-    def lying(self, when: Moment) -> tuple[Lying, ...]:
+    def lying(self, when: Moment) -> tuple[BlockPose, ...]:
         return tuple(
-            Lying(name=name, at=_mm(X[:3, 3]), turned=round(math.degrees(math.atan2(X[1, 0], X[0, 0])), 3))
+            BlockPose(
+                name=name, at=_mm(X[:3, 3]), turned=round(math.degrees(math.atan2(X[1, 0], X[0, 0])), 3)
+            )
             for name, X in self._taken(self._stood(when).poses)
         )
 
-    def _stood(self, when: Moment) -> Stood:
+    def _stood(self, when: Moment) -> ObservedScene:
         began = self._witness.began
         if when == "taught":
             return began
@@ -81,7 +83,7 @@ class _Job(TaughtJob):
         return turned or stands(self.bench.data, began.blocks)
 
     def _taken(self, poses: dict[str, Pose]) -> list[tuple[str, Pose]]:
-        """Names and poses of the blocks in the order in which they are taken."""
+        """Names and poses of blocks in the order of taking."""
         return list(poses.items())
 
     def turn(self) -> None:
@@ -89,7 +91,7 @@ class _Job(TaughtJob):
 
 
 class PalletJob(_Job):
-    """The second example: a stack is put into a pallet of three rows and five columns."""
+    """The second example: put a stack into a pallet of three rows and five columns."""
 
     task, undoable = PALLET, True
 
@@ -116,7 +118,7 @@ class PalletJob(_Job):
 
 
 class BucketJob(_Job):
-    """The first example: a block is dropped into a bucket, and another one is put in its place."""
+    """The first example: drop a block into a bucket, and put another one in its place."""
 
     task, undoable = BUCKET_TASK, False
 
@@ -127,6 +129,6 @@ class BucketJob(_Job):
 
 
 def _mm(at: Sequence[float] | Array) -> tuple[float, float, float]:
-    """The first three of a place's coordinates (m), in mm to a thousandth."""
+    """Coordinates (m) in mm, rounded to a thousandth."""
     x, y, z = (round(float(value) / MILLIMETRE, 3) for value in at[:3])
     return x, y, z

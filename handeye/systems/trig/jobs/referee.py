@@ -1,4 +1,4 @@
-"""The referee of the bench of blocks: it alone sees where blocks and hand truly are, when a program has ended."""
+"""The referee of the block bench, which alone sees the true poses of blocks and hand."""
 
 from collections.abc import Mapping, Sequence
 from math import acos, degrees
@@ -14,28 +14,22 @@ from handeye.systems.trig.language.place import Place
 
 PLACED: Final = 2.0
 """mm between a block and its place. The gap between two is 20, and an open finger leaves 5 of it."""
-FLAT: Final = 2.0
-"""deg"""
+FLAT: Final = 2.0  # deg
 ON: Final = 0.5
-"""mm: a block that lies on another one, or on the edge of one, is higher by more."""
-BACK: Final = 3.0
-"""mm from where a block was: a tenth of its length."""
-TURNED: Final = 1.0
-"""deg against how a block lay."""
-BUCKET: Final = 35.0
-"""mm along X and Y: half its width inside."""
-RIM: Final = 60.0
-"""mm: of the bucket."""
+"""mm of height; a block on another one, or on its edge, is higher."""
+BACK: Final = 3.0  # mm from where a block was: a tenth of its length
+TURNED: Final = 1.0  # deg from a block's earlier yaw
+BUCKET: Final = 35.0  # mm along X and Y: half its inside width
+RIM: Final = 60.0  # mm, height of the bucket
 HAND: Final = 0.5
-"""mm between the hand and its place: potentiometers bend by .1 along each axis."""
+"""mm between hand and place: potentiometers err by .1 along each axis."""
 _MM: Final = 1e3
 
-Poses = Mapping[str, Pose]
-"""Of blocks over the platter, by their names."""
+Poses = Mapping[str, Pose]  # of blocks over the platter, by name
 
 
 def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings:
-    """Whether the uppermost blocks of a stack lie at their places, in order, and all others where they were."""
+    """Check that the uppermost blocks of a stack lie at their places in order, and all others where they were."""
     taken = list(before)[::-1][: len(places)]
     there = [now[name] for name in taken]
     off = [float(np.hypot(*(X[:2, 3] - place[:2]))) for X, place in zip(there, places, strict=True)]
@@ -51,16 +45,16 @@ def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings
 
 
 def judge_back(before: Poses, now: Poses) -> Findings:
-    """Whether every block is where it was, which is to be in its old order, too."""
+    """Check that every block is where it was."""
     return _as_before(before, now, list(before), "back in the stack")
 
 
 def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pose) -> Findings:
-    """Whether a block lies in a bucket, and another one at a place.
+    """Check that a block lies in a bucket, and another one at a place.
 
     Args:
         inside: the middle of the bucket, m.
-        place: x, y where the other one ought to be, m.
+        place: x, y of the other block's goal, m.
     """
     aside = float(np.max(np.abs(X[:2, 3] - inside)))
     return {
@@ -76,13 +70,13 @@ def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pos
 
 
 def judge_hand(truth: Array, place: Array, what: str) -> Finding:
-    """Whether the hand truly is at a place; both of shape (6,), m and rad."""
+    """Check that the hand truly is at a place; both of shape (6,), m and rad."""
     off = float(np.linalg.norm(truth[:3] - place[:3]))
     return at_most(off * _MM, HAND, "mm", f"hand from where the program {what}")
 
 
 def judge_program(pallet: tuple[Place, Place], counts: Sequence[int]) -> Findings:
-    """Whether a position that the program sets is as it was taught, and its loops are where they began."""
+    """Check that a position has its taught value, and that all loop counts are 0."""
     now, taught = pallet
     off = float(np.linalg.norm(np.array(now) - np.array(taught)))
     return {

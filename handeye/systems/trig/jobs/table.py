@@ -1,4 +1,4 @@
-"""The platter's load: blocks and a bucket, put there by somebody between two commands."""
+"""Blocks and a bucket on the platter, laid between commands."""
 
 import math
 from typing import Final
@@ -16,20 +16,17 @@ from handeye.systems.trig.jobs.world import ALIGNED, STACKED, TURNED, BlocksWorl
 
 HEIGHT: Final = 0.012
 """m, of a block; 30 mm along and across, of aluminium: 29 g."""
-VIEW: Final = "people"
-"""The camera of the scene through which it is looked at."""
-_GAP: Final = 2e-5
-"""m between two blocks that are put on each other."""
+VIEW: Final = "people"  # camera of the scene for photographs
+_GAP: Final = 2e-5  # m between stacked blocks
 _COLOURS: Final = ((0.72, 0.73, 0.75, 1.0), (0.50, 0.56, 0.62, 1.0))
-"""In turn, so that people can tell them apart."""
+"""Alternating colours."""
 _WALL: Final = 0.003
 _DEEP: Final = 0.060
-_WIDE: Final = 0.035
-"""m: half the bucket's width, inside."""
+_WIDE: Final = 0.035  # m, half the bucket's inside width
 
 
 class BlockTable(SeenTable):
-    """A bench, and what lies on its platter."""
+    """A bench and the objects on its platter."""
 
     def __init__(self, world: BlocksWorld) -> None:
         self._world, self._stacks = world, 0
@@ -89,5 +86,5 @@ class BlockTable(SeenTable):
 
     @property
     def poses(self) -> dict[str, Pose]:
-        """The truth, for a referee: poses of the blocks' middles over the platter, those below first."""
+        """True poses of the blocks' middles over the platter, lower ones first, for a referee."""
         return block_poses(self.bench.data, self._names)

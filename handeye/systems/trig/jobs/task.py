@@ -1,4 +1,4 @@
-"""Both examples of the paper as tasks: what the referee looks for when their programs have ended."""
+"""The paper's two examples as tasks, with what the referee checks."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from handeye.machines.purbrick import PURBRICK
 from handeye.systems.trig.jobs.benches import read_taught_plan
 from handeye.systems.trig.jobs.referee import judge_back, judge_dropped, judge_hand, judge_placed
 from handeye.systems.trig.jobs.table import BlockTable
-from handeye.systems.trig.jobs.witness import SEEN, Began, Stood, stands
+from handeye.systems.trig.jobs.witness import SEEN, InitialScene, ObservedScene, stands
 from handeye.systems.trig.jobs.world import BlocksWorld
 from handeye.systems.trig.language.hearing import stripped
 from handeye.systems.trig.language.place import Place
@@ -30,14 +30,12 @@ if TYPE_CHECKING:
 
 ROWS: Final = 3
 COLUMNS: Final = 5
-BUCKET: Final = (0.140, 0.0)
-"""m: where the script puts it."""
-_DROPPED: Final = 2
-"""Blocks: the one that is dropped, and the one that takes its place."""
+BUCKET: Final = (0.140, 0.0)  # m, where the script puts it
+_DROPPED: Final = 2  # blocks: the dropped one, and its replacement
 
 
 class _BlocksTask(AnyTask):
-    """Something that is done with blocks on the platter."""
+    """Base of tasks with blocks on the platter."""
 
     camera = "people"
     force_axes = "the hand's own axes"
@@ -48,7 +46,7 @@ class _BlocksTask(AnyTask):
         return {spec.name: spec.kind for spec in PURBRICK.axes}
 
     def variation(self, seed: int) -> Variation:
-        """Nothing: worlds of these tasks are drawn from their numbers alone (`systems/trig/jobs/world.py`)."""
+        """Empty: worlds of these tasks depend on their seed alone (`systems/trig/jobs/world.py`)."""
         return Variation()
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
@@ -61,7 +59,7 @@ class _BlocksTask(AnyTask):
 
 
 class Pallet(_BlocksTask):
-    """A stack is put into a pallet of three rows and five columns."""
+    """Put a stack into a pallet of three rows and five columns."""
 
     name = "palletise"
     words = Words(
@@ -69,21 +67,21 @@ class Pallet(_BlocksTask):
     )
 
     def judge(self, truth: Truth) -> Findings:
-        return self.judge_built(began(truth), stands(truth.data, began(truth).blocks))
+        return self.judge_built(initial_scene(truth), stands(truth.data, initial_scene(truth).blocks))
 
-    def judge_built(self, seen: Began, stood: Stood) -> Findings:
-        """Findings on the finished work, as it stood at a moment."""
+    def judge_built(self, seen: InitialScene, stood: ObservedScene) -> Findings:
+        """Findings on the finished work at a moment."""
         placed = judge_placed(seen.poses, stood.poses, self.places(seen))
         return {**placed, "hand": _ends_at(seen, stood, "DONE")}
 
     def judge_apart(self, truth: Truth) -> Findings:
-        seen = began(truth)
+        seen = initial_scene(truth)
         stood = stands(truth.data, seen.blocks)
-        back = judge_hand(np.array(stood.hand), np.array(seen.hand), "began")
+        back = judge_hand(np.array(stood.hand), np.array(seen.hand), "initial_scene")
         return {**judge_back(seen.poses, stood.poses), "hand": back}
 
-    def places(self, seen: Began) -> list[Place]:
-        """Where the hand lets go one block after another, as it was taught."""
+    def places(self, seen: InitialScene) -> list[Place]:
+        """Release places of the blocks in order, as taught."""
         above, places = seen.place("PALLET"), []
         for _ in range(COLUMNS):
             for _ in range(ROWS):
@@ -94,13 +92,13 @@ class Pallet(_BlocksTask):
 
 
 class Bucket(_BlocksTask):
-    """A block is dropped into a bucket, and another one is put in its place."""
+    """Drop a block into a bucket, and put another one in its place."""
 
     name = "bucket"
     words = Words(product="the bucket", done="The block is in the bucket, and another one in its place.")
 
     def judge(self, truth: Truth) -> Findings:
-        seen = began(truth)
+        seen = initial_scene(truth)
         stood = stands(truth.data, seen.blocks)
         blocks = [*stood.poses.values()]
         if len(blocks) != _DROPPED:
@@ -110,25 +108,21 @@ class Bucket(_BlocksTask):
         return {**dropped, "hand": _ends_at(seen, stood, "CENTER")}
 
 
-def _ends_at(seen: Began, stood: Stood, name: str) -> Finding:
+def _ends_at(seen: InitialScene, stood: ObservedScene, name: str) -> Finding:
     return judge_hand(np.array(stood.hand), np.array(seen.place(name)), "ends")
 
 
 def lay(table: BlockTable, script: str) -> None:
-    """Lay a table as it is when a script has been typed.
-
-    Raises:
-        InvalidInput: a line of it says nothing that can be done with a table.
-    """
+    """Lay a table by the lines of a script about it."""
     for line in map(stripped, script.splitlines()):
         if line.startswith(MARK):
             arrange(table, line)
 
 
-def began(truth: Truth) -> Began:
-    """How it stood before the program was run."""
+def initial_scene(truth: Truth) -> InitialScene:
+    """The scene before the run."""
     seen = truth.states[SEEN]
-    assert isinstance(seen, Began)
+    assert isinstance(seen, InitialScene)
     return seen
 
 

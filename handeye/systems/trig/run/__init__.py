@@ -1,1 +1,1 @@
-"""Programs of TRIG as runs: taught in the world of a run, carried out step by step, and undone by the arm."""
+"""TRIG programs as runs: taught in the run's world, executed step by step, and reversed by the arm."""

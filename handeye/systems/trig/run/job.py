@@ -1,4 +1,4 @@
-"""A job that is taught: carried out, undone, and judged after both."""
+"""Carries out a taught job, reverses it, and judges both."""
 
 from collections.abc import Callable, Mapping
 from typing import Final, Literal
@@ -13,61 +13,52 @@ from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.trig.jobs.benches import JobName, Lying, TaughtPlan, job_script
+from handeye.systems.trig.jobs.benches import BlockPose, JobName, TaughtPlan, job_script
 from handeye.systems.trig.language.cursor_commands import told_run
 from handeye.systems.trig.language.reports import RunLeg
 from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.run.system import TAUGHT, RunningJob, plan_of
 
 Outcome = Literal["right", "stopped", "silent", "halted"]
-"""All as it should be; the program or the arm stopped before; done, and the referee disagrees; somebody's key."""
+"""Right; stopped early by program or arm; done, but the referee disagrees; halted by the user."""
 
 When = Literal["taught", "run", "undone"]
 
 
 class JobReport(Record, frozen=True, kw_only=True):
-    """What came of a job."""
+    """The result of a job."""
 
     job: JobName
-    seed: int
-    """Of its world."""
+    seed: int  # of its world
     blocks: int | None = None
-    interrupted_after: int | None = None
-    """Steps after which it was to be undone."""
+    interrupted_after: int | None = None  # steps after which it was reversed
     outcome: Outcome
     forward: RunLeg | None = None
     back: RunLeg | None = None
-    checks: Mapping[str, Check] = {}
-    """Of the referee, when the program had ended."""
-    checks_back: Mapping[str, Check] = {}
-    """When it was undone."""
-    goals: tuple[tuple[float, float], ...] = ()
-    """Where the referee wants blocks laid by the program, mm, in the order in which they are taken."""
-    lying: Mapping[When, tuple[Lying, ...]] = {}
-    """How the blocks truly lay, in that order: when the job had been taught, when the program had come as far as it
-    came, and when it was undone as far as that went."""
-    told: tuple[str, ...] = ()
-    """How both ways have ended, in words."""
-    ended_s: float | None = None
-    """When the program had come as far as it came, by the arm's clock."""
-    arm_s: float = 0.0
-    """Of the arm's clock, teaching included."""
+    checks: Mapping[str, Check] = {}  # referee's, at the end of the program
+    checks_back: Mapping[str, Check] = {}  # referee's, after reversal
+    goals: tuple[tuple[float, float], ...] = ()  # of the blocks in order of taking, mm
+    lying: Mapping[When, tuple[BlockPose, ...]] = {}
+    """True block poses in that order: after teaching, at the end of the program, and after reversal."""
+    told: tuple[str, ...] = ()  # ends of both legs in words
+    ended_s: float | None = None  # end of the program by the arm's clock
+    arm_s: float = 0.0  # by the arm's clock, teaching included
 
     @property
     def wrong(self) -> tuple[Check, ...]:
-        """What the referee disagrees with."""
+        """Checks that the referee refuses."""
         return tuple(check for check in (*self.checks.values(), *self.checks_back.values()) if check.refuses)
 
 
 def setup_of_job(name: JobName, seed: int, blocks: int | None) -> Checkpoint:
-    """A run of a job that has not begun; `blocks` are those of the palletiser's stack."""
+    """A new run of a job; `blocks` is the size of the palletiser's stack."""
     plan = TaughtPlan(job=name, script=job_script(name, blocks or 0))
     setup = Setup(system=TAUGHT.name, plan=plan, world=WorldSpec(seed=seed), camera="auto", judged=True)
     return Checkpoint(setup=setup)
 
 
 def job_of(runner: Runner) -> RunningJob:
-    """The system that carries out a job."""
+    """The run's system."""
     assert isinstance(runner.system, RunningJob)
     return runner.system
 
@@ -79,12 +70,12 @@ def carry_out(
     go: Callable[[int | None], Pause] | None = None,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Pause:
-    """Carry out a job from where it stands: to the end of its program, and back, if that can be.
+    """Carry out a job from its present state to the end of its program, and back if possible.
 
     Args:
-        after: steps after which it is undone; None: it comes to its end.
-        go: has the run do so many steps, or all that are left; by default nobody answers for the operator.
-        tell: is told how either way has ended.
+        after: steps after which it is reversed; None: at its end.
+        go: runs a number of steps, or all; by default without an operator.
+        tell: receives the end of each leg in words.
     """
     go = go or (lambda steps: advance(runner, steps=steps))
     if job_of(runner).state.turn is None:
@@ -99,20 +90,20 @@ def carry_out(
 
 
 def carried_out(runner: Runner, *, after: int | None = None) -> JobReport:
-    """What comes of a job that is carried out and leaves no folder; `after`: as for `carry_out`."""
+    """Carry out a job without a folder; `after` as for `carry_out`."""
     pause = carry_out(runner, after=after)
     return account(runner, pause, outcome(runner, pause, Meter(), judged=True), after=after)
 
 
 def _turns(runner: Runner, pause: Pause, after: int | None) -> bool:
-    """The run has come as far as it was to, and is undone from there."""
+    """True if the run is where its reversal starts."""
     there = pause.kind == "end" or (after is not None and pause.kind == "break")
     system = job_of(runner)
     return there and system.job.undoable and not runner.undone and len(system.executed) > 0
 
 
 def ends_job(runner: Runner, result: Result) -> bool:
-    """A run is a job that is over and was judged; undone because somebody said so, it is none."""
+    """True if a run is a finished and judged job; not if a user ordered its reversal."""
     system = runner.system
     if not isinstance(system, RunningJob) or result.paused or (runner.undone and system.state.turn is None):
         return False
@@ -120,15 +111,11 @@ def ends_job(runner: Runner, result: Result) -> bool:
 
 
 def account(runner: Runner, pause: Pause, result: Result, *, after: int | None = None) -> JobReport:
-    """What came of a job that pauses and does not go on; the referee's word is that of its result.
-
-    Args:
-        after: steps after which it was to be undone.
-    """
+    """The result of a job that pauses for good; `after` is the number of steps before its reversal, if set."""
     system = job_of(runner)
     job, plan, turn = system.job, plan_of(runner.setup), system.state.turn
     way, told = _way(runner, pause)
-    lying: dict[When, tuple[Lying, ...]] = {"taught": job.lying("taught"), "run": job.lying("now")}
+    lying: dict[When, tuple[BlockPose, ...]] = {"taught": job.lying("taught"), "run": job.lying("now")}
     forward, back, built = way, None, result.referee
     sentences: tuple[str, ...] = (told,)
     if turn is not None:
@@ -155,11 +142,10 @@ def account(runner: Runner, pause: Pause, result: Result, *, after: int | None =
 
 
 _OUTCOMES: Final[Mapping[int, Outcome]] = {0: "right", 1: "stopped", 3: "silent"}
-"""By the exit codes of results."""
 
 
 def _way(runner: Runner, pause: Pause) -> tuple[RunLeg | None, str]:
-    """How far the way has come that a run is on, and that in words; None: the arm refused a step."""
+    """The present leg and its end in words; None if the arm refused a step."""
     system, state = job_of(runner), job_of(runner).state
     if pause.kind in ("operator", "trouble") and state.obstacle is None:
         return None, pause.message

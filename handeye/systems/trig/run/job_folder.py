@@ -1,4 +1,4 @@
-"""What a taught job leaves in the folder of its run, besides what every run does: its account, program, and report."""
+"""Files of a taught job in its run's folder: account, program, and report."""
 
 from pathlib import Path
 from typing import Final
@@ -16,15 +16,13 @@ from handeye.systems.trig.run.job import JobReport
 from handeye.systems.trig.run.job_page import job_page
 
 JOB, TAUGHT = ENTRY.files
-"""What came of a job, and its program."""
-_LARGEST: Final = 1_000_000
-"""Bytes: an account of twenty blocks takes ten thousand."""
-_FARTHEST: Final = 1e6
-"""mm and degrees: no block lies there."""
+"""The job's account, and its program."""
+_LARGEST: Final = 1_000_000  # bytes: an account of twenty blocks takes ten thousand
+_MAX_MEASURE: Final = 1e6  # mm and degrees
 
 
 def job_files(done: JobReport, program: TrigProgram) -> dict[str, bytes]:
-    """Those files, by name."""
+    """The files by name."""
     taught = encoded(program)
     return {
         JOB: msgspec.json.format(msgspec.json.encode(done), indent=1) + b"\n",
@@ -34,11 +32,7 @@ def job_files(done: JobReport, program: TrigProgram) -> dict[str, bytes]:
 
 
 def kept_job_page(path: Path) -> bytes | None:
-    """The report of the job in a folder, made anew; None: the folder holds none that is over.
-
-    Raises:
-        InvalidInput: what is kept of it cannot be read.
-    """
+    """The report of a folder's job, made anew; None if it holds no finished one."""
     if not (path / JOB).is_file():
         return None
     return job_page(_read_account(path / JOB), read_program(path / TAUGHT))
@@ -55,6 +49,6 @@ def _read_account(path: Path) -> JobReport:
     lying = [
         figure for blocks in done.lying.values() for each in blocks for figure in (*each.at, each.turned)
     ]
-    if any(abs(figure) > _FARTHEST for figure in (*lying, *(x for goal in done.goals for x in goal))):
+    if any(abs(figure) > _MAX_MEASURE for figure in (*lying, *(x for goal in done.goals for x in goal))):
         raise BadFile(f"{path} is no account of a job: a block lies farther away than anything")
     return done

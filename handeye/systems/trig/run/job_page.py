@@ -1,4 +1,4 @@
-"""The report of a taught job: what the referee found, where the blocks lay, and the program, as one page."""
+"""The report page of a taught job: findings, block poses, and program."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -10,7 +10,7 @@ from handeye.report.page.document import MARK, head, resource
 from handeye.report.page.elements import element, joined, note, section
 from handeye.report.page.plots import Scale, dot, drawing, rule, words
 from handeye.report.page.referee import findings_table
-from handeye.systems.trig.jobs.benches import Lying
+from handeye.systems.trig.jobs.benches import BlockPose
 from handeye.systems.trig.language.full_display import full_display
 from handeye.systems.trig.language.partial_display import partial_display
 from handeye.systems.trig.language.program import TrigProgram
@@ -25,22 +25,18 @@ VERDICTS: Final[dict[Outcome, str]] = {
     "silent": "done, and the referee disagrees",
     "halted": "interrupted",
 }
-_SIDE: Final = 30.0
-"""mm, of a block."""
-_COLUMNS: Final = 110
-"""Characters of a line of the program."""
+_SIDE: Final = 30.0  # mm, of a block
+_COLUMNS: Final = 110  # characters of a program line
 _WIDE, _HIGH, _BOTTOM = 960.0, 330.0, 325.0
 _PLATTER: Final = (0.0, 300.0)
 _PANELS: Final = ((350.0, 635.0), (675.0, 960.0))
-"""Where the drawings begin and end, from left to right."""
-_RINGS: Final = (5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05)
-"""mm: distances by which others can be read."""
-_NEAREST: Final = 0.1
-"""mm: no drawing shows less."""
+"""Left and right ends of the drawings."""
+_RINGS: Final = (5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05)  # mm
+_MIN_REACH: Final = 0.1  # mm
 
 
 def job_page(done: JobReport, program: TrigProgram) -> bytes:
-    """The page of a job that has been carried out."""
+    """The page of a job."""
     title = f"{done.job.capitalize()}: {VERDICTS[done.outcome]}"
     body = element(
         "body",
@@ -58,7 +54,7 @@ def _facts(done: JobReport) -> str:
 
 
 def _ends(done: JobReport) -> Iterator[Markup]:
-    """How both ways have ended."""
+    """Sentences on the end of both legs."""
     for told in done.told:
         yield element("p", f"{told[:1].upper()}{told[1:]}.")
 
@@ -75,7 +71,7 @@ def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
 
 
 def _displays(program: TrigProgram) -> tuple[list[Line], list[Line]]:
-    """All of it in miniature, and its steps in full."""
+    """The program in miniature, and its steps in full."""
     rows = max(1, len(program.graph.nodes))
     return full_display(program, _COLUMNS, rows), partial_display(program, _COLUMNS, rows)
 
@@ -98,7 +94,7 @@ def _blocks(done: JobReport) -> Iterator[Markup]:
 
 
 def _placed(done: JobReport) -> list[Point]:
-    """How far off each block was placed, if all were, mm."""
+    """Placement errors of the blocks, mm, if all were placed."""
     return _off(done.lying.get("run", ()), done.goals) if "placed" in done.checks else []
 
 
@@ -115,18 +111,18 @@ def _drawn(done: JobReport) -> Markup:
     )
 
 
-def _off(lying: Sequence[Lying], wanted: Sequence[Point]) -> list[Point]:
-    """How far blocks lie from where they are wanted, as far as any place is, mm."""
+def _off(lying: Sequence[BlockPose], wanted: Sequence[Point]) -> list[Point]:
+    """Errors of blocks against their goals, mm."""
     return [(one.at[0] - x, one.at[1] - y) for one, (x, y) in zip(lying, wanted, strict=False)]
 
 
 def _limit(done: JobReport) -> float | None:
-    """How far off a block may be placed, mm."""
+    """Allowed placement error, mm."""
     return done.checks["placed"].limit if "placed" in done.checks else None
 
 
 def _platter(done: JobReport) -> Iterator[Markup]:
-    """The platter from above: X to the right, Y up."""
+    """The platter from above, X to the right, Y up."""
     shown = done.lying.get("run", ())
     points = [*done.goals, *(each.at[:2] for each in (*shown, *done.lying.get("taught", ()))), (0.0, 0.0)]
     (west, east), (south, north) = ((min(along), max(along)) for along in zip(*points, strict=True))
@@ -157,11 +153,11 @@ def _square(xs: Scale, ys: Scale, at: Point, turned: float, class_: str) -> Mark
 
 
 def _scatter(title: str, off: Sequence[Point], limit: float | None, panel: Point) -> Iterator[Markup]:
-    """How far off each block was, mm, from above."""
+    """Errors of the blocks, mm, from above."""
     if not off:
         return
     most = max(math.hypot(*each) for each in off)
-    reach = max(1.5 * most, _NEAREST)
+    reach = max(1.5 * most, _MIN_REACH)
     xs = Scale(-reach, reach, *panel)
     ys = Scale(-reach, reach, _BOTTOM, _BOTTOM - (panel[1] - panel[0]))
     told = "" if limit is None else f"; the limit is {limit:g} mm"

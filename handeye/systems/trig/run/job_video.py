@@ -1,4 +1,4 @@
-"""A video of a taught job: what stood where while the arm worked is kept, and drawn when it is over."""
+"""A video of a taught job: records moments while the arm works, and draws them at the end."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -21,41 +21,29 @@ from handeye.video.captions import Caption, captioned
 from handeye.video.formats import format_of
 from handeye.video.frames import RATE
 
-WIDTH, HEIGHT = 400, 300
-"""Points of a frame."""
-LASTS: Final = 20.0
-"""s, at most."""
+WIDTH, HEIGHT = 400, 300  # points
+MAX_SECONDS: Final = 20.0
 _VIEW: Final = "people"
-_FINER: Final = 2
-"""Points of the drawing for one of a frame, along a side."""
+_FINER: Final = 2  # drawn points per frame point along a side
 _SHADOW: Final = 2048
-_EVERY: Final = 0.25
-"""s of the arm's clock between two moments that are kept."""
-_HELD: Final = 2 * RATE
-"""Periods for which the last frame stands."""
+_EVERY: Final = 0.25  # s of the arm's clock between moments
+_HELD: Final = 2 * RATE  # periods of the last frame
 
 
 @dataclass(frozen=True, slots=True)
 class _Moment:
-    """Where everything was, and what was being done."""
+    """A scene, and the active step."""
 
-    time: float
-    """s of the arm's clock."""
+    time: float  # s by the arm's clock
     qpos: Array
     words: str
 
 
 class JobVideo:
-    """Looks on while a job is carried out."""
+    """Records a job for a video."""
 
     def __init__(self, path: Path, *, overwrite: bool) -> None:
-        """See that there can be a video.
-
-        Raises:
-            Taken: a video is there, and may not be replaced.
-            InvalidInput: it cannot be written there, its name asks for no format that is written, or there is no
-                OpenGL on this machine.
-        """
+        """Check that the video can be written."""
         self._path, self._form = path, format_of(path)
         check_place(path, self._form.kind)
         if path.exists() and not overwrite:
@@ -64,7 +52,7 @@ class JobVideo:
         self._moments: list[_Moment] = []
 
     def watch(self, job: TaughtJob) -> None:
-        """Look on from now: the job has been taught."""
+        """Start recording after teaching."""
         bench, program = job.bench, job.session.program
 
         def look() -> None:
@@ -76,18 +64,15 @@ class JobVideo:
         bench.after_period.append(look)
 
     def write(self, job: TaughtJob, ended: float | None, told: Callable[[int, int], None]) -> None:
-        """Draw what was seen, and write it, whole or not at all.
+        """Draw the video and write it, whole or not at all.
 
         Args:
-            ended: when the program had ended, s of the arm's clock; from then on it was undone.
-            told: told of each frame: its number, of how many.
-
-        Raises:
-            InvalidInput: the arm has not moved, or the file cannot be written.
+            ended: end of the program, s by the arm's clock, when its reversal began.
+            told: receives number and count of each frame.
         """
         if not self._moments:
             raise Refused(f"the arm has not moved: {self._path} was not made")
-        most = int(LASTS * RATE) - _HELD
+        most = int(MAX_SECONDS * RATE) - _HELD
         rows = np.unique(np.linspace(0, len(self._moments) - 1, most).round().astype(int))
         shown = [self._moments[row] for row in rows.tolist()]
         self._form.check(len(shown), WIDTH, HEIGHT)
@@ -102,7 +87,7 @@ def _drawn(
     ended: float | None,
     told: Callable[[int, int], None],
 ) -> Iterator[Photograph]:
-    """The frames, one after the other."""
+    """Draw the frames in order."""
     photographer = Photographer(bench.model, width=_FINER * WIDTH, height=_FINER * HEIGHT, shadow=_SHADOW)
     for number, moment in enumerate(moments):
         told(number, len(moments))

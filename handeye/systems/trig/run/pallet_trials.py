@@ -1,4 +1,4 @@
-"""Trials of the palletiser: taught, run, undone and judged in many worlds, to its end or broken off on its way."""
+"""Palletising trials: taught, run, reversed and judged in many worlds, complete or interrupted."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,16 +10,14 @@ from handeye.runs.runner import Runner
 from handeye.systems.trig.run.job import JobReport, carried_out, setup_of_job
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
-STEPS: Final = 14
-"""That a block takes, at least, without those of the loops' ends."""
+STEPS: Final = 14  # of a block, at least, without loop ends
 PLACES: Final = 15
 
 
 class PalletRow(TrialRow, frozen=True, kw_only=True):
-    """One job of palletising."""
+    """One palletising trial."""
 
-    report: JobReport | None = None
-    """None: it broke off."""
+    report: JobReport | None = None  # None: broken off
 
     @property
     def outcome(self) -> str:
@@ -46,14 +44,14 @@ class PalletRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PalletWork:
-    """Palletises, and takes everything back."""
+    """Palletises, and reverses it."""
 
     blocks: int
     interrupt: bool
-    """Each run is broken off after a drawn number of steps, and undone from there."""
+    """Reverse each run after a drawn number of steps."""
 
     def __call__(self, case: Case) -> list[PalletRow]:
-        """Carry one out."""
+        """Carry out one trial."""
         report = tried(self.blocks, self.interrupt, case.seed)
         return [PalletRow(trial=case.trials[0], seed=case.seed, report=report)]
 
@@ -69,13 +67,13 @@ def tried(blocks: int, interrupt: bool, seed: int) -> JobReport:
 
 
 def broken_off_after(seed: int, blocks: int) -> int:
-    """Steps after which a run is broken off in the world of a seed: any number that it has."""
+    """Drawn number of steps before a run's reversal, in the world of a seed."""
     most = 3 + STEPS * min(blocks, PLACES)
     return int(random_numbers(seed, "pallet.interrupt").integers(1, most, endpoint=True))
 
 
 def _more(rows: Sequence[PalletRow]) -> dict[str, object]:
-    """The largest value of each finding, and the time of the arm."""
+    """The largest value of each finding, and the arm's time."""
     most: dict[str, float] = {}
     for row in rows:
         for name, value in row.measures.items():
@@ -96,4 +94,4 @@ PALLET: Final = Sweep(
     more=_more,
     summary=lambda rows: [f"{_arm_s(rows):.0f} s of the arm's clock"],
 )
-"""Jobs of palletising, there and back."""
+"""Palletising and its reversal."""

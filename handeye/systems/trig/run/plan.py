@@ -1,4 +1,4 @@
-"""Plan of a taught job: the script that teaches it. Its steps are the same in each world, its places are not."""
+"""The plan of a taught job: its script. Its steps are the same in each world, its places are not."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -19,12 +19,12 @@ from handeye.systems.trig.language.step_words import loop_words, step_words
 from handeye.systems.trig.language.symbols import ASCII
 
 PATIENCE: Final = 100_000
-"""How often an imagined arm may ask whether to halt: a program that is run while it is taught must end."""
+"""Halt checks of an imaginary arm before a program run during teaching counts as endless."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaughtStep:
-    """A step as people see it."""
+    """A step of a listing."""
 
     node: int
     line: int
@@ -39,18 +39,18 @@ class TaughtStep:
 
     @property
     def needs(self) -> Device | None:
-        """The hand, if it is worked alone."""
+        """The hand, for a step of the hand alone."""
         return "hand" if self.word in ("grasp", "ungrasp") else None
 
     @property
     def place(self) -> str:
-        """Its line, as people are told."""
+        """Its line as text."""
         return str(self.line)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaughtListing:
-    """The steps of a program as they are drawn, one a line."""
+    """The steps of a program in drawing order, one a line."""
 
     name: str
     steps: Sequence[TaughtStep]
@@ -60,7 +60,7 @@ class TaughtListing:
 
     @property
     def numbers(self) -> Mapping[int, int]:
-        """Numbers of steps by their nodes."""
+        """Step numbers by node."""
         return {step.node: number for number, step in enumerate(self.steps)}
 
     @property
@@ -70,21 +70,17 @@ class TaughtListing:
 
     @property
     def labels(self) -> Mapping[str, Sequence[int]]:
-        """Names of steps."""
+        """Steps by name."""
         return {step.label: (number,) for number, step in enumerate(self.steps) if step.label}
 
 
 def encode(plan: TaughtPlan) -> bytes:
-    """A plan as the content of a file."""
+    """A plan as file content."""
     return msgspec.json.format(msgspec.json.encode(plan), indent=1) + b"\n"
 
 
 def decode(data: bytes, name: str) -> TaughtPlan:
-    """The plan in some bytes.
-
-    Raises:
-        InvalidInput: there is none, or its script cannot be typed.
-    """
+    """A plan from bytes; raises BadFile."""
     plan = read_taught_plan(data, name)
     try:
         listing(plan)
@@ -94,16 +90,12 @@ def decode(data: bytes, name: str) -> TaughtPlan:
 
 
 def imagined(plan: TaughtPlan) -> TrigProgram:
-    """The program that a plan's script teaches an imagined arm; raises InvalidInput if it cannot be typed."""
+    """The program that a plan's script teaches an imaginary arm; raises InvalidInput."""
     return typed(plan.script, f"{plan.job}.trig")
 
 
 def typed(text: str, name: str) -> TrigProgram:
-    """The program that a script teaches an imagined arm: its steps are those of any arm, its places are not.
-
-    Raises:
-        InvalidInput: a line is refused (`LineRefused`), or what is run in it does not end.
-    """
+    """The program that a script teaches an imaginary arm; its steps are general, its places are not."""
     session, asked = new_session("none"), 0
 
     def ask() -> bool:
@@ -142,7 +134,7 @@ def _step(program: TrigProgram, node: Node, numbers: Mapping[int, int]) -> Taugh
 
 
 def _text(program: TrigProgram, node: Node, number: int) -> str:
-    """What a step does, whatever the round: how often a loop has gone back is no part of it."""
+    """A step's text, independent of loop counts."""
     if node.type == "loop":
         return loop_words(program.graph, node, ASCII)
     shown, deed, _ = step_words(
@@ -152,7 +144,7 @@ def _text(program: TrigProgram, node: Node, number: int) -> str:
 
 
 def text_now(step: TaughtStep, node: Node) -> str:
-    """A step as it is about to be carried out: of a loop, whether it goes back, and the how-manieth time that is."""
+    """A step's text now, for a loop with its round."""
     if node.type != "loop":
         return step.text
     back = f"goes back ({node.count + 1} of {node.wanted})" if node.count < node.wanted else "goes on"
@@ -160,7 +152,7 @@ def text_now(step: TaughtStep, node: Node) -> str:
 
 
 def _ways(graph: Graph, node: Node, numbers: Mapping[int, int]) -> list[int | None]:
-    """The steps that may follow; None: the end."""
+    """Numbers of the steps that may follow, None for the end."""
     sons = [graph.step_at(son) for son in node.sons]
     target = graph.target(node) if node.type == "loop" else None
     return [

@@ -1,4 +1,4 @@
-"""What a taught program remembers between two steps, as one record; its steps themselves stand in its plan."""
+"""The state of a taught program between steps, as one record; its steps are in its plan."""
 
 from typing import Final
 
@@ -16,63 +16,44 @@ from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.program import RecordedStep, TrigProgram
 from handeye.systems.trig.run.plan import listing
 
-_FARTHEST: Final = 1000.0
-"""m and rad: no arm is told to go there."""
+_MAX_MEASURE: Final = 1000.0  # m and rad
 
 
 class Executed(Record, frozen=True, kw_only=True):
-    """A step that was executed and not undone."""
+    """An executed step that is not reversed."""
 
     step: int
-    enters: bool
-    """The program began with it."""
+    enters: bool  # the first of the program
 
 
 class Turn(Record, frozen=True, kw_only=True):
-    """Where a job had the arm turn back, to undo what it did."""
+    """Where a job began its reversal."""
 
-    steps: int
-    """Executed by then."""
-    ended: bool
-    """The program had come to its end."""
-    time: float
-    """s, by the clock of the run."""
+    steps: int  # executed by then
+    ended: bool  # the program was complete
+    time: float  # s by the run's clock
 
 
 class TaughtState(SystemState, kw_only=True):
     """Everything but the steps."""
 
-    came: int = TOP
-    """The node that was carried out before the step to do next."""
-    undoing: Undoing | None = None
-    """The arm undoes what it did, so far."""
-    turn: Turn | None = None
-    """The job is on its way back, or back; None: it is not, or what is undone is undone for somebody else."""
-    obstacle: Obstacle | None = None
-    """What it has met there, and was stopped by."""
-    rounds: dict[int, int] = msgspec.field(default_factory=dict)
-    """How often each loop has gone back, by its node."""
-    fathers: dict[int, int] = msgspec.field(default_factory=dict)
-    """The most recent father of each node."""
-    taught: dict[str, Place] = msgspec.field(default_factory=dict)
-    """Positions as they were taught."""
-    positions: dict[str, Place] = msgspec.field(default_factory=dict)
-    """As they are now."""
-    trail: list[RecordedStep] = msgspec.field(default_factory=list)
-    """What was done and not undone."""
+    came: int = TOP  # node executed before the next step
+    undoing: Undoing | None = None  # the reversal in progress
+    turn: Turn | None = None  # the job's own reversal, in progress or complete
+    obstacle: Obstacle | None = None  # what stopped the reversal
+    rounds: dict[int, int] = msgspec.field(default_factory=dict)  # by loop node
+    fathers: dict[int, int] = msgspec.field(default_factory=dict)  # most recent father by node
+    taught: dict[str, Place] = msgspec.field(default_factory=dict)  # as taught
+    positions: dict[str, Place] = msgspec.field(default_factory=dict)  # at present
+    trail: list[RecordedStep] = msgspec.field(default_factory=list)  # executed and not reversed
     forgotten: bool = False
     cursor: int = TOP
     taken: int | None = None
     ended_at: Place | None = None
-    arm: ArmMemory | None = None
-    """None: it has not begun."""
+    arm: ArmMemory | None = None  # None: not begun
 
     def order(self, plan: TaughtPlan, undoing: Undoing) -> None:
-        """From now on each step undoes one.
-
-        Raises:
-            InvalidInput: no more was executed than what is to be left.
-        """
+        """Order a reversal; raises Refused if there is nothing to reverse."""
         executed = self.executed(plan)
         if undoing.left >= len(executed):
             raise Refused("there is nothing to undo")
@@ -80,13 +61,13 @@ class TaughtState(SystemState, kw_only=True):
         self.at = executed[-1].step
 
     def executed(self, plan: TaughtPlan) -> list[Executed]:
-        """Steps that were executed and not undone."""
+        """Executed steps that are not reversed."""
         numbers = listing(plan).numbers
         found = [numbers[done.node] for done in self.trail if done.node in numbers]
         return [Executed(step=number, enters=not before) for before, number in enumerate(found)]
 
     def note(self, program: TrigProgram, arm: ArmMemory) -> None:
-        """Take down what a program remembers, between two steps."""
+        """Record a program's state between two steps."""
         nodes = program.graph.nodes.values()
         self.rounds = {node.id: node.count for node in nodes if node.type == "loop"}
         self.fathers = {node.id: node.last_father for node in nodes}
@@ -97,11 +78,7 @@ class TaughtState(SystemState, kw_only=True):
         self.arm = arm
 
     def check(self, program: TrigProgram, steps: int) -> None:
-        """See that it can be a state of a program of so many steps.
-
-        Raises:
-            InvalidInput: it cannot.
-        """
+        """Raise BadFile unless it fits a program with this many steps."""
         nodes, names = {*program.graph.nodes}, {*program.positions}
         ids = {self.came, self.cursor, *self.fathers, *self.rounds, *(done.node for done in self.trail)}
         ids |= {*self.fathers.values()} - {NONE}
@@ -116,12 +93,12 @@ class TaughtState(SystemState, kw_only=True):
             or self.stage not in (None, 0)
             or (self.undoing is not None and not any(program.graph[done.node].shown for done in self.trail))
             or self.arm is None
-            or not max(map(abs, (*self.arm.told, self.arm.opening))) < _FARTHEST
+            or not max(map(abs, (*self.arm.told, self.arm.opening))) < _MAX_MEASURE
         ):
             raise BadFile("the state of the run does not fit this program")
 
     def put_into(self, program: TrigProgram) -> None:
-        """Let a program remember what was taken down."""
+        """Restore the state of a program."""
         for id, node in program.graph.nodes.items():
             node.count, node.last_father = self.rounds.get(id, 0), self.fathers.get(id, NONE)
         for name, position in program.positions.items():

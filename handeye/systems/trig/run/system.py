@@ -1,4 +1,4 @@
-"""The system of taught programs: TRIG, at the arm of a bench."""
+"""The system of taught programs: TRIG with the arm of a bench."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -61,11 +61,7 @@ class RunningJob(RunningSystem):
     """Teaches a program in the world of a run, and carries it out."""
 
     def __init__(self, setup: Setup, around: Surroundings) -> None:
-        """Build the bench; nothing lies on it, and nothing is taught.
-
-        Raises:
-            InvalidInput: there is no such world, or the plan is of another system.
-        """
+        """Build the bench, empty, with nothing taught."""
         TAUGHT.check(setup)
         self._setup, self._around, self._plan = setup, around, plan_of(setup)
         self._steps = listing(self._plan).steps
@@ -133,7 +129,7 @@ class RunningJob(RunningSystem):
         ]
 
     def _ask(self) -> bool:
-        """Asked while the program is taught. Raises Halted if somebody wants to stop."""
+        """Halt check during teaching; raises Halted."""
         if self._around.halt():
             raise Halted
         return False
@@ -164,7 +160,7 @@ class RunningJob(RunningSystem):
             state.stage = None
 
     def _carried_out(self, step: TaughtStep) -> str | None:
-        """Carry out a step and what nobody sees behind it; why the arm refuses to, if it does."""
+        """Carry out a step and the hidden nodes after it; returns why the arm refuses, if it does."""
         try:
             next = self.job.session.runner.carry_out(step.node, self._state.came)
         except Refused as error:  # it cannot go where the step wants it
@@ -176,7 +172,7 @@ class RunningJob(RunningSystem):
         return None
 
     def _to(self, node: int) -> None:
-        """Come to the next step that people see, or to the end."""
+        """Advance to the next visible step, or the end."""
         program, state = self.job.session.program, self._state
         while node != NONE and not program.graph[node].shown:
             next = self.job.session.runner.carry_out(node, state.came)
@@ -203,7 +199,7 @@ class RunningJob(RunningSystem):
             self._call(refused, number)
 
     def _undone(self, job: TaughtJob) -> str | None:
-        """Have the last step undone; why the arm has stopped, if it has."""
+        """Reverse the last step; returns why the arm stopped, if it did."""
         try:
             ran = job.session.runner.back(1)
         except Refused as error:  # it cannot go back to where it was
@@ -214,7 +210,7 @@ class RunningJob(RunningSystem):
         return None if ran.obstacle is None else told_obstacle(ran.obstacle)
 
     def _stand_before(self, number: int) -> None:
-        """The step of a number is undone: it is the next one, or all is undone that was to be."""
+        """Update the state after a step's reversal: it is next, or the reversal is complete."""
         state, program = self._state, self.job.session.program
         assert state.undoing is not None
         self._note()
@@ -233,18 +229,14 @@ class RunningJob(RunningSystem):
         state.undoing, state.at, state.onward = None, None if halts else number, number if halts else None
 
     def _call(self, sentence: str, number: int) -> None:
-        """Call the operator, who has the same done again, or ends it."""
+        """Call the operator, who can repeat the step or end the run."""
         state = self._state
         state.stopped = OperatorCalled(time=self.time, message=sentence)
         state.at, state.onward = None, number
         self._around.emit(state.stopped)
 
     def answer(self, choice: Choice) -> None:
-        """Go on where the run stands: `retry` and `proceed` have the step done again, `skip` ends the program.
-
-        Raises:
-            InvalidInput: a step is to be skipped that the arm undoes.
-        """
+        """Continue: `retry` and `proceed` repeat the step, `skip` ends the program."""
         state = self._state
         if choice == "skip" and state.undoing is not None:
             raise Refused(
@@ -284,7 +276,7 @@ class RunningJob(RunningSystem):
         return completed
 
     def built(self) -> Findings:
-        """Findings on what the job has built, whose program had come to its end before the arm undid it."""
+        """Findings on the finished work, before it was reversed."""
         turn = self._state.turn
         return self.job.built() if turn is not None and turn.ended else {}
 
@@ -305,7 +297,7 @@ class RunningJob(RunningSystem):
 
     @property
     def shown(self) -> Mapping[str, Any]:
-        """Millimetres and degrees."""
+        """Values in millimetres and degrees."""
         program, arm = self.job.session.program, self.job.arm
         told = dict(zip(AXES, arm.here().measures(), strict=True))
         named = {name: p.data.measures() for name, p in program.positions.items() if is_named(name)}
@@ -336,7 +328,7 @@ class RunningJob(RunningSystem):
         self._state.note(self.job.session.program, self.job.arm.memory)
 
     def _hand(self) -> tuple[Vector3, float]:
-        """Where the hand is over the platter by the potentiometers, m, and the gap between its fingers."""
+        """Hand position over the platter by potentiometers, m, and finger gap."""
         x, y, z = (round(float(value), 6) for value in self.job.axes.read().q[:3])
         return (x, y, z), round(self.job.arm.gap, 6)
 
@@ -346,7 +338,7 @@ class RunningJob(RunningSystem):
         return np.array([channels[part] for part in PURBRICK.force.parts])
 
     def _look_on(self) -> None:
-        """From now on tell of every period of the machine."""
+        """Report every period of the machine from now on."""
         self._laid = True
         self._sensed = sense_axes([self.job.axes])
         self.job.bench.after_period.append(self._tell)
@@ -360,18 +352,14 @@ class RunningJob(RunningSystem):
 
 
 def plan_of(setup: Setup) -> TaughtPlan:
-    """The plan of a taught job.
-
-    Raises:
-        InvalidInput: another system carries the run out.
-    """
+    """The plan of a taught job; raises Refused for other systems."""
     if not isinstance(setup.plan, TaughtPlan):
         raise Refused(f"this is a run of the system {setup.system}, which nobody has taught")
     return setup.plan
 
 
 class TaughtSystem(System):
-    """Programs of TRIG, taught in the world of a run."""
+    """TRIG programs, taught in the world of a run."""
 
     name = "trig"
     plan = TaughtPlan
