@@ -10,6 +10,7 @@ from handeye.core.entries import entry_named
 from handeye.core.errors import InvalidInput
 from handeye.debugger.stepper import Stepper
 from handeye.program.events import LineTyped
+from handeye.results.summary import interventions
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode
 from handeye.runs.runner import Runner
@@ -61,6 +62,7 @@ def test_a_run_with_a_typed_line_is_no_longer_the_plans_alone(typed: Runner) -> 
     kept = decode(encode(typed.checkpoint()), "it")
     assert kept.touched
     assert any(line.endswith("*** typed to COUNT: B 100") for line in account(kept.events))
+    assert list(interventions(kept.events)) == ["at 3.0 s typed to COUNT: B 100"]
 
 
 def test_a_line_that_is_refused_has_not_happened(typed: Runner) -> None:
