@@ -14,14 +14,17 @@ from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.entries import PLANNED, entries, entry_named, require
 from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.core.variation import WorldSpec, checked_seed
-from handeye.tasks import planned
-from handeye.tasks import task as known_task
+from handeye.planfile.plan import Plan
+from handeye.runs.setup import Setup
+from handeye.runs.systems import digest_of, system_named
+from handeye.tasks import DEFAULT, any_task, named, planned
+from handeye.tasks.interface import Task
 from handeye.tasks.trial import Known
 
 if TYPE_CHECKING:
-    from handeye.planfile.plan import Plan
     from handeye.tasks.interface import Disturbance
     from handeye.trials.chaos.schedule import Schedule
 
@@ -233,16 +236,18 @@ def chaos_trials(
     checked_seed(seed + worlds)
     options.check()
     given = [parse_schedule(text) for text in schedule or ()]
-    plan = plan_or_own(None, task)
+    setup = _own_setup(task, camera)
+    plan = setup.plan if isinstance(setup.plan, Plan) else None
+    settings = {"worlds drawn from": str(worlds), "plan of the system": "" if plan else digest_of(setup)}
     with _folder(checkpoints) as folder:
-        drawn = given or _drawn(plan, folder, seed, count, worlds, camera, options.jobs)
+        drawn = given or _drawn(setup, folder, seed, count, worlds, options.jobs)
         return carry_out_sweep(
             CHAOS,
-            ChaosWork(plan=plan, folder=folder, camera=camera),
+            ChaosWork(setup=setup, folder=folder),
             [Case(trials=(k,), seed=seed + k, condition=str(each)) for k, each in enumerate(drawn)],
-            head_of(CHAOS, WorldSpec(seed=seed), plan, {"worlds drawn from": str(worlds)}, camera=camera),
+            head_of(CHAOS, WorldSpec(seed=seed), plan, settings, camera=camera),
             options,
-            title=f"schedules of faults and interruptions of {plan.program.name}, drawn from seed {seed}",
+            title=f"schedules of faults and interruptions of {setup.task}, drawn from seed {seed}",
             plan=plan,
         )
 
@@ -257,14 +262,23 @@ def _folder(named: Path | None) -> Iterator[Path]:
         yield Path(name)
 
 
-def _drawn(
-    plan: "Plan", folder: Path, seed: int, count: int, worlds: int, camera: str, jobs: int
-) -> "list[Schedule]":
+def _own_setup(words: str | None, camera: str) -> Setup:
+    """A run of a task by its own plan, whichever system does it; its world is to be chosen."""
+    work = any_task(DEFAULT) if words is None else named(words)
+    if isinstance(work, Task):
+        return Setup(plan=plan_or_own(None, words), world=WorldSpec(seed=0), camera=camera)
+    system = next((entry.name for entry in entries().values() if work.name in entry.tasks), PLANNED)
+    require(system, "chaos")
+    plan = system_named(system).own_plan(work.name)
+    return Setup(system=system, plan=plan, world=WorldSpec(seed=0), camera=camera)
+
+
+def _drawn(setup: Setup, folder: Path, seed: int, count: int, worlds: int, jobs: int) -> "list[Schedule]":
     """Schedules, when the worlds that they begin in have been carried out."""
     from handeye.trials.chaos import trials
 
-    specs = trials.worlds(seed, worlds)
-    ended = trials.sound_runs(plan, folder, specs, camera, jobs)
+    specs = trials.worlds(seed, worlds, levels="levels" in entry_named(setup.system).can)
+    ended = trials.sound_runs(setup, folder, specs, jobs)
     tally = Tally(len(specs), "worlds carried out")
     runs = sorted(tally.counting(ended), key=lambda run: run.world.seed)
-    return list(trials.schedules(seed, count, runs, known_task(plan.task)))
+    return list(trials.schedules(seed, count, runs, any_task(setup.task)))

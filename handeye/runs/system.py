@@ -358,6 +358,10 @@ class System(ABC):
         if not isinstance(setup.plan, self.plan):
             raise BadFile(f"this is no plan of {self.entry.title}")
 
+    def own_plan(self, task: str) -> Any:
+        """The plan that does one of its tasks where nobody gives another; raises InvalidInput if there is none."""
+        raise refusal(self.name, "plans")
+
     def executed(self, plan: Any, state: Any) -> Sequence[ExecutedStep]:
         """Steps of a plan that were executed and not undone, by a state."""
         return ()

@@ -113,7 +113,7 @@ SCRIPT = """        STAGE   "open"
 @pytest.fixture
 def sound(tmp_path: Path) -> SoundRun:
     """A sound run of a short program, which calls the operator in its second stage."""
-    return sound_run(tmp_path, begin(SCRIPT).setup.plan, WorldSpec(seed=3), "ray")
+    return sound_run(tmp_path, begin(SCRIPT).setup, WorldSpec(seed=3))
 
 
 def tried(sound: SoundRun, text: str) -> Tried:
@@ -141,9 +141,7 @@ def test_a_wrong_pump_that_a_program_takes_for_right_is_found_unless_it_stops_la
     monkeypatch.setattr(
         trial, "findings_so_far", lambda _: {"base_yaw": at_most(2.0, 1.0, "deg", "turn of the base")}
     )
-    quiet = sound_run(
-        tmp_path / "quiet", begin(SCRIPT.replace("WAIT", ";WAIT")).setup.plan, WorldSpec(seed=3), "ray"
-    )
+    quiet = sound_run(tmp_path / "quiet", begin(SCRIPT.replace("WAIT", ";WAIT")).setup, WorldSpec(seed=3))
     assert tried(sound, "").broken == ()
     last = try_schedule(parse_schedule("seed=3 start=6 breaks=pause:1 answers=retry"), quiet)
     assert last.names == {"silent"}

@@ -142,7 +142,8 @@ class Carrying:
     def _attended(self, runner: Runner, stops: Sequence[StopCondition]) -> Pause:
         # `attend` does a step before a stop counts; a run interrupted at its end has none left. Any stop will do
         pause = paused_before(runner, stops) or attend(runner, self._operator, stops)  # type: ignore[arg-type]
-        if pause.kind in ("operator", "panic", "trouble") and not brakes_hold(runner.arm_cell):
+        stopped = pause.kind in ("operator", "panic", "trouble")
+        if stopped and runner.system.arm_cell is not None and not brakes_hold(runner.arm_cell):
             self._unbraked.append(f"{pause.kind} at {runner.elapsed:.2f} s")
         return pause
 

@@ -27,7 +27,7 @@ _NEAR: Final = (1, 400)
 """Servo periods before the panic button is hit: up to seven seconds."""
 _FEW: Final = (1, 6)
 """Steps, or events, before a run is interrupted otherwise."""
-_MOST: Final = 24
+MOST_STEPS: Final = 24
 """Steps of a schedule that does not go on to the end of its stage."""
 
 
@@ -145,7 +145,7 @@ def draw(
         seed=worlds[which][0],
         level=worlds[which][1],
         start=starts[which][place],
-        steps=None if chance.random() < 0.4 else chance.randint(1, _MOST),
+        steps=None if chance.random() < 0.4 else chance.randint(1, MOST_STEPS),
         faults=tuple(sorted(catalogue.written(_fault(chance, kind, stage)) for kind in broken)),
         breaks=tuple(_breaks(chance)),
         answers=tuple(

@@ -1,6 +1,6 @@
 """Sound runs: one of each world, with checkpoints close to each other, from which schedules begin."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -11,7 +11,6 @@ from handeye.core.errors import Refused
 from handeye.core.faults import Fault
 from handeye.core.files import write_whole
 from handeye.core.variation import WorldSpec
-from handeye.planfile.plan import Plan
 from handeye.program.events import RunStarted
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.runner import Runner
@@ -22,6 +21,8 @@ from handeye.tasks import task
 
 EVERY: Final = 3
 """Steps from one checkpoint to the next."""
+NEAR_END: Final = 36
+"""Steps before the end of a program of one stage where no schedule begins any more."""
 _WHOLE: Final = "whole"
 """A file that says that the run was carried out to its end."""
 
@@ -49,28 +50,38 @@ class SoundRun:
         return found
 
 
-def sound_run(folder: Path, plan: Plan, world: WorldSpec, camera: str) -> SoundRun:
-    """The sound run of a world, carried out now unless the folder has it.
+def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
+    """The sound run of a world, set up as another run but for that, and carried out now unless the folder has it.
 
     Raises:
         InvalidInput: the folder holds something else, or cannot be written to.
     """
     store = CheckpointStore(folder / f"{world.seed}-{world.level}")
-    setup = Setup(plan=plan, world=world, camera=camera)
+    setup = msgspec.structs.replace(of, world=world)
     store.check(setup)
     if not (store.folder / _WHOLE).exists():
         store.folder.mkdir(parents=True, exist_ok=True)
         _carry_out(store, setup)
         write_whole(store.folder / _WHOLE, b"")
-    stages = listing_of(setup).stages
-    found = sorted((head.position, head.stage) for _, head in store.heads() if head.stage is not None)
-    begun = [(position, stages.index(stage) + 1) for position, stage in found if stage in stages]
+    begun = sorted(_begun(store, listing_of(setup).stages))
     return SoundRun(
         world=world,
         store=store,
         starts=tuple(position for position, _ in begun),
         stages=tuple(number for _, number in begun),
     )
+
+
+def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int, int]]:
+    """Steps done where a schedule can begin, and the number of the stage.
+
+    In a program of one stage none begins near the end: whoever resumes it may have it reversed, where that is its job.
+    """
+    heads = [head for _, head in store.heads()]
+    last = max(head.position for head in heads) - (NEAR_END if len(stages) < 2 else 0)
+    for head in heads:
+        if head.stage in stages and head.position <= last:
+            yield head.position, stages.index(head.stage) + 1
 
 
 def _carry_out(store: CheckpointStore, setup: Setup) -> None:

@@ -11,10 +11,11 @@ from handeye.runs.advance import advance
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import StopCondition
-from handeye.tasks import task
+from handeye.runs.systems import listing_of
+from handeye.tasks import any_task
 from handeye.trials.chaos.carrying_out import Carried, Carrying, ReachedPosition
 from handeye.trials.chaos.invariants import after_resuming, in_trace, on_disk, wrong
-from handeye.trials.chaos.schedule import Schedule
+from handeye.trials.chaos.schedule import MOST_STEPS, Schedule
 from handeye.trials.chaos.sound_run import SoundRun, with_faults
 
 
@@ -60,7 +61,7 @@ def try_schedule(schedule: Schedule, sound: SoundRun) -> Tried:
         InvalidInput: it cannot be carried out: there is no such fault, or no such state to begin with.
     """
     begun = sound.at(schedule.start)
-    start = with_faults(begun, schedule.given(task(begun.setup.task).faults(schedule.seed)))
+    start = with_faults(begun, schedule.given(any_task(begun.setup.task).faults(schedule.seed)))
     ended, broken = "error", list[Broken]()
     with tempfile.TemporaryDirectory(prefix="handeye-chaos-") as name:
         try:
@@ -77,8 +78,9 @@ def try_schedule(schedule: Schedule, sound: SoundRun) -> Tried:
 
 def _carried(schedule: Schedule, start: Checkpoint, folder: Path, *, broken: bool) -> Carried:
     stops: list[StopCondition] = [EndOfStage(after=start.position)]
-    if schedule.steps is not None:
-        stops.append(ReachedPosition(position=start.position + schedule.steps))
+    stages = listing_of(start.setup).stages
+    if schedule.steps is not None or len(stages) < 2:
+        stops.append(ReachedPosition(position=start.position + (schedule.steps or MOST_STEPS)))
     return Carrying(schedule, start, folder).carry_out(stops, broken=broken)
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Final
 
 from handeye.core.variation import Level, WorldSpec
-from handeye.planfile.plan import Plan
-from handeye.tasks.interface import Task
+from handeye.runs.setup import Setup
+from handeye.tasks.interface import AnyTask
 from handeye.trials.chaos.schedule import Schedule, draw, parse_schedule
 from handeye.trials.chaos.sound_run import SoundRun, sound_run
 from handeye.trials.chaos.trial import Tried, shrunk, try_schedule
@@ -39,16 +39,14 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 class ChaosWork:
     """Tries schedules on the sound runs of a folder."""
 
-    plan: Plan
+    setup: Setup
+    """What the runs are but for their worlds."""
     folder: Path
-    camera: str
 
     def __call__(self, case: Case) -> list[ChaosRow]:
         """Try one; if it fails, find the fewest things with which it does."""
         schedule = parse_schedule(case.condition)
-        sound = sound_run(
-            self.folder, self.plan, WorldSpec(seed=schedule.seed, level=schedule.level), self.camera
-        )
+        sound = sound_run(self.folder, self.setup, WorldSpec(seed=schedule.seed, level=schedule.level))
         drawn = try_schedule(schedule, sound)
         least = shrunk(drawn, schedule, lambda fewer: try_schedule(fewer, sound))[1] if drawn.broken else None
         return [
@@ -58,19 +56,18 @@ class ChaosWork:
         ]
 
 
-def worlds(seed: int, count: int) -> list[WorldSpec]:
-    """Worlds for the schedules of a seed: its own and those after it, one level after the other."""
-    return [WorldSpec(seed=seed + number, level=LEVELS[number % len(LEVELS)]) for number in range(count)]
+def worlds(seed: int, count: int, *, levels: bool = True) -> list[WorldSpec]:
+    """Worlds for the schedules of a seed: its own and those after it, one level after the other if there are levels."""
+    chosen = LEVELS if levels else LEVELS[:1]
+    return [WorldSpec(seed=seed + number, level=chosen[number % len(chosen)]) for number in range(count)]
 
 
-def sound_runs(
-    plan: Plan, folder: Path, specs: Sequence[WorldSpec], camera: str, workers: int
-) -> Iterator[SoundRun]:
+def sound_runs(setup: Setup, folder: Path, specs: Sequence[WorldSpec], jobs: int) -> Iterator[SoundRun]:
     """The sound runs of some worlds in a folder, carried out now where it does not have them, in the order they end."""
-    yield from in_processes(partial(sound_run, folder, plan, camera=camera), specs, workers)
+    yield from in_processes(partial(sound_run, folder, setup), specs, jobs)
 
 
-def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: Task) -> Iterator[Schedule]:
+def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: AnyTask) -> Iterator[Schedule]:
     """The first schedules of a seed."""
     for number in range(count):
         yield draw(

@@ -47,7 +47,7 @@ from handeye.runs.operator import undoing
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, RunningSystem, Settable, StepperWords, Surroundings, System
-from handeye.systems.trig.jobs.benches import TaughtJob, TaughtPlan, open_job
+from handeye.systems.trig.jobs.benches import JobName, TaughtJob, TaughtPlan, job_script, open_job
 from handeye.systems.trig.language.node import NONE, TOP
 from handeye.systems.trig.language.obstacles import told_obstacle
 from handeye.systems.trig.language.place import AXES
@@ -358,6 +358,10 @@ def plan_of(setup: Setup) -> TaughtPlan:
     return setup.plan
 
 
+OWN_BLOCKS: Final = 5
+"""Blocks in the stack where nobody says how many: enough for a program of 75 steps."""
+
+
 class TaughtSystem(System):
     """TRIG programs, taught in the world of a run."""
 
@@ -388,6 +392,9 @@ class TaughtSystem(System):
 
     def build(self, setup: Setup, around: Surroundings) -> RunningJob:
         return RunningJob(setup, around)
+
+    def own_plan(self, task: JobName) -> TaughtPlan:  # type: ignore[override]
+        return TaughtPlan(job=task, script=job_script(task, OWN_BLOCKS))
 
     def machine(self, plan: TaughtPlan) -> tuple[str, str]:
         return PURBRICK.name, ""
