@@ -107,14 +107,11 @@ def _do(repl: Repl, rest: str) -> Answer:
         return repl.carry_out(repl.typed(text), alone=True)
     file = repl.folder / f"{name}.al"
     if not file.is_file():
-        known = suggestion(name, [*INSTRUCTIONS, *macros, *_programs(repl.folder)])
+        programs = sorted(file.stem for file in repl.folder.glob("*.al"))
+        known = suggestion(name, [*INSTRUCTIONS, *macros, *programs])
         help = f"; {known}" if known is not None else ""
         raise BadArgument(f"there is no instruction, macro or program {quoted(name)}{help}")
     return repl.carry_out(read_script(file))
-
-
-def _programs(folder: Path) -> list[str]:
-    return sorted(file.stem for file in folder.glob("*.al"))
 
 
 def _list(repl: Repl, _: str) -> Answer:

@@ -60,13 +60,10 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
     add_keyframe(spec, keyframe, data, threaded)
     _rename(spec)
     about = (scenes() / "water_pump" / "exported.md").read_text(encoding="utf-8")
+    pump = ("base", "gasket", "top", "rotor", *(f"screw{k}" for k in range(world.screws)))
     return ExportedScene(
-        spec=spec, about=about, parts=_parts(world.screws), densities=_densities(spec, world.part_mass)
+        spec=spec, about=about, parts={"pump": pump}, densities=_densities(spec, world.part_mass)
     )
-
-
-def _parts(screws: int) -> dict[str, tuple[str, ...]]:
-    return {"pump": ("base", "gasket", "top", "rotor", *(f"screw{k}" for k in range(screws)))}
 
 
 def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:

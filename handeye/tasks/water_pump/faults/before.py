@@ -68,7 +68,7 @@ def part_faults(seed: int) -> tuple[PartFault, ...]:
 @cache
 def _part_faults(count: int) -> tuple[PartFault, ...]:
     return (
-        *_base(), *_gasket(), *_top(), *_pins(), *_screws(count), *_holes(count), *_screwdriver(), *_light()
+        *_base(), *_gasket(), *_top(), *_pins(), *_screws(count), *_holes(count), *_screwdriver_and_light()
     )  # fmt: skip
 
 
@@ -258,7 +258,7 @@ def _holes(count: int) -> Iterator[PartFault]:
             yield _fault(name, meaning, breaks, detect.if_used(number, expected), size)
 
 
-def _screwdriver() -> Iterator[PartFault]:
+def _screwdriver_and_light() -> Iterator[PartFault]:
     yield _fault(
         "screwdriver.missing", "The screwdriver is not in its rack.", _missing("driver"),
         Expected(errors=(NOTHING_HELD,), stages=(detect.DRIVE_FIRST,)),
@@ -267,9 +267,6 @@ def _screwdriver() -> Iterator[PartFault]:
         _SMOOTH, "The bit does not rub on what it turns, and no thread takes it.", _slippery("bit"),
         Expected(calls=(detect.loose_screw(1),)),
     )  # fmt: skip
-
-
-def _light() -> Iterator[PartFault]:
     yield _fault(
         "light.shadow", "A card in the way of the light throws the edge of its shadow across the base.", _shade,
         detect.POOR_LIGHT,

@@ -190,7 +190,7 @@ MishapFault = PumpFault[Callable[[float], Mishap]]
 @cache
 def mishap_faults() -> tuple[MishapFault, ...]:
     """All mishaps, in the order they are listed."""
-    return (*_light(), *_pushes(), *_base(), *_losses())
+    return (*_light_and_pushes(), *_base(), *_losses())
 
 
 def _fault(
@@ -206,12 +206,9 @@ def _fault(
     )
 
 
-def _light() -> Iterator[MishapFault]:
+def _light_and_pushes() -> Iterator[MishapFault]:
     meaning = "The lamp of the cell goes out; what light the room has stays."
     yield _fault("light.off", meaning, lambda _: LightOut(), detect.POOR_LIGHT, stage=6)
-
-
-def _pushes() -> Iterator[MishapFault]:
     size = Size(unit="N", usual=40.0, limits=(-300.0, 300.0))
     expected = Expected(
         errors=(FORCE_WRONG, SERVO_LAG),
@@ -286,13 +283,8 @@ class Mishaps(Mechanism[MishapsState]):
     def _begin(self, now: Callable[[int | None], bool]) -> None:
         for number, ((fault, mishap), state) in enumerate(zip(self.due, self._states, strict=True)):
             if state.seconds is None and now(fault.stage):
-                self._states[number] = MishapState(seconds=0.0, place=self._place(mishap.watched))
-
-    def _place(self, part: str | None) -> tuple[float, float, float] | None:
-        if part is None:
-            return None
-        x, y, z = self._scene.place(part).tolist()
-        return x, y, z
+                place = mishap.watched and self._scene.place(mishap.watched).tolist()
+                self._states[number] = MishapState(seconds=0.0, place=tuple(place) if place else None)
 
     def before(self, seconds: float) -> None:
         for number, ((_, mishap), state) in enumerate(zip(self.due, self._states, strict=True)):

@@ -29,9 +29,11 @@ def judge(truth: Truth) -> Findings:
     """
     left, settled = _as_left_and_settled(truth)
     holes = holes_of(truth)
+    forces = [measure.head_force(settled, k) for k, thread in enumerate(holes) if thread.screw is not None]
+    clamp = min(forces, default=0.0)
     return {
         **worse(_places(left, holes), _places(settled, holes)),
-        "screws_clamp": _clamp(settled, holes),
+        "screws_clamp": at_least(clamp, limits.SCREW_CLAMP, "N", "weakest clamp of a screw"),
         "rotor": _rotor(settled),
     }
 
@@ -153,11 +155,6 @@ def _hand(measured: Measured, parts: Iterable[str]) -> Finding:
         np.flatnonzero(arm & solid), np.flatnonzero(mine & solid), 2 * limits.HAND_CLEAR / 1e3
     )
     return at_least(nearest * 1e3, limits.HAND_CLEAR, "mm", "hand from the nearest part")
-
-
-def _clamp(measured: Measured, holes: tuple[Thread, ...]) -> Finding:
-    forces = [measure.head_force(measured, k) for k, thread in enumerate(holes) if thread.screw is not None]
-    return at_least(min(forces, default=0.0), limits.SCREW_CLAMP, "N", "weakest clamp of a screw")
 
 
 def _rotor(measured: Measured) -> Finding:

@@ -20,7 +20,6 @@ _BEHIND: Final = radians(2.0)  # so far behind its guide, the rotor is turned wi
 _GAIN: Final = ROTOR_TORQUE / _BEHIND  # N m/rad
 _DAMPING: Final = 0.07  # N m s/rad: with the rotor's inertia it swings into place without going beyond
 
-FASTENER = 8
 BORE = 4 | 512
 FLAT = 16 | 32 | 64 | 128
 PIERCED = 256

@@ -71,10 +71,6 @@ def _bench(rng: np.random.Generator) -> Array:
     return _tinted((0.88 + tone + _streaks(rng, _BENCH)) * np.where(gap, 0.66, 1.0), (1.0, 0.84, 0.62))
 
 
-def _timber(rng: np.random.Generator) -> Array:
-    return _tinted(0.87 + _streaks(rng), (1.0, 0.95, 0.88))
-
-
 def _cast(rng: np.random.Generator) -> Array:
     """Sand-cast skin."""
     return _tinted(0.88 + 0.07 * _smooth(rng, 1.5, 1.5) + 0.03 * _smooth(rng, 20, 20), (1.0, 0.985, 0.96))
@@ -106,7 +102,8 @@ def _tiles(rng: np.random.Generator) -> Array:
 
 _MARKS: Final = 64  # of the mill, in a picture
 _GRAINS: Final[dict[str, Grain]] = {
-    "belt": _woven, "cast": _cast, "floor": _tiles, "machined": _milled, "table": _bench, "wood": _timber,
+    "belt": _woven, "cast": _cast, "floor": _tiles, "machined": _milled, "table": _bench,
+    "wood": lambda rng: _tinted(0.87 + _streaks(rng), (1.0, 0.95, 0.88)),
 }  # fmt: skip
 _LIKE: Final = {"top": "machined", "block": "machined"}
 """Materials that have the grain of another."""

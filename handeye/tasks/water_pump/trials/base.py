@@ -7,7 +7,6 @@ from typing import Final, Literal
 import numpy as np
 
 from handeye.core.errors import CalibrationFailed
-from handeye.core.pose import Array
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
@@ -61,7 +60,9 @@ class BaseTrial(Trial[BaseAttempt]):
                 yield BaseAttempt(seed=world.seed, number=k, error=None, failure=cause_sentence(found.cause))
                 continue
             wrong = _is_wrong(found, still, part, (x, y, yaw))
-            yield BaseAttempt(seed=world.seed, number=k, error=_error(found.pose, (x, y, yaw)), wrong=wrong)
+            dx, dy, turn = (a - b for a, b in zip(found.pose, (x, y, yaw), strict=True))
+            off = dx, dy, math.remainder(turn, 2 * math.pi)
+            yield BaseAttempt(seed=world.seed, number=k, error=off, wrong=wrong)
 
     def sentence(self, attempt: BaseAttempt) -> str:
         if attempt.error is None:
@@ -77,7 +78,7 @@ class BaseTrial(Trial[BaseAttempt]):
         errors = np.array([a.error for a in attempts if a.error is not None]).reshape(-1, 3)
         tried, found, wrong = len(attempts), len(errors), sum(a.wrong for a in attempts)
         within = sum(a.within for a in attempts)
-        x, y, turn = rms = [_rms(column) for column in errors.T]
+        x, y, turn = rms = [math.sqrt(float(np.mean(column**2))) if found else 0.0 for column in errors.T]
         return Count(
             figures={"tried": tried, "found": found, "wrong": wrong, "within": within, "rms": rms},
             lines=(
@@ -93,12 +94,3 @@ def _is_wrong(found: SpecificLocation, still: StillPump, part: Part, pose: Vecto
     true = still.camera.shown(hole_places(part, pose))
     seen = [(hole.u, hole.v) for hole in found.holes]
     return bool(np.hypot(*(true - seen).T).max() > WRONG_BEYOND_PX)
-
-
-def _error(pose: Vector3, truth: Vector3) -> Vector3:
-    dx, dy, turn = (a - b for a, b in zip(pose, truth, strict=True))
-    return dx, dy, math.remainder(turn, 2 * math.pi)
-
-
-def _rms(values: Array) -> float:
-    return math.sqrt(float(np.mean(values**2))) if len(values) else 0.0

@@ -109,10 +109,6 @@ def _shifted(X_WP: Pose, rng: np.random.Generator) -> Pose:
     return translated(X_WP, (SHIFT * math.cos(way), SHIFT * math.sin(way), 0.0))
 
 
-def _absent(X_WP: Pose, rng: np.random.Generator) -> None:
-    return None
-
-
 def _doubled(X_WP: Pose, rng: np.random.Generator) -> Pose:
     """The upper one: the lower is hidden beneath it."""
     return translated(_right(X_WP, rng), (0.0, 0.0, dimensions()("gasket.thickness")))
@@ -121,7 +117,7 @@ def _doubled(X_WP: Pose, rng: np.random.Generator) -> Pose:
 _CASES: Final[dict[str, Callable[[Pose, np.random.Generator], Pose | None]]] = {
     RIGHT: _right,
     SHIFTED: _shifted,
-    ABSENT: _absent,
+    ABSENT: lambda X_WP, rng: None,
     DOUBLED: _doubled,
 }
 """Pose of the gasket on a base face at `X_WP`, by case; None: it stays on its stand."""

@@ -74,19 +74,18 @@ class PumpWorld(ArmWorld):
     @classmethod
     def of(cls, world: World) -> Self:
         """The values of a drawn world, sorted by device and part."""
+        numbers = range(1, screws(world.spec.seed) + 1)
         return cls(
             **arm_values(world, RUBBING),
             base=_placing(world, "base"),
             camera=_camera(world),
-            light=Light(
-                zenith=world["light.zenith"],
-                azimuth=world["light.azimuth"],
-                strength=world["light.strength"],
-                ambient=world["light.ambient"],
-            ),
+            light=Light(**{field.name: world[f"light.{field.name}"] for field in fields(Light)}),
             fixtures={station: _placing(world, f"fixtures.{station}") for station in stations()},
             parts=_parts(world),
-            holes={part: _drilling(world, part) for part in DRILLED},
+            holes={
+                part: tuple((world[f"holes.{part}.{k}.x"], world[f"holes.{part}.{k}.y"]) for k in numbers)
+                for part in DRILLED
+            },
             part_mass=1 + world["part_mass"],
             thread_phase=world.numbered("thread_phase"),
         )
@@ -144,9 +143,6 @@ def _in_play(world: World, name: str, play: float) -> Placing:
     return replace(share, x=share.x * play, y=share.y * play)
 
 
-def _drilling(world: World, part: str) -> tuple[Point, ...]:
-    holes = range(1, screws(world.spec.seed) + 1)
-    return tuple((world[f"holes.{part}.{hole}.x"], world[f"holes.{part}.{hole}.y"]) for hole in holes)
 
 
 def _camera(world: World) -> CameraErrors:
