@@ -1,4 +1,4 @@
-"""Asks a person how to go on when the operator is called."""
+"""Questions to the person at the terminal when the operator is called."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -22,14 +22,14 @@ _CHOICES: Final[dict[str, Choice | Literal["abort"]]] = {
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """Asks in words; the end of the lines is taken for `abort`."""
+    """Asks in words; the end of input means `abort`."""
 
     lines: Iterator[str]
     write: Callable[[str], None]
     """Puts out lines of text; the end of the last one is not in them."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """How to go on."""
+        """The operator's choice."""
         self._say(_question(runner, refused or call_sentence(call.message, call.error, call.cause)))
         for line in self.lines:
             word, _, rest = line.strip().partition(" ")
@@ -44,7 +44,7 @@ class Ask:
         return "abort"
 
     def _understood(self, runner: Runner, word: str, rest: str) -> OperatorChoice | None:
-        """The answer in a line; None if it only wanted to see something; raises InvalidInput if it is none."""
+        """The choice in a line; None if it only asked to see something; raises InvalidInput if it is neither."""
         if word in ("b", "back"):
             return Back(stage=_begun(runner, rest))
         if word in ("u", "unwind"):
@@ -76,7 +76,7 @@ def _begun(runner: Runner, text: str) -> int:
 
 
 def _question(runner: Runner, sentence: str) -> list[str]:
-    """Tell what happened, where, and what can be said to it."""
+    """What happened, where, and the possible answers."""
     program, stage = runner.listing, runner.stage
     assert stage is not None
     step = next(event for event in reversed(runner.events) if isinstance(event, StepStarted))
@@ -89,7 +89,7 @@ def _question(runner: Runner, sentence: str) -> list[str]:
 
 
 def _choices(runner: Runner) -> list[str]:
-    """Tell what can be said, and what it does here."""
+    """The possible answers and what each does here."""
     return [
         *(f"{word[0]:10} {does}" for word, does in runner.kind.choices(runner).items()),
         "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",

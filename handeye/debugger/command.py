@@ -1,4 +1,4 @@
-"""Command: one thing that can be said at a prompt, and the table of them as help."""
+"""Commands of a prompt, and their table as help."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ Act = TypeVar("Act", bound=Callable[..., Any])
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Command(Generic[Act]):
-    """Something that can be said, and what is done then."""
+    """A command and its action."""
 
     usage: str
     act: Act
@@ -22,9 +22,9 @@ class Command(Generic[Act]):
     short: str = ""
     """Another word for it."""
     repeats: bool = False
-    """An empty line after it says it again."""
+    """An empty line after it repeats it."""
     meanwhile: bool = False
-    """It can be said while the run goes, too."""
+    """It is allowed while the run goes, too."""
 
     @property
     def name(self) -> str:
@@ -43,11 +43,7 @@ class Command(Generic[Act]):
 
 
 def check_bare(named: Iterable[Command[Any]], rest: str) -> None:
-    """See that nothing follows a command that takes nothing; raises InvalidInput if something does.
-
-    Args:
-        named: the commands of one name.
-    """
+    """Raise BadArgument if something follows a command that takes nothing; `named` are those of one name."""
     commands = list(named)
     if rest and all(command.bare for command in commands):
         raise BadArgument(f"`{commands[0].name}` takes nothing after it; {quoted(rest)} is too much")

@@ -26,15 +26,15 @@ def find(line: str) -> tuple[StepperCommand, str]:
     named = [command for command in COMMANDS if command.name == name]
     if not named:
         near = meant(word, [command.name for command in COMMANDS])
-        if word.casefold() in _ELSEWHERE:
-            near = f"; did you mean {quoted(_ELSEWHERE[word.casefold()])}?"
+        if word.casefold() in _SYNONYMS:
+            near = f"; did you mean {quoted(_SYNONYMS[word.casefold()])}?"
         raise NoSuchName(f"there is no command {quoted(word)}{near or '; `help` lists them'}")
     check_bare(named, rest)
     return named[0], rest
 
 
 def commands_of(runner: Runner) -> tuple[StepperCommand, ...]:
-    """The commands that do something in a run, with what they do there."""
+    """The commands that do something in a run, with their help there."""
     words, can = runner.kind.words, runner.kind.entry.can
     unable = {name for name, capability in _ASKING.items() if capability not in can}
     return tuple(
@@ -58,7 +58,7 @@ def _settings(command: StepperCommand, runner: Runner) -> list[StepperCommand]:
 
 
 def manual(runner: Runner) -> str:
-    """All commands, for people who see them for the first time."""
+    """The manual: all commands that do something in this run."""
     words = runner.kind.words
     return "\n".join(
         [
@@ -165,12 +165,9 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
 )  # fmt: skip
 
 MEANWHILE: Final = " and ".join(f"`{command.name}`" for command in COMMANDS if command.meanwhile)
-"""What can be said while the run goes, in words."""
 _SHORT: Final = {
     "?": "help",
     "exit": "quit",
     **{c.short: " ".join(filter(str.islower, c.usage.split())) for c in COMMANDS if c.short},
 }
-"""Meanings of short words."""
-_ELSEWHERE: Final = {"run": "continue", "go": "continue", "next": "step", "print": "show", "info": "show"}
-"""Names of the commands in other debuggers."""
+_SYNONYMS: Final = {"run": "continue", "go": "continue", "next": "step", "print": "show", "info": "show"}

@@ -1,4 +1,4 @@
-"""Commands of the stepper, as they act on a run in hand; each is given what follows its word."""
+"""Commands of the stepper, as they act on a session; each is given what follows its word."""
 
 import re
 from collections.abc import Callable
@@ -31,7 +31,7 @@ LISTED_AROUND: Final = 8  # lines that `list` shows before and after one
 
 
 def step(session: DebugSession, rest: str) -> CommandResult:
-    """Do so many steps."""
+    """Do N steps."""
     count = _count(rest, "step takes a number from 1 up")
     pause = session.go(steps=count)
     as_asked = isinstance(pause.met, AfterSteps)
@@ -46,7 +46,7 @@ def stage(session: DebugSession, _: str) -> CommandResult:
 
 
 def go_on(session: DebugSession, _: str) -> CommandResult:
-    """Go on to a break."""
+    """Go on to a breakpoint."""
     return _told(session, session.go())
 
 
@@ -62,14 +62,14 @@ def pause(session: DebugSession, _: str) -> CommandResult:
 
 
 def pace(session: DebugSession, rest: str) -> CommandResult:
-    """Set how fast the run goes, or tell it."""
+    """Set or show the pace of the run."""
     if rest:
         session.pace.factor = factor(rest)
     return CommandResult(said=f"the run goes {session.pace}")
 
 
 def _told(session: DebugSession, pause: Pause) -> CommandResult:
-    """Result of a command: how far it came, and why no farther."""
+    """Result of a command that went on: where the run pauses, and why."""
     said = session.at_its_end() or pause_sentence(pause)
     if pause.kind == "panic":
         said += "; the interrupted step is undone"
@@ -88,7 +88,7 @@ def _count(text: str, expected: str) -> int:
 
 
 def back(session: DebugSession, rest: str) -> CommandResult:
-    """Be again where a step, some steps or a stage had not been done."""
+    """Go back in time by a step, some steps or a stage."""
     done = session.runner.position
     if rest.casefold() == "stage":
         position = session.stage_began()
@@ -105,7 +105,7 @@ def back(session: DebugSession, rest: str) -> CommandResult:
 
 
 def undo(session: DebugSession, rest: str) -> CommandResult:
-    """Have the arm undo a step, some steps, or what it did since a stage began."""
+    """Have the arm reverse a step, some steps, or what it did since a stage began."""
     session.runner.require("undo")
     done = session.runner.system.executed
     if rest.casefold() == "stage":
@@ -123,7 +123,7 @@ def undo(session: DebugSession, rest: str) -> CommandResult:
 
 
 def set_break(session: DebugSession, rest: str) -> CommandResult:
-    """Set a break."""
+    """Set a breakpoint."""
     before = len(session.breaks)
     made = session.add_break(rest)
     return CommandResult(
@@ -132,12 +132,12 @@ def set_break(session: DebugSession, rest: str) -> CommandResult:
 
 
 def breaks(session: DebugSession, _: str) -> CommandResult:
-    """Tell which are set."""
+    """List the breakpoints."""
     return CommandResult(breaks=tuple(Break(number=n, stop=stop) for n, stop in session.breaks.items()))
 
 
 def delete(session: DebugSession, rest: str) -> CommandResult:
-    """Take a break away."""
+    """Delete a breakpoint."""
     there = f"breakpoints: {', '.join(map(str, session.breaks)) or 'none'}"
     if not re.fullmatch(r"[0-9]{1,7}", rest):
         wrong = f", not {quoted(rest)}" if rest else ""
@@ -152,7 +152,7 @@ def delete(session: DebugSession, rest: str) -> CommandResult:
 
 
 def script(session: DebugSession, rest: str) -> CommandResult:
-    """Tell the script around a line."""
+    """Show the script around a line."""
     if not rest:
         return CommandResult(source=session.source(None, LISTED_AROUND))
     file, line = named_place(rest, session.program) or ("", 0)
@@ -163,12 +163,12 @@ def script(session: DebugSession, rest: str) -> CommandResult:
 
 
 def look(session: DebugSession, rest: str) -> CommandResult:
-    """Show what there is to see."""
+    """Show topics of the run."""
     return CommandResult(show=show(session.runner, rest, session.pictures))
 
 
 def picture(session: DebugSession, rest: str) -> CommandResult:
-    """Write the last picture to a file that is not there yet."""
+    """Write the last picture to a new file."""
     if not rest:
         raise BadArgument("picture takes the name of a file to write")
     path = _file(rest)
@@ -182,7 +182,7 @@ def picture(session: DebugSession, rest: str) -> CommandResult:
 
 
 def experiment(session: DebugSession, rest: str) -> CommandResult:
-    """Give what the program remembers another value."""
+    """Set a remembered value."""
     experiments.experiment(session.runner, rest)
     return CommandResult()
 
@@ -223,7 +223,7 @@ def _check_called(session: DebugSession, word: str) -> None:
 
 
 def checkpoint(session: DebugSession, rest: str) -> CommandResult:
-    """Keep the present state."""
+    """Save a checkpoint."""
     if rest:
         path = _file(rest)
         check_place(path, CHECKPOINT)
@@ -246,7 +246,7 @@ def _file(name: str) -> Path:
 
 
 def leave(session: DebugSession, _: str) -> CommandResult:
-    """Keep the present state, and end."""
+    """Save a checkpoint and leave."""
     session.over = True
     if session.runner.ended and session.runner.call is None:
         return CommandResult(said="the run has ended; nothing was saved")

@@ -21,14 +21,14 @@ _LATE_S: Final = (
 
 @dataclass(slots=True, eq=False)
 class Pace(Observer):
-    """Keeps a run from going faster than so many times the clock of this computer."""
+    """Keeps a run from going faster than `factor` times the wall clock."""
 
     factor: float | None = None
-    """Simulated seconds in one of the clock; None: as fast as it goes."""
+    """Simulated seconds per second; None: as fast as it goes."""
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], None] = time.sleep
     _kept: tuple[float, float, float] | None = field(default=None, init=False)
-    """The factor that is kept, and since when: by the clock and by that of the cell, s."""
+    """The factor that is kept, and since when by the wall clock and by the cell's, s."""
 
     def __str__(self) -> str:
         if self.factor is None:

@@ -66,7 +66,7 @@ class Reply(CommandResult, frozen=True, kw_only=True):
     script: str = ""
     """The required file its line is in; empty: the script itself."""
     tasks: tuple[TaskView, ...] | UnsetType = UNSET
-    """Where each task stands, of a system that has several."""
+    """Places of the tasks of a system that has several."""
     did: tuple[StepSummary, ...] = ()
     """Steps that were done, in words."""
     events: tuple[AnyEvent, ...] = ()

@@ -88,7 +88,7 @@ class DebugSession:
     # -- going ----------------------------------------------------------------------------------------
 
     def go(self, stops: Sequence[AnyStop] = (), steps: int | None = None) -> Pause:
-        """Go on to the next of these stops or a break, or so many steps.
+        """Go on to the next of these stops or a breakpoint, or for `steps` steps.
 
         A step that is broken off, by the panic button or because something fails, is undone. Raises InvalidInput if the
         run cannot go on.
@@ -99,7 +99,7 @@ class DebugSession:
         return self._go(stops, steps)
 
     def have_undone(self, left: int, *, halts: bool = False) -> Pause:
-        """Have the arm undo what it did until so many executed steps are left.
+        """Have the arm undo executed steps until `left` remain.
 
         Raises InvalidInput if so much was not executed, or the cell cannot go on.
 
@@ -133,7 +133,7 @@ class DebugSession:
 
     @contextmanager
     def _attended(self, going: Literal["on", "back"], *observers: Observer) -> Iterator[None]:
-        """While the run goes: with these looking on."""
+        """While the run goes, with these observers."""
         self.going = going
         self.runner.observers += observers
         try:
@@ -163,8 +163,8 @@ class DebugSession:
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:
-        """Be again where so many steps were done. Raises InvalidInput if no state from so far back was kept, or the
-        panic button was hit while steps were done again on the way there."""
+        """Go back to where `position` steps were done; raises Refused if no state that old was kept, or the
+        panic button was hit on the way."""
         try:
             with self._attended("back", self.input):
                 self.runner.back_to(position, self.kept)
@@ -176,14 +176,14 @@ class DebugSession:
             ) from None
 
     def first(self) -> int:
-        """Steps that were done at the earliest state there is to go back to."""
+        """Position of the earliest state to go back to."""
         first = self.runner.history[0].position
         while first > 0 and (before := self.kept(first - 1)) is not None:
             first = before.position
         return first
 
     def stage_began(self) -> int | None:
-        """Where the stage began that is under way or, between two stages, the one before; None before the first."""
+        """Position at which the present stage began, or between stages the one before; None before the first."""
         return next(reversed(beginnings(self.runner).values()), None)
 
     # -- where it stands ------------------------------------------------------------------------------

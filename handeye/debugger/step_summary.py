@@ -1,4 +1,4 @@
-"""Summary of what was done: a line for each step, with its place in the source and what came of it."""
+"""Summary of a run: a line for each step, with its place in the source and its outcome."""
 
 from collections.abc import Iterable, Sequence
 from typing import Final
@@ -20,14 +20,14 @@ _BETWEEN: Final = (
 )
 """Events between two steps."""
 _SILENT: Final = (happened.StepStarted, happened.StepFinished, happened.CameraBusy)
-"""Events in a step that are told otherwise, or not at all."""
+"""Events in a step that are summarized differently, or not at all."""
 
 
 class StepSummary(Record, frozen=True, kw_only=True):
     """A step that was done, or something else between two steps."""
 
     line: int | None
-    """Of the source; None between steps."""
+    """Line of the source; None between steps."""
     file: str = ""
     """The required file that line is in; empty: the script itself."""
     text: str
@@ -60,7 +60,7 @@ def _summary(group: Sequence[AnyEvent], program: Listing, measures: Measures) ->
 def _outcome(
     group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures
 ) -> str:
-    """Tell what came of a step."""
+    """The outcome of a step, in words."""
     said = []
     for event in group:
         if isinstance(event, happened.ErrorTested):

@@ -47,13 +47,13 @@ class Stepper:
         for text in breaks:
             self.session.add_break(text)
         self.repeated: str | None = None
-        """Line that an empty one on a terminal says again."""
+        """Line that an empty one on a terminal repeats."""
         self.refused = False
-        """A command was not carried out; those said at the end, of which nobody knows when it comes, do not count."""
+        """A command was refused; those typed after the run ended do not count, since its end cannot be foreseen."""
 
     @property
     def over(self) -> bool:
-        """Somebody has left, or ended the run."""
+        """The session was left, or the run ended by the user."""
         return self.session.over
 
     @property
@@ -132,7 +132,7 @@ def interact(
     most: int | None = None,
     live: Live | None = None,
 ) -> Pause:
-    """Carry out a command a line until somebody leaves; the end of the lines is taken for `quit`.
+    """Carry out commands, one a line, until the session is left; the end of input means `quit`.
 
     Args:
         write: puts out lines of text; the end of the last one is not in them.
@@ -168,7 +168,7 @@ def interact(
 def _attend(
     stepper: Stepper, live: Live, write: Callable[[str], None], *, json: bool, echoed: bool
 ) -> LiveText | None:
-    """Let those who look on see and say something while the run goes; the text in which it is told to them."""
+    """Print steps and answer lines while the run goes; the text printer, unless answers are JSON."""
     runner, text = stepper.session.runner, None
     if json:
         stepper.session.output = LiveJson(runner, write)

@@ -10,7 +10,7 @@ Six = tuple[float, float, float, float, float, float]
 
 
 class JointView(Record, frozen=True, kw_only=True):
-    """Where a joint is."""
+    """Position of a joint."""
 
     name: str
     value: float
@@ -19,7 +19,7 @@ class JointView(Record, frozen=True, kw_only=True):
 
 
 class HandView(Record, frozen=True, kw_only=True):
-    """Where the hand is, in W; the angles are O, A, T."""
+    """Pose of the hand in W; the angles are O, A, T."""
 
     at_in: Vector3
     angles_deg: Vector3
@@ -41,14 +41,14 @@ class SearchView(Record, frozen=True, kw_only=True):
 
 
 class PartPose(Record, frozen=True, kw_only=True):
-    """Where a part is, upright in W."""
+    """Pose of an upright part in W."""
 
     at_in: Vector3
     yaw_deg: float
 
 
 class PartShown(Record, frozen=True, kw_only=True):
-    """Where a part was planned to be, where it was measured, and measured less planned."""
+    """Planned and measured pose of a part, and their difference."""
 
     planned: PartPose
     measured: PartPose | None
@@ -72,7 +72,7 @@ class PictureShown(Record, frozen=True, kw_only=True):
 
 
 class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """Where a task stands, of a system that has several."""
+    """Place of one of several tasks."""
 
     task: str
     step: int
@@ -86,7 +86,7 @@ class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class Shown(Record, frozen=True, kw_only=True):
-    """Views that somebody asked for; the rest is left out."""
+    """The views asked for; the rest is left out."""
 
     time_s: float | UnsetType = UNSET
     joints: tuple[JointView, ...] | UnsetType = UNSET
@@ -95,7 +95,7 @@ class Shown(Record, frozen=True, kw_only=True):
     """Force that the hand exerts on the world, in W; None: the program does not estimate it here."""
     gap_in: float | UnsetType = UNSET
     switches: tuple[bool, bool] | UnsetType = UNSET
-    """Of the fingers on the +y and the -y side of the hand."""
+    """Switches of the fingers on the +y and the -y side of the hand."""
     error: ErrorView | UnsetType | None = UNSET
     saved_in: dict[str, Vector3] | UnsetType = UNSET
     restored_in: dict[str, Vector3] | UnsetType = UNSET
@@ -105,4 +105,4 @@ class Shown(Record, frozen=True, kw_only=True):
     positions: dict[str, PositionView] | UnsetType = UNSET
     tasks: tuple[TaskView, ...] | UnsetType = UNSET
     state: dict[str, Any] | UnsetType = UNSET
-    """All that a system remembers of which nobody has made a view."""
+    """The rest of a system's state, which has no view of its own."""

@@ -1,4 +1,4 @@
-"""Looking at a run that pauses."""
+"""Views of a paused run."""
 
 from collections.abc import Collection
 from pathlib import Path
@@ -16,7 +16,7 @@ from handeye.runs.runner import Runner
 
 
 def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
-    """Look at a run; raises InvalidInput if no such topic, or the picture cannot be written.
+    """Views of a run; raises InvalidInput if there is no such topic, or the picture cannot be written.
 
     Args:
         what: topics, or their beginnings, one after the other; all but `positions` if empty.

@@ -143,8 +143,6 @@ def _in_play(world: World, name: str, play: float) -> Placing:
     return replace(share, x=share.x * play, y=share.y * play)
 
 
-
-
 def _camera(world: World) -> CameraErrors:
     def three(name: str, x: str, y: str, z: str) -> tuple[float, float, float]:
         return world[f"camera.{name}.{x}"], world[f"camera.{name}.{y}"], world[f"camera.{name}.{z}"]
