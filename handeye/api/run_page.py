@@ -3,7 +3,7 @@
 from typing import Final
 
 from handeye.api.state import State
-from handeye.core.markup import Markup, markup
+from handeye.core.markup import Markup, text
 from handeye.core.notebook import heading, inked, line, page, picture, table
 from handeye.results.page import cell_times, clock, period, told_faults, verdict
 from handeye.results.result import Check, Result
@@ -77,7 +77,7 @@ def _times(result: Result) -> Markup:
 def _indented(name: str) -> Markup:
     """A name with its place under another kept."""
     words = name.lstrip()
-    return Markup("&emsp;" * ((len(name) - len(words)) // 2) + markup(words))
+    return Markup("&emsp;" * ((len(name) - len(words)) // 2) + text(words))
 
 
 def _clock(seconds: float | None) -> str:

@@ -20,13 +20,8 @@ from handeye.comparison.wording import (
     turning_words,
 )
 from handeye.core.files import Kind
-from handeye.core.markup import Markup
-from handeye.core.plain_text import printable
-from handeye.core.units import INCH
-from handeye.report import player
-from handeye.report.animation import Animation
-from handeye.report.page.document import head, packed, resource
-from handeye.report.page.elements import (
+from handeye.core.markup import (
+    Markup,
     cell,
     element,
     figure_cell,
@@ -37,6 +32,11 @@ from handeye.report.page.elements import (
     table,
     to_moment,
 )
+from handeye.core.plain_text import printable
+from handeye.core.units import INCH
+from handeye.report import player
+from handeye.report.animation import Animation
+from handeye.report.page.document import head, packed, resource
 from handeye.report.page.moments import json_markup
 from handeye.report.recorded import Recorded
 from handeye.trace.stats import StageFigures

@@ -1,6 +1,19 @@
-"""Markup for pages; plain text is escaped."""
+"""Markup for pages: elements of HTML and of drawings. Text that goes into one is data, and is escaped."""
 
+from base64 import b64encode
+from collections.abc import Iterable
 from html import escape
+from typing import Final
+
+from handeye.core.plain_text import printable
+
+VOID: Final = {"img", "input", "meta"}
+"""Elements of HTML without content."""
+SHAPES: Final = {"circle", "line", "path", "polygon", "rect"}
+"""Elements of drawings without content, which have to say so."""
+
+Content = str | float | None
+"""Markup, text, a number, or nothing."""
 
 
 class Markup(str):
@@ -9,9 +22,78 @@ class Markup(str):
     __slots__ = ()
 
 
-Content = str | float | None
+def text(content: Content) -> Markup:
+    """Content as markup, escaped unless it is markup; characters that cannot be seen are shown as signs."""
+    if isinstance(content, Markup):
+        return content
+    return Markup(escape("" if content is None else printable(str(content))))
 
 
-def markup(content: Content) -> Markup:
-    """Content as markup, escaped if it is text."""
-    return content if isinstance(content, Markup) else Markup(escape("" if content is None else str(content)))
+def element(name: str, /, *children: Content, **attributes: str | float | bool | None) -> Markup:
+    """An element; `aria_label` stands for `aria-label`, `class_` for `class`; None leaves an attribute out."""
+    inside = "".join(text(child) for child in children if child is not None)
+    told = "".join(_attribute(key, value) for key, value in attributes.items())
+    if name in SHAPES:
+        return Markup(f"<{name}{told}/>")
+    return Markup(f"<{name}{told}>" if name in VOID else f"<{name}{told}>{inside}</{name}>")
+
+
+def joined(pieces: Iterable[str], between: str = "") -> Markup:
+    """Pieces one after another."""
+    return Markup(text(between).join(text(piece) for piece in pieces))
+
+
+def section(name: str, heading: str, *children: Content) -> Markup:
+    """A section of the page, which its heading names."""
+    title = element("h2", heading, id=f"{name}-heading")
+    return element("section", title, *children, id=name, aria_labelledby=f"{name}-heading")
+
+
+def note(*children: Content) -> Markup:
+    """A paragraph that says how something is to be read."""
+    return element("p", *children, class_="note")
+
+
+def to_moment(seconds: float, *children: Content, **attributes: str | None) -> Markup:
+    """A link that takes the view to a moment, s since the run began."""
+    return element("a", *children, href=f"#t={seconds:.2f}", **attributes)
+
+
+def table(head: Iterable[Markup], rows: Iterable[Iterable[Markup]], *, label: str) -> Markup:
+    """A table of cells, which scrolls by itself where the window is narrow."""
+    titles = element("tr", *head)
+    body = element("tbody", *(element("tr", *row) for row in rows))
+    inside = element("table", element("thead", titles), body)
+    return element("div", inside, class_="table", role="region", aria_label=label, tabindex="0")
+
+
+def heads(*titles: str) -> list[Markup]:
+    """Heads of columns of words."""
+    return [element("th", title, scope="col") for title in titles]
+
+
+def figure_heads(*titles: str) -> list[Markup]:
+    """Heads of columns of numbers."""
+    return [element("th", title, scope="col", class_="number") for title in titles]
+
+
+def cell(*children: Content) -> Markup:
+    """A cell of a table."""
+    return element("td", *children)
+
+
+def figure_cell(*children: Content) -> Markup:
+    """A cell with a number."""
+    return element("td", *children, class_="number")
+
+
+def data_address(kind: str, data: bytes) -> str:
+    """An address that holds a file itself."""
+    return f"data:{kind};base64,{b64encode(data).decode()}"
+
+
+def _attribute(key: str, value: str | float | bool | None) -> str:
+    if value is None or value is False:
+        return ""
+    name = key.rstrip("_").replace("_", "-")
+    return f" {name}" if value is True else f' {name}="{text(str(value))}"'

@@ -4,9 +4,8 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 from handeye.core.files import Kind
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, cell, element, figure_cell, figure_heads, heads, note, section, table
 from handeye.report.page.document import head, resource
-from handeye.report.page.elements import cell, element, figure_cell, figure_heads, heads, note, section, table
 from handeye.report.page.plots import Scale, bar, dot, drawing, rule
 from handeye.trials.figures import ConditionFigures, Figures
 from handeye.trials.sweep import Details, R, Sweep, percent

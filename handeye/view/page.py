@@ -7,10 +7,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element
 from handeye.report import player
 from handeye.report.page.document import head, packed, resource
-from handeye.report.page.elements import element
 from handeye.report.page.moments import json_markup
 from handeye.report.player import scene, tracks
 from handeye.runs.runner import Runner

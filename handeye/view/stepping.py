@@ -6,12 +6,11 @@ from typing import Any, Final
 
 import msgspec
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element
 from handeye.debugger.formatting import MAX_STEPS_SHOWN, as_json, as_text
 from handeye.debugger.live import LineInput, LiveJson
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper
-from handeye.report.page.elements import element
 from handeye.report.page.source import listing
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner

@@ -7,10 +7,9 @@ from typing import Final
 import msgspec
 
 from handeye.arm.model import ArmModel
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element
 from handeye.debugger.live import LineInput
 from handeye.debugger.pace import Pace
-from handeye.report.page.elements import element
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.teaching.answers import Answer, text

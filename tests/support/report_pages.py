@@ -8,9 +8,9 @@ from pathlib import Path
 import msgspec
 from recordings import record
 
+from handeye.core.markup import SHAPES, VOID
 from handeye.program.events import AnyEvent
 from handeye.report.page.document import report_page
-from handeye.report.page.elements import SHAPES, VOID
 from handeye.report.photographs import Album, Photograph
 from handeye.report.recorded import Recorded
 from handeye.trace.reading import read_trace

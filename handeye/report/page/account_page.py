@@ -2,12 +2,11 @@
 
 from collections.abc import Iterator
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element, section
 from handeye.core.plain_text import printable
 from handeye.report.facts.outcome import outcome
 from handeye.report.page.channels import channels_section
 from handeye.report.page.document import MARK, head, resource
-from handeye.report.page.elements import element, section
 from handeye.report.page.record import facts
 from handeye.report.page.referee import findings_table
 from handeye.report.page.timing import timing_section

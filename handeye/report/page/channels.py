@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from handeye.core.markup import Markup
-from handeye.report.page.elements import element, note, section
+from handeye.core.markup import Markup, element, note, section
 from handeye.report.page.plots import HIGH, WIDE, Scale, curve, drawing, rule, words
 from handeye.trace.replay import ChannelCurve
 from handeye.trace.trace import Trace

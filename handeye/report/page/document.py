@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from handeye.core.files import Kind
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element
 from handeye.core.plain_text import printable
 from handeye.report import player
 from handeye.report.animation import Animation
@@ -19,7 +19,6 @@ from handeye.report.facts.searches import searches
 from handeye.report.facts.seen import lost_pictures, seen_pictures
 from handeye.report.facts.told import told
 from handeye.report.page.channels import channels_section
-from handeye.report.page.elements import element
 from handeye.report.page.felt import How, felt_section
 from handeye.report.page.moments import moments
 from handeye.report.page.planned import planned_section

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element, joined, to_moment
 from handeye.core.plain_text import counted
 from handeye.core.units import INCH
 from handeye.program.diagnosis.cause_text import call_sentence
@@ -19,7 +19,6 @@ from handeye.program.events import (
 from handeye.report.facts.outcome import Outcome
 from handeye.report.facts.senses import Senses, senses_at
 from handeye.report.facts.told import Told
-from handeye.report.page.elements import element, joined, to_moment
 from handeye.report.page.figures import exact_clock, millimetres
 from handeye.report.page.source import excerpt
 from handeye.report.recorded import Recorded

@@ -6,11 +6,10 @@ from itertools import groupby
 
 import numpy as np
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element, note, section, to_moment
 from handeye.core.plain_text import counted, one_line
 from handeye.program.guards import GuardKind
 from handeye.report.facts.felt import GuardedMotion
-from handeye.report.page.elements import element, note, section, to_moment
 from handeye.report.page.figures import exact_clock, felt
 from handeye.report.page.plots import HIGH, WIDE, Scale, curve, dot, drawing, rule, words
 from handeye.trace.thinning import FELT

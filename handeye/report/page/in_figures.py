@@ -3,9 +3,8 @@
 from collections import Counter
 from collections.abc import Iterator
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element
 from handeye.program import events as happened
-from handeye.report.page.elements import element
 from handeye.report.recorded import Recorded
 
 

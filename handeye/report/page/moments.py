@@ -5,12 +5,11 @@ from typing import Any
 
 import msgspec
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element
 from handeye.core.plain_text import printable
 from handeye.program.events import StepStarted
 from handeye.report.facts.outcome import Outcome
 from handeye.report.facts.told import Told
-from handeye.report.page.elements import element
 from handeye.report.page.source import line_id
 from handeye.report.recorded import Recorded
 from handeye.trace.sentences import measures_of, sentence

@@ -1,7 +1,6 @@
 """A photograph on the page."""
 
-from handeye.core.markup import Markup
-from handeye.report.page.elements import data_address, element
+from handeye.core.markup import Markup, data_address, element
 from handeye.report.photographs import Photograph
 
 

@@ -4,13 +4,8 @@ from collections.abc import Iterator, Sequence
 from math import log10
 from typing import Final
 
-from handeye.core.markup import Markup
-from handeye.core.plain_text import counted, one_line
-from handeye.core.units import MILLIMETRE
-from handeye.report.facts.corrections import Cause, Correction
-from handeye.report.facts.planned import Ended, Why
-from handeye.report.facts.searches import Search
-from handeye.report.page.elements import (
+from handeye.core.markup import (
+    Markup,
     cell,
     element,
     figure_cell,
@@ -22,6 +17,11 @@ from handeye.report.page.elements import (
     table,
     to_moment,
 )
+from handeye.core.plain_text import counted, one_line
+from handeye.core.units import MILLIMETRE
+from handeye.report.facts.corrections import Cause, Correction
+from handeye.report.facts.planned import Ended, Why
+from handeye.report.facts.searches import Search
 from handeye.report.page.figures import clock, millimetres
 from handeye.report.page.plots import Scale, dot, drawing, rule, words
 from handeye.report.page.searched import searched

@@ -5,10 +5,9 @@ from typing import Final
 
 import numpy as np
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Content, Markup, element
 from handeye.core.polyline import Rows, needed_rows
 from handeye.core.pose import Array
-from handeye.report.page.elements import Child, element
 
 WIDE, HIGH = 240.0, 90.0
 """Of a small figure, in its own units."""
@@ -30,7 +29,7 @@ class Scale:
         return self.begin + share * (self.end - self.begin)
 
 
-def drawing(*children: Child, wide: float = WIDE, high: float = HIGH, label: str) -> Markup:
+def drawing(*children: Content, wide: float = WIDE, high: float = HIGH, label: str) -> Markup:
     """A drawing, which its label tells to those who cannot see it."""
     return element("svg", *children, viewBox=f"0 0 {wide:g} {high:g}", role="img", aria_label=label)
 

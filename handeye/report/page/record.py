@@ -3,15 +3,9 @@
 from collections.abc import Iterator
 
 from handeye.core.errors import InvalidInput
-from handeye.core.markup import Markup
-from handeye.core.variation import World
-from handeye.core.versions import HANDEYE
-from handeye.program.events import ExperimentMade, LineTyped, OperatorAnswered
-from handeye.program.senses import ASSUMPTIONS
-from handeye.report.facts.again import command
-from handeye.report.facts.faults import told_faults
-from handeye.report.page.elements import (
-    Child,
+from handeye.core.markup import (
+    Content,
+    Markup,
     cell,
     element,
     figure_cell,
@@ -22,6 +16,12 @@ from handeye.report.page.elements import (
     section,
     table,
 )
+from handeye.core.variation import World
+from handeye.core.versions import HANDEYE
+from handeye.program.events import ExperimentMade, LineTyped, OperatorAnswered
+from handeye.program.senses import ASSUMPTIONS
+from handeye.report.facts.again import command
+from handeye.report.facts.faults import told_faults
 from handeye.report.recorded import Recorded
 from handeye.results.world_page import QuantityReport, report
 from handeye.tasks import known
@@ -52,7 +52,7 @@ def _again(run: Recorded) -> Iterator[Markup]:
 def facts(run: Recorded) -> Markup:
     """What the run hangs on, a line each."""
     head = run.trace.head
-    rows: list[tuple[str, Child]] = [*_overrides(run)]
+    rows: list[tuple[str, Content]] = [*_overrides(run)]
     rows += [
         ("seed", str(head.world.seed)),
         ("errors", f"{head.world.level}, drawing {head.world.drawing}"),
@@ -74,7 +74,7 @@ def joined_code(name: str, digest: str) -> Markup:
     return element("span", f"{name} ", element("code", digest))
 
 
-def _overrides(run: Recorded) -> Iterator[tuple[str, Child]]:
+def _overrides(run: Recorded) -> Iterator[tuple[str, Content]]:
     """What in the world is not as it was drawn."""
     world = run.trace.head.world
     for name, meaning in told_faults(run):

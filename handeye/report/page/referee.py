@@ -3,9 +3,8 @@
 from collections.abc import Iterable, Iterator
 from typing import Final
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, cell, element, figure_cell, figure_heads, heads, note, section, table
 from handeye.core.units import UNITS
-from handeye.report.page.elements import cell, element, figure_cell, figure_heads, heads, note, section, table
 from handeye.report.page.plots import bar, drawing, rule
 from handeye.report.recorded import Recorded
 from handeye.results.result import Check

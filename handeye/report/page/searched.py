@@ -3,11 +3,10 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element, note, to_moment
 from handeye.core.plain_text import counted
 from handeye.core.units import INCH
 from handeye.report.facts.searches import Search
-from handeye.report.page.elements import element, note, to_moment
 from handeye.report.page.figures import exact_clock, millimetres
 from handeye.report.page.plots import Scale, dot, drawing, words
 

@@ -2,13 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, data_address, element, note, section, to_moment
 from handeye.core.plain_text import counted
 from handeye.core.units import MILLIMETRE
 from handeye.program.diagnosis.cause_text import error_sentence
 from handeye.program.events import ErrorRaised
 from handeye.report.facts.seen import Finding, SeenPicture
-from handeye.report.page.elements import data_address, element, note, section, to_moment
 from handeye.report.page.figures import clock
 from handeye.report.page.png import picture_png
 from handeye.trace.sentences import sentence

@@ -9,10 +9,9 @@ from pygments.token import _TokenType as Token
 
 from handeye.al.compiler import LANGUAGE
 from handeye.al.highlight import ArmLexer
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element, joined, text
 from handeye.program.events import StepStarted
 from handeye.program.program import Program
-from handeye.report.page.elements import element, joined, text
 
 _COLOURS: Final = ((Comment, "c"), (Keyword, "k"), (Name.Label, "l"), (Number, "n"))
 _AROUND: Final = 2

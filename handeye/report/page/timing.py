@@ -3,9 +3,8 @@
 from collections.abc import Iterator
 from typing import Final
 
-from handeye.core.markup import Markup
-from handeye.program.events import FrictionMeasured
-from handeye.report.page.elements import (
+from handeye.core.markup import (
+    Markup,
     cell,
     element,
     figure_cell,
@@ -17,6 +16,7 @@ from handeye.report.page.elements import (
     table,
     to_moment,
 )
+from handeye.program.events import FrictionMeasured
 from handeye.report.page.figures import clock, duration
 from handeye.report.page.plots import bar, drawing
 from handeye.report.recorded import Recorded

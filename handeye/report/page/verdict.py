@@ -2,13 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element, note
 from handeye.core.plain_text import counted
 from handeye.program.events import StepStarted
 from handeye.report.facts.faults import told_faults
 from handeye.report.facts.outcome import Outcome
 from handeye.report.facts.told import Told
-from handeye.report.page.elements import element, note
 from handeye.report.page.failure import where, why
 from handeye.report.page.figures import clock, duration
 from handeye.report.page.in_figures import in_figures

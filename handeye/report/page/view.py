@@ -3,8 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.core.markup import Markup
-from handeye.report.page.elements import element, joined, section, to_moment
+from handeye.core.markup import Markup, element, joined, section, to_moment
 from handeye.report.page.figures import clock
 from handeye.report.page.photograph import shown
 from handeye.report.page.source import listing

@@ -4,10 +4,9 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.core.markup import Markup
+from handeye.core.markup import Markup, element, joined, note, section
 from handeye.core.plain_text import counted
 from handeye.report.page.document import MARK, head, resource
-from handeye.report.page.elements import element, joined, note, section
 from handeye.report.page.plots import Scale, dot, drawing, rule, words
 from handeye.report.page.referee import findings_table
 from handeye.systems.trig.jobs.benches import BlockPose
