@@ -104,15 +104,11 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         noise: np.random.Generator,
         lines: SignalLines = SOUND,
     ) -> None:
-        """An arm that stands at a posture with its brakes set.
+        """An arm with its brakes set at a posture, shape (n,), rad or m; `noise` is that of its sensors.
 
-        Args:
-            arm: how it was built; its servo period is what the watchdog waits for a new torque.
-            posture: shape (n,), rad or m.
-            noise: of the sensors.
-            lines: `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N`; and `force.x`, `force.y`, `force.z`, on
-                which the drives are put off zero by what a force at the hand (N, world axes) is to each; and `servo`,
-                on which 1 is the computer's word that a torque is there: without it the torque does not arrive.
+        Its lines: `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N`; `force.x`, `force.y`, `force.z`, which put
+        the drives off zero by the torques of a force at the hand (N, in W); and `servo`, without whose 1 no
+        torque of the computer arrives.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]

@@ -74,10 +74,9 @@ class Bench(Clock, Mechanism[BenchTime]):
         self._parts.append(part)
 
     def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
-        """Scene, clock and mechanisms as a cell whose state can be kept: the scene must not change any more.
+        """Scene, clock, mechanisms and `others` that do not act as time passes, as a cell whose state can be kept.
 
-        Args:
-            others: what has a state, too, and does not act on the scene.
+        The scene must not change any more.
         """
         noise = np.random.Generator(np.random.PCG64(0))
         return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)

@@ -96,27 +96,13 @@ class BenchAxes(Axes, Mechanism[AxesState]):
                 model.actuator_forcerange[servo] = (-spec.force, spec.force)
         self._gains = model.actuator_gainprm[self._servos].copy(), model.actuator_biasprm[self._servos].copy()
         self._sleeps = bool(model.opt.enableflags & int(mujoco.mjtEnableBit.mjENBL_SLEEP))
-        self._dofs = [int(model.jnt_dofadr[joint]) for joint in self._moved_joints(model)]
+        starts, counts = data.moment_rowadr[self._servos], data.moment_rownnz[self._servos]
+        self._dofs = [
+            int(dof) for at, n in zip(starts, counts, strict=True) for dof in data.moment_colind[at : at + n]
+        ]
         self._allow_sleep(allowed=True)
         if not self._powered:
             self._switch(on=False)
-
-    def _moved_joints(self, model: mujoco.MjModel) -> list[int]:
-        """Joints that its servos work, directly or by tendons."""
-        found: list[int] = []
-        for servo in self._servos:
-            target = int(model.actuator_trnid[servo, 0])
-            if model.actuator_trntype[servo] == int(mujoco.mjtTrn.mjTRN_TENDON):
-                start, count = int(model.tendon_adr[target]), int(model.tendon_num[target])
-                wraps = range(start, start + count)
-                found += [
-                    int(model.wrap_objid[w])
-                    for w in wraps
-                    if model.wrap_type[w] == mujoco.mjtWrap.mjWRAP_JOINT
-                ]
-            else:
-                found.append(target)
-        return found
 
     @property
     def specs(self) -> tuple[AxisSpec, ...]:

@@ -21,12 +21,7 @@ class Effect(ABC):
 
     @abstractmethod
     def on(self, values: Values, first: Values, seconds: float) -> Values:
-        """Values that arrive in place of those sent, SI.
-
-        Args:
-            first: what the line carried when the defect set in.
-            seconds: since then.
-        """
+        """Values that arrive, SI, in place of those sent, `seconds` after it set in, when the line carried `first`."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -83,11 +83,9 @@ class Lens:
         )
 
     def aim(self, scene: mujoco.MjvScene, at: Array, shift: Array) -> None:
-        """Look through a point of the lens; what is in focus stays where it is in the picture.
+        """Look through the point `at` of the lens (radii of the aperture, right and up, shape (2,)), focused as before.
 
-        Args:
-            at: the point, in radii of the aperture to the right and up; shape (2,).
-            shift: how far the picture is shifted, in its points to the right and up; shape (2,).
+        The picture is shifted by `shift` points to the right and up, shape (2,).
         """
         right = np.cross(self.forward, self.up)
         aside = APERTURE * at
@@ -177,14 +175,7 @@ def fine_photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, view: str | Near, width: int, height: int, how: Exposing,
     told: Told = lambda number, of: None,
 ) -> Photograph:  # fmt: skip
-    """A photograph of many exposures.
-
-    Args:
-        view: a camera of the scene, or from nearby.
-
-    Raises:
-        InvalidInput: no such camera, the size cannot be, or no OpenGL on this machine.
-    """
+    """A photograph of many exposures; raises InvalidInput if there is no such camera, size or OpenGL."""
     check_size(width, height)
     stock = FILMS[how.film]
     photographer = Photographer(model, width=width, height=height, shadow=_SHADOW, samples=0)

@@ -37,11 +37,9 @@ class Lighting:
     """Half of the angle of the lamp's cone, degrees."""
 
     def throw(self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array) -> None:
-        """Light a scene from a point of the lamp's disc, and from a point of the sky.
+        """Light a scene from points of the lamp's disc (radii, right and up) and of the sky, shape (2,) each.
 
-        Args:
-            lamp: in radii of the disc to the right and up; shape (2,).
-            sky: the point of the unit disc below which it stands on a half sphere; shape (2,).
+        A point of the sky stands on a half sphere above the given point of the unit disc.
         """
         middle = np.array(model.stat.center)
         scene.nlight = 2

@@ -25,11 +25,7 @@ _ROUGH: Final = 0.7
 
 
 def glb(scene: SolidScene, told: Mapping[str, str]) -> bytes:
-    """A scene as it stands, as a GLB file.
-
-    Args:
-        told: texts by their names, for the `extras` of the scene.
-    """
+    """A scene as it stands, as a GLB file; `told` are texts for the `extras` of the scene, by name."""
     data = mujoco.MjData(scene.model)
     mujoco.mj_forward(scene.model, data)
     tree = trimesh.Scene(base_frame=_OUTSIDE, metadata=dict(told))

@@ -51,12 +51,9 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         noise: np.random.Generator,
         lines: SignalLines = SOUND,
     ) -> None:
-        """A hand at rest.
+        """A hand at rest; `noise` is that of its sensors.
 
-        Args:
-            hand: how it was built.
-            noise: of the sensors.
-            lines: `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y`, `finger_switch.minus_y`.
+        Its lines: `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y`, `finger_switch.minus_y`.
         """
         self.name = f"{prefix}hand"
         self._model, self._data = model, data
@@ -109,13 +106,10 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._press(grip, start, moved / seconds)
 
     def _press(self, grip: float, start: float, rate: float) -> None:
-        """Set the force limit, and a stiffness in proportion to it: a light grip is a soft one.
+        """Set force limit (N), stiffness in proportion, and set-point: `start` (m, as read), moving at `rate` (m/s).
 
-        The actuator goes by the true gap, which the servo does not know: its set-point is off as the reading is.
-
-        Args:
-            start: set-point, m as read; it moves on from there.
-            rate: of the set-point, m/s; what it is ahead besides makes up for the servo's lag.
+        The actuator goes by the true gap, which the servo does not know: its set-point is off as the reading is,
+        and ahead by what the servo lags.
         """
         model, motor = self._model, self._motor
         model.actuator_gainprm[motor, 0] = grip / _GIVE

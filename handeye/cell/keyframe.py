@@ -13,13 +13,10 @@ HINGE: Final = mujoco.mjtJoint.mjJNT_HINGE
 
 
 def add_keyframe(spec: mujoco.MjSpec, name: str, data: mujoco.MjData, elsewhere: Mapping[str, Pose]) -> None:
-    """Let a scene stand as a simulation of it does, and keep that as its last keyframe.
+    """Let a scene, which may lack some bodies, stand as its simulation does, and keep that as its last keyframe.
 
-    It stands so from the beginning too, so that a viewer that loads no keyframe shows the same.
-
-    Args:
-        spec: of the simulated scene, or of one that lacks some of its bodies.
-        elsewhere: `X_WP` of free bodies that are elsewhere than in the simulation, and at rest there.
+    It stands so from the beginning too, so that a viewer that loads no keyframe shows the same. `elsewhere` has `X_WP`
+    of free bodies that are elsewhere than in the simulation, and at rest there.
     """
     for body in spec.bodies:
         if body.joints:

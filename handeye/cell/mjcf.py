@@ -25,16 +25,10 @@ _DIGITS: Final = 10
 
 
 def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[str, bytes]:
-    """The files of a scene by their names in its folder.
+    """The files of a scene by their names in its folder; raises Refused if this MuJoCo cannot write figures in full.
 
-    Meshes and textures of the specification become files: it is changed.
-
-    Args:
-        mark: the first line of the XML, a comment.
-        told: texts by their names, for `<custom>`.
-
-    Raises:
-        InvalidInput: this MuJoCo cannot write figures in full.
+    Meshes and textures of the specification become files: it is changed. `mark` is a comment in the first line of the
+    XML, `told` has texts for `<custom>`, by name.
     """
     for name, text in told.items():
         spec.add_text(name=name, data=text)

@@ -44,14 +44,9 @@ class Photographer:
         self, scene: mujoco.MjModel, *, width: int, height: int, shadow: int = FINE_SHADOW,
         samples: int = FINE_SAMPLES,
     ) -> None:  # fmt: skip
-        """Make ready for pictures of a size.
+        """Make ready for pictures of a size; raises InvalidInput without OpenGL.
 
-        Args:
-            shadow: points along a side of the map of shadows, which takes half the time.
-            samples: of each point.
-
-        Raises:
-            InvalidInput: no OpenGL on this machine.
+        A map of shadows of `shadow` points along a side takes half the time; a point has `samples`.
         """
         _, self._gl = context()
         self._gl.make_current()
@@ -64,14 +59,7 @@ class Photographer:
         mujoco.mjr_resizeOffscreen(width, height, self._drawing)
 
     def take(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> Photograph:
-        """A photograph by a camera of the scene, or from nearby.
-
-        Args:
-            model: the scene, or a copy of it that shows other groups of shapes.
-
-        Raises:
-            InvalidInput: no such camera.
-        """
+        """A photograph of the scene, or of a copy with other groups shown; raises InvalidInput without the camera."""
         self.aimed(model, data, view)
         return self.exposed()
 

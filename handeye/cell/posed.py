@@ -16,14 +16,10 @@ Posed = tuple[mujoco.MjModel, mujoco.MjData]
 
 
 def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: float = 0.0) -> Posed:
-    """A copy of a scene with its bodies where they were.
+    """A copy of a scene with its bodies where they were, to be looked at only: joints stay as drawn.
 
-    It can only be looked at: shapes are put where they were, and joints are not.
-
-    Args:
-        poses: by the names of bodies, place in W (m) and unit quaternion w, x, y, z. Bodies without one stay as drawn,
-            and those that only an event shows stay hidden. Names that the scene does not have are left out.
-        time: by the cell's clock, s, for the hands of the scene's clock.
+    `poses` has place in W (m) and unit quaternion w, x, y, z by the names of bodies. Bodies without one stay as drawn,
+    and those that only an event shows stay hidden. Hands of the scene's clock stand as at `time` (s).
     """
     model = copy.copy(scene)
     data = mujoco.MjData(model)

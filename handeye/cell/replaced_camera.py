@@ -22,12 +22,7 @@ class PictureMaker(Protocol):
     """Works out how much light falls on the target of the television camera."""
 
     def render(self, data: mujoco.MjData, view: View, /) -> ArrayLike:
-        """Light on the target, shape (256, 333), 1 for a white surface in full light.
-
-        Args:
-            data: the scene as it is, a copy.
-            view: the camera: lens, and where it stands and looks.
-        """
+        """Light on the target, shape (256, 333), 1 for a white surface in full light; `data` is a copy of the scene."""
 
 
 CameraMaker = Callable[[mujoco.MjModel], PictureMaker]
@@ -38,14 +33,7 @@ class ReplacedCamera(SceneRenderer):
     """A user's maker of pictures; it sees copies, so that nothing it does changes the run."""
 
     def __init__(self, name: str, camera: CameraMaker, model: mujoco.MjModel) -> None:
-        """For a scene.
-
-        Args:
-            name: of the code that `camera` is.
-
-        Raises:
-            InvalidInput: what it makes has no `render`.
-        """
+        """A maker for a scene by the code of a name; raises InvalidInput if it makes no object with `render`."""
         self.identity = Renderer(method="replaced", platform=name)
         self._scene = copy(model)
         self._maker = camera(self._scene)

@@ -40,13 +40,11 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         watchdog: Watchdog,
         lines: SignalLines = SOUND,
     ) -> None:
-        """A screwdriver that is off.
+        """A screwdriver that is off; `torque_noise` is a sigma, N m.
 
-        Args:
-            motors: actuators whose torques about the spindle, counter-clockwise, add up to its own.
-            torque_noise: sigma, N m.
-            watchdog: of the arm that carries it: it cuts this motor, too.
-            lines: `screwdriver.current`, by which its torque is told, and `screwdriver.motor`.
+        The torques of its `motors`, counter-clockwise about the spindle, add up to its own. The watchdog of the arm
+        that carries it cuts it, too. Its lines: `screwdriver.current`, by which its torque is read,
+        and `screwdriver.motor`.
         """
         self._data, self._watchdog, self._lines = data, watchdog, lines
         self._motors = [model.actuator(name).id for name in motors]

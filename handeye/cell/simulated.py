@@ -46,14 +46,8 @@ class SimulatedCell(Clock, SnapshotCell):
     ) -> None:
         """Switch a cell on; its devices are read for the first time.
 
-        Args:
-            mechanisms: whatever else acts on the model, in the order in which it does: threads, more arms.
-            lines: those that its devices were given.
-            stepper: lets its physics go on; by default one that looks at nothing.
-            noise: the generator that all sensors but the camera draw from.
-
-        Raises:
-            ValueError: two of them have one name, by which their states are found.
+        `mechanisms` act on the model in order: threads, more arms. `noise` is drawn from by all sensors but the camera.
+        Raises ValueError if two devices or mechanisms have one name, by which their states are found.
         """
         self.arm = arm
         """For the experimenter, who may push it."""

@@ -27,14 +27,9 @@ class SnapshotCell:
         mechanisms: Sequence[Mechanism[Any]],
         noise: np.random.Generator,
     ) -> None:
-        """Take a scene that will not change any more.
+        """Take a scene that will not change any more, mechanisms in the order of their action, and the sensors' noise.
 
-        Args:
-            mechanisms: whatever has a state of its own, in the order in which it acts.
-            noise: the generator that its sensors draw from.
-
-        Raises:
-            ValueError: two of them have one name, by which their states are found.
+        Raises ValueError if two mechanisms have one name, by which their states are found.
         """
         self._model, self._data, self._noise = model, data, noise
         self._drawn = Drawn(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())

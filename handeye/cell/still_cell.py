@@ -24,15 +24,7 @@ class StillCell:
         noise: np.random.Generator,
         renderer: str = "auto",
     ) -> None:
-        """Take a scene as it was drawn.
-
-        Args:
-            posture: where joints stand, by their names, rad or m.
-            drawing: of the camera, which is wrong by its `errors`.
-
-        Raises:
-            InvalidInput: there is no such renderer, or it does not work here.
-        """
+        """Take a scene with joints (rad, m, by name) at a posture, and a camera that is off its drawing by `errors`."""
         self._data = mujoco.MjData(model)
         for joint, q in posture.items():
             self._data.joint(joint).qpos = q

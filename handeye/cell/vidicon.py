@@ -37,12 +37,7 @@ class Vidicon:
         """The target voltage of the last picture; None before the first."""
 
     def expose(self, light: Luminance, *, disc: float = 0.0, hold_target: bool = False) -> Picture:
-        """Digitise a scene.
-
-        Args:
-            disc: diameter of the blur of defocus, points.
-            hold_target: keep the gain of the picture before, if there was one.
-        """
+        """Digitise light that is out of focus by a disc of a diameter (points); the gain may be held."""
         image = _defocused(light, disc) if disc > 0.5 else light
         image = np.asarray(cv2.GaussianBlur(image, (0, 0), sigmaX=BLUR[0], sigmaY=BLUR[1]), np.float32)
         signal = np.clip(image * _shading(), 0, None) ** GAMMA
