@@ -8,13 +8,15 @@ import msgspec
 from handeye.comparison.conditions import Condition, conditions
 from handeye.comparison.findings import Corrections, Searches, Stops, corrections, searches, stops
 from handeye.comparison.first import First, first_difference
-from handeye.comparison.pairing import Place, TwoRuns
+from handeye.comparison.pairing import Place, TwoRuns, listing_of
 from handeye.comparison.parting import Parting, Turning, parting
 from handeye.core.entries import require
 from handeye.core.errors import BadFile
+from handeye.core.units import INCHES, Measures
 from handeye.program.events import StepStarted
 from handeye.report.facts.outcome import Kind, outcome
 from handeye.report.recorded import Recorded
+from handeye.tasks import known_any
 from handeye.trace.stats import StageFigures, statistics
 
 
@@ -49,6 +51,8 @@ class Comparison:
     """The first run."""
     b: Compared
     """The second."""
+    measures: Measures
+    """Units in which people read the first difference."""
     conditions: tuple[Condition, ...]
     """In what they depended on, all that differs."""
     thinned: bool
@@ -81,10 +85,11 @@ def comparison(a: Recorded, b: Recorded) -> Comparison:
     """Compare two runs; raises an InvalidInput if one follows no plan, or its trace cannot be understood."""
     for run in (a, b):
         _check(run)
-    runs = TwoRuns(a, b)
+    runs, task = TwoRuns(a, b), known_any(a.trace.head.task)
     return Comparison(
         a=_compared(a),
         b=_compared(b),
+        measures=INCHES if task is None else task.measures,
         conditions=conditions(a.trace.head, b.trace.head),
         thinned=runs.thinned,
         first=first_difference(runs),
@@ -100,7 +105,7 @@ def _check(run: Recorded) -> None:
     """Raises an InvalidInput if a run follows no plan, or has steps that its plan lacks."""
     name = run.trace.name
     require(run.trace.head.system, "compare", name)
-    steps = len(run.program.steps)
+    steps = len(listing_of(run).steps)
     if any(isinstance(event, StepStarted) and not 0 <= event.step < steps for event in run.trace.events):
         raise BadFile(f"{name} tells of steps that its plan lacks")
 

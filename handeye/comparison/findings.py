@@ -94,7 +94,7 @@ def stops(runs: TwoRuns) -> tuple[Stops, ...]:
 
 
 def _stops(steps: Sequence[CarriedOut]) -> Mapping[Turn, Stop]:
-    return {each.turn: _stop(each) for each in steps if each.step.operation.guards}
+    return {each.turn: _stop(each) for each in steps if each.step.guarded}
 
 
 def _stop(each: CarriedOut) -> Stop:
@@ -141,7 +141,7 @@ def _searches(steps: Sequence[CarriedOut]) -> Mapping[Turn, Search]:
     found: dict[Turn, Search] = {}
     turn: Turn | None = None
     for each in steps:
-        if any(use.kind == "search" for use in each.step.operation.writes):
+        if each.step.begins_search:
             turn = each.turn
             found[turn] = Search(place=each.place)
         elif turn is not None:

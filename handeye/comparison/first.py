@@ -231,6 +231,8 @@ def _other_step(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | 
         return First(
             a=places[0], b=places[1], differing=QuantityDifference(quantity=("step",), a=one, b=other)
         )
+    if not runs.planned:
+        return None
     steps = runs.a.program.steps[here.step], runs.b.program.steps[there.step]
     for what, was, now in step_changes(*steps):
         return First(a=places[0], b=places[1], differing=QuantityDifference(quantity=(what,), a=was, b=now))

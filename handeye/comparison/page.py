@@ -193,7 +193,7 @@ def _otherwise(found: Comparison, way: Course) -> Iterator[Markup]:
         return
     yield element("h3", "Recorded otherwise first")
     yield element("p", _link(way, found.first.a, found.first.b, moment_words(found.first)))
-    yield from (element("p", line) for line in first_words(found.first))
+    yield from (element("p", line) for line in first_words(found.first, found.measures))
     if found.parted is None:
         yield element("p", "Both went the same way: the same steps, stops, errors and answers.")
         return

@@ -3,15 +3,18 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from difflib import SequenceMatcher
+from functools import cached_property, lru_cache
 from typing import TypeVar
 
+from handeye.core.entries import entry_named
 from handeye.core.record import Record
 from handeye.core.source import line_name
 from handeye.inspection.alignment import Pair, aligned
 from handeye.program.events import StepStarted, UndoStarted
-from handeye.program.program import Step
 from handeye.report.recorded import Recorded
+from handeye.runs.system import Listing, StepFacts
+from handeye.runs.systems import system_named
 from handeye.trace.steps import DoneStep, done_steps
 
 
@@ -34,9 +37,27 @@ class Place(Record, frozen=True, kw_only=True):
         return line_name(self.line, self.file)
 
 
+@lru_cache(maxsize=4)
+def listing_of(run: Recorded) -> Listing:
+    """Stages and steps of what a run carried out."""
+    system, trace = system_named(run.trace.head.system), run.trace
+    return system.listing(system.decode(trace.plan, f"the plan in {trace.name}"))
+
+
+def _aligned_texts(before: Sequence[str], after: Sequence[str]) -> Sequence[Pair]:
+    """Steps of equal texts as pairs, in the order of both."""
+    pairs: list[Pair] = []
+    for what, a, b, c, d in SequenceMatcher(None, before, after, autojunk=False).get_opcodes():
+        if what == "equal":
+            pairs += zip(range(a, b), range(c, d), strict=True)
+        else:
+            pairs += [*((n, None) for n in range(a, b)), *((None, n) for n in range(c, d))]
+    return pairs
+
+
 def place_of(run: Recorded, started: StepStarted) -> Place:
     """The place of a step that was begun."""
-    program = run.program
+    program = listing_of(run)
     return Place(
         stage=program.stages[program.steps[started.step].stage],
         step=started.step,
@@ -61,9 +82,9 @@ class CarriedOut:
     done: DoneStep
 
     @property
-    def step(self) -> Step:
+    def step(self) -> StepFacts:
         """Its step in the program."""
-        return self.run.program.steps[self.done.started.step]
+        return listing_of(self.run).steps[self.done.started.step]
 
     @property
     def place(self) -> Place:
@@ -86,8 +107,17 @@ class TwoRuns:
     @cached_property
     def pairs(self) -> Sequence[Pair]:
         """Numbers of a step in each program, in the order of the texts; None: the other has none like it."""
-        before, after = (run.program.steps for run in (self.a, self.b))
-        return [(n, n) for n in range(len(before))] if before == after else aligned(before, after)
+        before, after = (listing_of(run).steps for run in (self.a, self.b))
+        if before == after:
+            return [(n, n) for n in range(len(before))]
+        if self.planned:
+            return aligned(self.a.program.steps, self.b.program.steps)
+        return _aligned_texts([step.text for step in before], [step.text for step in after])
+
+    @property
+    def planned(self) -> bool:
+        """True if both follow plans of motions."""
+        return all("plans" in entry_named(run.trace.head.system).can for run in (self.a, self.b))
 
     @cached_property
     def numbers(self) -> tuple[Mapping[int, int], Mapping[int, int]]:

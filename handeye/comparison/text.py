@@ -20,7 +20,7 @@ from handeye.comparison.wording import (
     stop_words,
     turning_words,
 )
-from handeye.core.units import INCH
+from handeye.core.units import INCH, Measures
 from handeye.trace.account import ASTRAY
 from handeye.trace.stats import StageFigures
 
@@ -34,7 +34,7 @@ def comparison_text(found: Comparison) -> list[str]:
     if found.first is None:
         return [*lines, "", f"Nothing was recorded otherwise: {same_words(found)}"]
     sections = (
-        _first(found.first),
+        _first(found.first, found.measures),
         _parted(found.parted),
         _searched(found.searches),
         _felt(found.stops),
@@ -56,9 +56,9 @@ def _conditions(differing: Sequence[Condition]) -> Iterator[str]:
 # -- what went otherwise ---------------------------------------------------------------------------------------
 
 
-def _first(first: First) -> Iterator[str]:
+def _first(first: First, measures: Measures) -> Iterator[str]:
     yield f"Recorded otherwise first: {moment_words(first)}"
-    yield from (f"  {line}" for line in first_words(first))
+    yield from (f"  {line}" for line in first_words(first, measures))
 
 
 def _parted(parted: Parting | None) -> Iterator[str]:

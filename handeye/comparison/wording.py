@@ -9,7 +9,7 @@ from handeye.comparison.first import EVENT, First
 from handeye.comparison.pairing import Place
 from handeye.comparison.parting import Turning
 from handeye.core.plain_text import counted, one_line
-from handeye.core.units import DEGREE, UNITS
+from handeye.core.units import DEGREE, UNITS, Measures
 from handeye.program.events import AnyEvent, StepStarted
 from handeye.program.guards import GuardKind
 from handeye.report.facts.outcome import Kind
@@ -51,11 +51,11 @@ def moment_words(first: First) -> str:
     return f"{place_words(first.place)}{period}"
 
 
-def first_words(first: First) -> tuple[str, ...]:
+def first_words(first: First, measures: Measures) -> tuple[str, ...]:
     """The quantity that differs, and both values; or what happened next in both."""
     if first.differing.quantity == EVENT:
         return f"A: {_next(first.next[0])}", f"B: {_next(first.next[1])}"
-    one, other = values_text(first.differing)
+    one, other = values_text(first.differing, measures)
     return (f"{quantity_text(first.differing.quantity)}: A {one}, B {other}",)
 
 

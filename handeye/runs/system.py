@@ -80,6 +80,14 @@ class StepFacts(Protocol):
     def examines(self) -> str | None:
         """Name of the picture that it looks at, if it looks at one."""
 
+    @property
+    def guarded(self) -> bool:
+        """It moves until something is felt."""
+
+    @property
+    def begins_search(self) -> bool:
+        """It sets up a search."""
+
 
 class ExecutedStep(Protocol):
     """A step that was executed and that the arm has not undone."""

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Final
 
 from handeye.core.plain_text import distinct_digits, printable
-from handeye.core.units import UNITS
+from handeye.core.units import INCHES, UNITS, Measures
 from handeye.trace.quantities import QuantityDifference, Value
 
 _SHOWN_IN: Final[Mapping[str, str]] = {
@@ -55,10 +55,10 @@ def quantity_text(quantity: tuple[str, ...]) -> str:
     return printable(said)
 
 
-def values_text(found: QuantityDifference) -> tuple[str, str]:
-    """Both values, with as many decimals as it takes to tell them apart."""
+def values_text(found: QuantityDifference, measures: Measures = INCHES) -> tuple[str, str]:
+    """Both values in units of the period or (`measures`) of the task, with the decimals that tell them apart."""
     numbers = [value for value in (found.a, found.b) if _is_number(value)]
-    told = iter(_numbers(numbers, found.unit))
+    told = iter(_numbers(numbers, found.unit, measures))
     one, other = (next(told) if _is_number(value) else _word(value) for value in (found.a, found.b))
     return one, other
 
@@ -67,12 +67,13 @@ def _is_number(value: Value) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _numbers(values: list[Value], unit: str) -> list[str]:
+def _numbers(values: list[Value], unit: str, measures: Measures) -> list[str]:
     """Numbers in the unit that people see; in SI, to the last bit, if they look the same otherwise."""
     numbers = [float(value) for value in values if isinstance(value, int | float)]
     if all(isinstance(value, int) for value in values):
         return [f"{value}" for value in values]
-    shown = UNITS.get(_SHOWN_IN.get(unit, unit))
+    own = {"m": measures.length.name, "N": measures.force.name} if measures is not INCHES else _SHOWN_IN
+    shown = UNITS.get(own.get(unit, unit))
     size, name = (1.0, unit) if shown is None else (shown.size, shown.name)
     told = distinct_digits([number / size for number in numbers], _DECIMALS)
     if len({*told}) == len({*numbers}):

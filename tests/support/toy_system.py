@@ -48,6 +48,8 @@ class Line(Record, frozen=True, kw_only=True):
     file: ClassVar[str] = ""
     macro: ClassVar[str] = ""
     examines: ClassVar[None] = None
+    guarded: ClassVar[bool] = False
+    begins_search: ClassVar[bool] = False
     needs: ClassVar[None] = None
 
     @property

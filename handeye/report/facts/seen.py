@@ -76,7 +76,7 @@ def _findings(run: Recorded) -> dict[float, list[Finding]]:
     taken: dict[str, float] = {}
     for step in done_steps(run.trace.events):
         taken |= {event.picture: event.time for event in step.events if isinstance(event, PictureTaken)}
-        examined = _examined(run, step)
+        examined = _examined(run, step) if taken else None
         if examined in taken:
             findings = [event for event in step.events if isinstance(event, Finding)]
             found.setdefault(taken[examined], []).extend(findings)

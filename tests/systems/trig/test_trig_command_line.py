@@ -126,6 +126,20 @@ def test_a_job_that_is_right_is_told_and_kept(command: Command) -> None:
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("low")
+def test_kept_jobs_are_compared_in_their_units_and_filmed(command: Command) -> None:
+    for seed in ("3", "4"):
+        assert command("trig", "palletise", "--blocks", "0", "--seed", seed, "--out", seed)[0] == 0
+    code, out, _ = command("compare", "3", "4")
+    assert (code, "in B" in out) == (0, True)
+    assert "place x of body cross_slide: A 150.490 mm, B 149.990 mm" in out
+    assert "Both went the same way" in out
+    assert "Nothing was recorded otherwise" in command("compare", "3", "3")[1]
+    assert command("video", "3", "--seconds", "1", "--size", "32x24", "--captions")[0] == 0
+    assert Path("3/video.webp").exists()
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("low")
 @pytest.mark.parametrize("limit", ["PLACED", "BACK"])
 def test_a_job_that_is_done_and_wrong_has_an_exit_code_of_its_own(
     command: Command, monkeypatch: pytest.MonkeyPatch, limit: str

@@ -36,6 +36,8 @@ class TaughtStep:
     file: ClassVar[str] = ""
     macro: ClassVar[str] = ""
     examines: ClassVar[None] = None
+    guarded: ClassVar[bool] = False
+    begins_search: ClassVar[bool] = False
 
     @property
     def needs(self) -> Device | None:
