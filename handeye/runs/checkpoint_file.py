@@ -128,7 +128,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
     try:
         body = unpacked(rest, _Body, LARGEST)
     except ValueError as error:
-        raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
+        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None
     kind = system_named(head.system)
     plan = kind.decode(body.plan.encode(), f"the plan in {name}")
     setup = Setup(

@@ -107,13 +107,6 @@ def test_a_sealed_file_with_nonsense_in_it_is_refused(
         decode(changed(data, **fields), "it")
 
 
-def test_seconds_of_the_host_that_were_saved_once_are_left_out(data: bytes) -> None:
-    _, _, packed = data.split(b"\n", 2)
-    snapshot = msgspec.msgpack.decode(zlib.decompress(packed))["snapshot"]
-    old = changed(data, snapshot={**snapshot, "vision_s": 2.5})
-    assert (encode(decode(old, "it")), "vision_s" in snapshot) == (data, False)
-
-
 def test_a_checkpoint_that_lacks_its_last_event_is_refused(data: bytes, runner: Runner) -> None:
     events = msgspec.to_builtins(runner.checkpoint().events[:-1])
     with pytest.raises(InvalidInput, match=r"it does not hold all that has happened$"):
