@@ -4,10 +4,8 @@ from handeye.al.parser import parse_whole
 from handeye.core.diagnostics import Diagnostic
 from handeye.core.source import Source
 
-MISSING = (
-    "unreadable-file",
-    "too-much-required",
-)  # part of the text is missing: what it defines would be unknown
+# Part of the text is missing, so that its definitions would be reported as unknown.
+MISSING = ("unreadable-file", "too-much-required")
 _OF_OTHERS = (*MISSING, "require-circle", "required-twice")
 
 

@@ -1,1 +1,1 @@
-"""Two runs beside each other, step by step: what went otherwise first, where each searched, felt and corrected."""
+"""Compares two runs step by step: first differences, searches, guarded motions, corrections."""

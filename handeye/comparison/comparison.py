@@ -1,4 +1,4 @@
-"""The comparison of two runs: facts, from which text, JSON and page are made."""
+"""The comparison of two runs as facts, from which text, JSON and page are made."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -22,7 +22,7 @@ from handeye.trace.stats import StageFigures, statistics
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Compared:
-    """A run that is compared."""
+    """One of the compared runs."""
 
     name: str
     """Its file."""
@@ -36,7 +36,7 @@ class Compared:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stages:
-    """The same stage in two runs; None: not reached."""
+    """The same stage in two runs; None where it was not reached."""
 
     name: str
     a: StageFigures | None
@@ -54,21 +54,21 @@ class Comparison:
     measures: Measures
     """Units in which people read the first difference."""
     conditions: tuple[Condition, ...]
-    """In what they depended on, all that differs."""
+    """Differing conditions."""
     thinned: bool
-    """A trace holds some of its servo periods only: what was sensed in them is not compared."""
+    """A trace is thinned to some of its servo periods, whose sensor values are then not compared."""
     first: First | None
-    """The first thing that was recorded otherwise; None: nothing was."""
+    """The first recorded difference, if any."""
     parted: Parting | None
-    """Where they went different ways; None: nowhere."""
+    """Where they diverged, if anywhere."""
     searches: tuple[Searches, ...]
-    """Places that each tried."""
+    """Places that each search tried."""
     stops: tuple[Stops, ...]
-    """How their guarded motions ended."""
+    """Ends of guarded motions."""
     corrections: tuple[Corrections, ...]
-    """Differences that each saved, and parts that it saw."""
+    """Saved differences, and located parts."""
     stages: tuple[Stages, ...]
-    """What each took."""
+    """Figures of each stage."""
 
     @property
     def same(self) -> bool:
@@ -122,7 +122,7 @@ def _compared(run: Recorded) -> Compared:
 
 
 def _stages(a: Recorded, b: Recorded) -> tuple[Stages, ...]:
-    """The stages of two runs, in the order in which they were begun."""
+    """Stages of two runs, in order of their start."""
     one, other = ({stage.stage: stage for stage in statistics(run.trace.events, {}).stages} for run in (a, b))
     return tuple(
         Stages(name=name, a=one.get(name), b=other.get(name)) for name in dict.fromkeys((*one, *other))

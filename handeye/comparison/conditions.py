@@ -1,4 +1,4 @@
-"""Conditions of two runs: what each depended on."""
+"""Conditions that two runs depended on."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -58,6 +58,6 @@ def _world(begun: RunStarted) -> Iterator[tuple[str, str]]:
 
 
 def _fault(task: Task | None, seed: int, fault: Fault) -> str:
-    """A fault as it would be typed, if its task is known."""
+    """A fault as on the command line, where its task is known."""
     catalogue = None if task is None else task.faults(seed)
     return str(fault) if catalogue is None or fault.name not in catalogue.kinds else catalogue.written(fault)

@@ -8,13 +8,12 @@ from typing import Final
 from handeye.comparison.pairing import CarriedOut, Place, TwoRuns
 from handeye.report.recorded import Recorded
 
-_BEFORE: Final = -1
-"""In the place of the number of a pair: before the first step."""
+_BEFORE: Final = -1  # pair number for the time before the first step
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Leg:
-    """A stretch of the course in which both runs do the same step, or one does a step and the other waits."""
+    """A segment in which both runs did the same step, or one did a step and the other waited."""
 
     begin: float
     """s of the course."""
@@ -22,22 +21,21 @@ class Leg:
     """Where the first run stood then, s since it began; it goes evenly to where the next leg finds it."""
     b: float
     places: tuple[Place | None, Place | None]
-    """The step of each run; None: it waits, or has not begun."""
+    """The step of each run; None while it waits, or has not begun."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Course:
-    """The course of two runs."""
+    """The timeline of two runs."""
 
     legs: tuple[Leg, ...]
     end: float
     """s of the course."""
-    a: float
-    """Where the first run ends, s since it began."""
+    a: float  # end of the first run, s since it began
     b: float
 
     def at(self, place: Place, side: int) -> float:
-        """When a step of a run (0: the first) begins, s of the course."""
+        """Start of a step of a run (0: the first), s of the timeline."""
         return next(leg.begin for leg in self.legs if leg.places[side] == place)
 
 
@@ -51,7 +49,7 @@ class _Done:
 
 
 def course(runs: TwoRuns) -> Course:
-    """Lay two runs side by side, step by step: a step that both did takes as long as the longer of them."""
+    """Align two runs step by step: a common step takes as long as the longer one."""
     a, b = (_done(run, steps) for run, steps in zip((runs.a, runs.b), runs.carried_out, strict=True))
     legs: list[Leg] = []
     time, at = 0.0, (a[0].begin, b[0].begin)
@@ -64,7 +62,7 @@ def course(runs: TwoRuns) -> Course:
 
 
 def _done(run: Recorded, steps: Sequence[CarriedOut]) -> list[_Done]:
-    """The steps of a run, and the time before them; each lasts until the next one begins."""
+    """Steps of a run, preceded by the time before; each lasts until the next begins."""
     begun = [each.place for each in steps]
     times = [*(place.time for place in begun), run.ends]
     first = _Done(None, min(run.begins, times[0]), times[0])

@@ -47,7 +47,7 @@ class Told:
 
 @dataclass(slots=True)
 class Stretch:
-    """What was recorded of a step, up to the next one."""
+    """The first recorded difference within the same step, if any."""
 
     started: StepStarted | None
     """None: before the first step."""
@@ -180,9 +180,8 @@ class First:
     """The first difference."""
 
     a: Place | None
-    """The step under way; None: before the first one, or the run has ended there."""
-    b: Place | None
-    """That of the second run."""
+    """The present step; None before the first one, or after the run's end."""
+    b: Place | None  # that of the second run
     period: int | None = None
     """The servo period of the step, from 1; None: it is of none."""
     differing: QuantityDifference
@@ -192,7 +191,7 @@ class First:
 
     @property
     def place(self) -> Place | None:
-        """The step under way in the first run; in the second, where the first has ended."""
+        """The present step of the first run, or of the second where the first has ended."""
         return self.a or self.b
 
 
@@ -214,7 +213,7 @@ def first_difference(runs: TwoRuns) -> First | None:
 
 
 def _stretches(runs: TwoRuns) -> tuple[Iterator[Stretch], Iterator[Stretch]]:
-    """The stretches of both traces, with what both hold."""
+    """The segments of both traces, with what both contain."""
     unseen = max(run.trace.unseen for run in (runs.a, runs.b))
     a, b = (stretches(run.trace, unseen=unseen, periods=not runs.thinned) for run in (runs.a, runs.b))
     return a, b

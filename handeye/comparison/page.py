@@ -1,4 +1,4 @@
-"""The page of two runs: both views under one slider, what differed, and what each did, step beside step."""
+"""The page of two runs: both views under one slider, differences, and both runs step by step."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path

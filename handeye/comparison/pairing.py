@@ -69,13 +69,13 @@ def place_of(run: Recorded, started: StepStarted) -> Place:
 
 
 Turn = tuple[int, int]
-"""A step as it is carried out: the number of its pair, and how often that was carried out before."""
+"""An execution of a step: number of its pair, and count of earlier executions."""
 Fact = TypeVar("Fact")
 
 
 @dataclass(frozen=True, slots=True)
 class CarriedOut:
-    """A step as a run carried it out."""
+    """An executed step of a run."""
 
     run: Recorded
     turn: Turn
@@ -106,7 +106,7 @@ class TwoRuns:
 
     @cached_property
     def pairs(self) -> Sequence[Pair]:
-        """Numbers of a step in each program, in the order of the texts; None: the other has none like it."""
+        """Step numbers in each program, in text order; None without a counterpart."""
         before, after = (listing_of(run).steps for run in (self.a, self.b))
         if before == after:
             return [(n, n) for n in range(len(before))]
@@ -121,7 +121,7 @@ class TwoRuns:
 
     @cached_property
     def numbers(self) -> tuple[Mapping[int, int], Mapping[int, int]]:
-        """For each program, the number of the pair that each of its steps is in."""
+        """For each program, pair numbers by step."""
         a, b = (
             {step: number for number, pair in enumerate(self.pairs) if (step := pair[side]) is not None}
             for side in (0, 1)
@@ -134,7 +134,7 @@ class TwoRuns:
 
     @cached_property
     def carried_out(self) -> tuple[tuple[CarriedOut, ...], tuple[CarriedOut, ...]]:
-        """The steps that each run carried out, in order."""
+        """Executed steps of each run, in order."""
         return tuple(_turns(self.a, self.numbers[0])), tuple(_turns(self.b, self.numbers[1]))
 
 
@@ -149,6 +149,6 @@ def _turns(run: Recorded, numbers: Mapping[int, int]) -> Iterator[CarriedOut]:
 
 
 def side_by_side(a: Mapping[Turn, Fact], b: Mapping[Turn, Fact]) -> Iterator[tuple[Fact | None, Fact | None]]:
-    """Facts about the same turn in two runs, in the order of the script; None: one of them has none."""
+    """Facts on the same execution in two runs, in script order; None where one is missing."""
     for turn in sorted({*a, *b}):
         yield a.get(turn), b.get(turn)

@@ -1,4 +1,4 @@
-"""The comparison of two runs in lines of text, in the units of the arm language."""
+"""The comparison of two runs as text, in the arm language's units."""
 
 from collections.abc import Iterator, Sequence
 from typing import Final
@@ -113,7 +113,7 @@ def _alone(found: Sequence[Searches | Stops | Corrections]) -> str:
 
 
 def _took(found: Comparison) -> Iterator[str]:
-    """A row for each stage, and one for all: simulated seconds of both, and how much longer B took."""
+    """A row for each stage and for all: simulated seconds of both, and B's excess."""
     wide = max(map(len, ("Seconds", *(stage.name for stage in found.stages))))
     yield f"{'Seconds':{wide}}{'A':>9}{'B':>9}{'B - A':>9}"
     for stage in found.stages:

@@ -32,7 +32,7 @@ _UNITS: Final[Mapping[GuardKind, str]] = {
     GuardKind.MOMENT: "oz in",
     GuardKind.TORQUE: "oz in",
 }
-"""Units in which people are told what a guard looked at."""
+"""Units of guards' values."""
 
 
 def same_words(found: Comparison) -> str:
@@ -52,7 +52,7 @@ def moment_words(first: First) -> str:
 
 
 def first_words(first: First, measures: Measures) -> tuple[str, ...]:
-    """The quantity that differs, and both values; or what happened next in both."""
+    """The differing quantity with both values, or the next events of both."""
     if first.differing.quantity == EVENT:
         return f"A: {_next(first.next[0])}", f"B: {_next(first.next[1])}"
     one, other = values_text(first.differing, measures)
@@ -64,7 +64,7 @@ def _next(event: AnyEvent | None) -> str:
 
 
 def turning_words(turning: Turning | None) -> str:
-    """How a run went on."""
+    """How a run continued."""
     if turning is None:
         return "it has ended"
     if isinstance(turning.event, StepStarted):
@@ -73,7 +73,7 @@ def turning_words(turning: Turning | None) -> str:
 
 
 def place_words(place: Place | None) -> str:
-    """A step, as people find it."""
+    """A step for people."""
     if place is None:
         return "before the first step"
     return f"{place.stage}, line {place.name}: {one_line(place.text)}"
@@ -94,6 +94,6 @@ def stop_words(stop: Stop) -> str:
 
 
 def correction_words(found: Correction) -> str:
-    """What was found, and where."""
+    """A correction in words."""
     turned = "" if found.yaw is None else f", turned {found.yaw / DEGREE:.1f} deg"
     return f"{inches(found.at)}{turned}"

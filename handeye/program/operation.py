@@ -49,9 +49,7 @@ class Operation(
     planned: ClassVar[bool] = False  # needs a planned motion
     only_checks: ClassVar[bool] = False  # an action without an effect
     branches: ClassVar[bool] = False  # may continue elsewhere than at the next step
-    raising: ClassVar[frozenset[int]] = (
-        frozenset()
-    )  # errors that any of its class can raise; empty: no action
+    raising: ClassVar[frozenset[int]] = frozenset()  # errors of any of its class; empty: no action
     reading: ClassVar[Fields] = {}
     writing: ClassVar[Fields] = {}
     bounds: ClassVar[Mapping[str, Bounds]] = {}  # of numbers, and sizes of vectors

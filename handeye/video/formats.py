@@ -19,9 +19,7 @@ class Format:
     """A video format."""
 
     kind: Kind
-    encode: Callable[
-        [Frames, int], bytes
-    ]  # frames and number of periods that the last one is held, to a file
+    encode: Callable[[Frames, int], bytes]  # frames, and periods to hold the last one, to a file
     largest: int | None  # limit on bytes of all frames
     even: bool  # needs even sides
 

@@ -13,9 +13,8 @@ from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel
 from handeye.core.pose import pose, rotation_z
 from handeye.core.units import DEGREE, GAP, INCH, JIFFY
 
-HAND_LENGTH: Final = (
-    10 * INCH
-)  # wrist centre to finger tips; chosen, as the published model ends at the wrist centre
+# Wrist centre to finger tips. Chosen: the published model ends at the wrist centre.
+HAND_LENGTH: Final = 10 * INCH
 
 Triple = tuple[float, float, float]
 
