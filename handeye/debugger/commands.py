@@ -1,4 +1,7 @@
-"""Commands of the stepper, as they act on a session; each is given what follows its word."""
+"""Commands of the stepper, as they act on a session; each is given what follows its word.
+
+What each does stands beside it in the table of commands.
+"""
 
 import re
 from collections.abc import Callable
@@ -31,7 +34,6 @@ LISTED_AROUND: Final = 8  # lines that `list` shows before and after one
 
 
 def step(session: DebugSession, rest: str) -> CommandResult:
-    """Do N steps."""
     count = _count(rest, "step takes a number from 1 up")
     pause = session.go(steps=count)
     as_asked = isinstance(pause.met, AfterSteps)
@@ -39,30 +41,25 @@ def step(session: DebugSession, rest: str) -> CommandResult:
 
 
 def stage(session: DebugSession, _: str) -> CommandResult:
-    """Go on to the end of the stage."""
     present = session.stage
     stops = [] if present is None else [AfterStage(stage=present, name=session.runner.stages[present])]
     return _told(session, session.go(stops))
 
 
 def go_on(session: DebugSession, _: str) -> CommandResult:
-    """Go on to a breakpoint."""
     return _told(session, session.go())
 
 
 def until(session: DebugSession, rest: str) -> CommandResult:
-    """Go on to a place."""
     return _told(session, session.go([breakpoint(rest, session.program)]))
 
 
 def pause(session: DebugSession, _: str) -> CommandResult:
-    """Ask a run that goes on to pause."""
     session.ask_pause()
     return CommandResult(said="the run pauses behind this step")
 
 
 def pace(session: DebugSession, rest: str) -> CommandResult:
-    """Set or show the pace of the run."""
     if rest:
         session.pace.factor = factor(rest)
     return CommandResult(said=f"the run goes {session.pace}")
@@ -88,7 +85,6 @@ def _count(text: str, expected: str) -> int:
 
 
 def back(session: DebugSession, rest: str) -> CommandResult:
-    """Go back in time by a step, some steps or a stage."""
     done = session.runner.position
     if rest.casefold() == "stage":
         position = session.stage_began()
@@ -105,7 +101,6 @@ def back(session: DebugSession, rest: str) -> CommandResult:
 
 
 def undo(session: DebugSession, rest: str) -> CommandResult:
-    """Have the arm reverse a step, some steps, or what it did since a stage began."""
     session.runner.require("undo")
     done = session.runner.system.executed
     if rest.casefold() == "stage":
@@ -123,7 +118,6 @@ def undo(session: DebugSession, rest: str) -> CommandResult:
 
 
 def set_break(session: DebugSession, rest: str) -> CommandResult:
-    """Set a breakpoint."""
     before = len(session.breaks)
     made = session.add_break(rest)
     return CommandResult(
@@ -132,12 +126,10 @@ def set_break(session: DebugSession, rest: str) -> CommandResult:
 
 
 def breaks(session: DebugSession, _: str) -> CommandResult:
-    """List the breakpoints."""
     return CommandResult(breaks=tuple(Break(number=n, stop=stop) for n, stop in session.breaks.items()))
 
 
 def delete(session: DebugSession, rest: str) -> CommandResult:
-    """Delete a breakpoint."""
     there = f"breakpoints: {', '.join(map(str, session.breaks)) or 'none'}"
     if not re.fullmatch(r"[0-9]{1,7}", rest):
         wrong = f", not {quoted(rest)}" if rest else ""
@@ -152,7 +144,6 @@ def delete(session: DebugSession, rest: str) -> CommandResult:
 
 
 def script(session: DebugSession, rest: str) -> CommandResult:
-    """Show the script around a line."""
     if not rest:
         return CommandResult(source=session.source(None, LISTED_AROUND))
     file, line = named_place(rest, session.program) or ("", 0)
@@ -163,12 +154,10 @@ def script(session: DebugSession, rest: str) -> CommandResult:
 
 
 def look(session: DebugSession, rest: str) -> CommandResult:
-    """Show topics of the run."""
     return CommandResult(show=show(session.runner, rest, session.pictures))
 
 
 def picture(session: DebugSession, rest: str) -> CommandResult:
-    """Write the last picture to a new file."""
     if not rest:
         raise BadArgument("picture takes the name of a file to write")
     path = _file(rest)
@@ -182,21 +171,17 @@ def picture(session: DebugSession, rest: str) -> CommandResult:
 
 
 def experiment(session: DebugSession, rest: str) -> CommandResult:
-    """Set a remembered value."""
     experiments.experiment(session.runner, rest)
     return CommandResult()
 
 
 def type_line(session: DebugSession, rest: str) -> CommandResult:
-    """Type a line at the console of a task."""
     task, _, text = rest.partition(" ")
     session.runner.type_line(text, task)
     return CommandResult(source=session.source())
 
 
 def answer(choice: Choice) -> Callable[[DebugSession, str], CommandResult]:
-    """Answer for the operator."""
-
     def act(session: DebugSession, _: str) -> CommandResult:
         _check_called(session, choice)
         session.runner.answer(choice)
@@ -208,7 +193,6 @@ def answer(choice: Choice) -> Callable[[DebugSession, str], CommandResult]:
 
 
 def abort(session: DebugSession, _: str) -> CommandResult:
-    """End the run where the operator was called."""
     _check_called(session, "abort")
     session.over = True
     return CommandResult(said="the run ends here")
@@ -223,7 +207,6 @@ def _check_called(session: DebugSession, word: str) -> None:
 
 
 def checkpoint(session: DebugSession, rest: str) -> CommandResult:
-    """Save a checkpoint."""
     if rest:
         path = _file(rest)
         check_place(path, CHECKPOINT)
@@ -246,7 +229,6 @@ def _file(name: str) -> Path:
 
 
 def leave(session: DebugSession, _: str) -> CommandResult:
-    """Save a checkpoint and leave."""
     session.over = True
     if session.runner.ended and session.runner.call is None:
         return CommandResult(said="the run has ended; nothing was saved")

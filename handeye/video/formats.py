@@ -1,15 +1,115 @@
 """Video formats: animated WebP and WebM, which browsers play and OpenCV writes."""
 
-from collections.abc import Callable
+import os
+import re
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from handeye.core.errors import BadArgument
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.cell.photograph import Photograph
+from handeye.core.errors import BadArgument, Refused
 from handeye.core.files import Kind
-from handeye.video.frames import Frames
-from handeye.video.webm import webm
-from handeye.video.webp import webp
+from handeye.video.frames import RATE, Frames, bgr
+
+_QUALITY: Final = 75
+_ALIKE: Final = 5
+"""Differences that libwebp ignores at this quality."""
+_BLOCK: Final = 8  # side of an ignored block, points
+
+
+def webp(frames: Frames, held: int) -> bytes:
+    """A looping animated WebP file; the last frame is held for `held` periods."""
+    animation = cv2.Animation()
+    animation.frames = [bgr(frame) for frame in settled(frames)]
+    ends = np.arange(1, len(animation.frames) + 1)
+    ends[-1] += held
+    animation.durations = np.diff(np.round(1000 * ends / RATE), prepend=0).astype(int).tolist()
+    done, data = cv2.imencodeanimation(".webp", animation, [cv2.IMWRITE_WEBP_QUALITY, _QUALITY])
+    assert done
+    return bytes(data)
+
+
+def settled(frames: Frames) -> Frames:
+    """Frames whose blocks change only when they differ enough from what is shown.
+
+    libwebp skips what resembles the frame before, so that slow changes would never be shown.
+    """
+    shown = next(frames)
+    yield shown
+    for frame in frames:
+        shown = np.where(_changed(frame, shown)[..., None], frame, shown)
+        yield shown
+
+
+def _changed(frame: Photograph, shown: Photograph) -> NDArray[np.bool_]:
+    """Mask of the points in blocks with a sufficient difference, shape (height, width)."""
+    height, width = frame.shape[:2]
+    rows, columns = -(-height // _BLOCK), -(-width // _BLOCK)
+    differs = np.zeros((rows * _BLOCK, columns * _BLOCK), dtype=bool)
+    differs[:height, :width] = (cv2.absdiff(frame, shown) > _ALIKE).any(axis=2)
+    blocks = differs.reshape(rows, _BLOCK, columns, _BLOCK).any(axis=(1, 3))
+    return blocks.repeat(_BLOCK, axis=0).repeat(_BLOCK, axis=1)[:height, :width]
+
+
+_TRACK: Final = re.compile(rb"\x73\xc5\x88(.{8})", re.DOTALL)
+"""Track number of a WebM file, random in FFmpeg: identifier, length, eight bytes."""
+
+
+def webm(frames: Frames, held: int) -> bytes:
+    """A WebM file (VP8), reproducible to the byte; the last frame is held for `held` periods."""
+    frame = next(frames)
+    height, width = frame.shape[:2]
+    with tempfile.TemporaryDirectory(prefix="handeye-") as folder:
+        path = Path(folder) / "video.webm"
+        writer = _writer(path, width, height)
+        writer.write(bgr(frame))
+        for frame in frames:
+            writer.write(bgr(frame))
+        for _ in range(held):
+            writer.write(bgr(frame))
+        writer.release()
+        return _numbered(path.read_bytes())
+
+
+def _writer(path: Path, width: int, height: int) -> cv2.VideoWriter:
+    with _quiet():
+        writer = cv2.VideoWriter(
+            str(path), cv2.CAP_FFMPEG, cv2.VideoWriter.fourcc(*"VP80"), RATE, (width, height)
+        )
+    if not writer.isOpened():
+        raise Refused("the OpenCV of this machine writes no WebM; make a .webp")
+    return writer
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Silence OpenCV's warning on standard error about the name VP80."""
+    try:
+        kept = os.dup(2)
+    except OSError:  # there is no standard error
+        yield
+        return
+    with open(os.devnull, "wb") as nothing:
+        os.dup2(nothing.fileno(), 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+
+
+def _numbered(data: bytes) -> bytes:
+    """A WebM file with track number 1."""
+    track = _TRACK.search(data)
+    return data if track is None else data.replace(track[1], (1).to_bytes(8))
+
 
 _MAX_BYTES: Final = 1 << 30  # of a WebP animation's frames, all in memory at once
 

@@ -10,10 +10,8 @@ import pytest
 
 from handeye.cell.photograph import Photograph
 from handeye.core.errors import InvalidInput
-from handeye.video.formats import format_of
+from handeye.video.formats import format_of, settled, webm, webp
 from handeye.video.frames import RATE
-from handeye.video.webm import webm
-from handeye.video.webp import settled, webp
 
 LEVELS = (40, 90, 140, 190)
 

@@ -13,10 +13,9 @@ import handeye
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.vision.beam import beams
 from handeye.vision.blob import localise
-from handeye.vision.characteriser import characterise
+from handeye.vision.characteriser import characterise, walk
 from handeye.vision.edge import BRIGHTER, DARKER, Edge, Polarity
 from handeye.vision.scan import Scan
-from handeye.vision.walk import walk
 
 Place = tuple[float, float]
 Beam = Callable[..., Edge | None]
