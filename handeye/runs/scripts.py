@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, get_args
 
 from handeye import tasks
 from handeye.al import AL, sewn
@@ -41,28 +41,31 @@ def default_script(work: Task | None = None) -> Path:
 
 def program_named(name: str) -> tuple[Path, Task] | None:
     """The script that a task comes with, by the name of its file without the ending, and that task."""
-    return next((each for each in _programs(others=True) if each[0].stem == name), None)
+    return next((each for each in _programs() if each[0].stem == name), None)
 
 
 def program_names() -> list[str]:
     """The names that `program_named` knows."""
-    return [file.stem for file, _ in _programs(others=True)]
+    return [file.stem for file, _ in _programs()]
 
 
 def task_of(file: Path) -> Task:
     """The task that comes with a script; of any other file the one that is meant where none is named."""
     whole = file.resolve()
-    return (
-        next((work for each, work in _programs(others=False) if each.resolve() == whole), None)
-        or tasks.task()
-    )
+    own = tasks.of_plans("ours") if whole.parent == plans().resolve() else tasks.of_plans("registered")
+    return next((work for work in own if whole in _scripts(work)), None) or tasks.task()
 
 
-def _programs(*, others: bool) -> Iterator[tuple[Path, Task]]:
-    """The scripts that tasks come with, each with its task."""
-    for work in tasks.of_plans(others=others):
-        for script in ((work.script,) if work.script else ()) + work.other_scripts:
-            yield plans() / script, work
+def _programs() -> Iterator[tuple[Path, Task]]:
+    """The scripts that all tasks come with, each with its task."""
+    for kind in get_args(tasks.Kind):
+        for work in tasks.of_plans(kind):
+            yield from ((script, work) for script in _scripts(work))
+
+
+def _scripts(work: Task) -> list[Path]:
+    """The files of the scripts that a task comes with."""
+    return [(plans() / each).resolve() for each in (work.script, *work.other_scripts) if each]
 
 
 def taught(file: Path, work: Task | None = None) -> Taught:

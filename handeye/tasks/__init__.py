@@ -6,10 +6,10 @@ from a Python program that calls `register`. Its module is imported when it is f
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 from importlib import import_module
-from typing import Any, Final
+from typing import Any, Final, Literal
 
 import numpy as np
 
@@ -34,6 +34,8 @@ _HINT: Final = (
     " (one of your own is given as `--task MODULE:NAME`, comes by an entry point of the group `handeye.tasks`, or is "
     "known to the Python program that calls `handeye.tasks.register`)"
 )
+Kind = Literal["ours", "registered", "others"]
+"""Where tasks come from: handeye, this program or `--task`, entry points."""
 _REGISTERED: Final[dict[str, AnyTask]] = {}
 _WORDS: Final[dict[str, str]] = {}
 """What `--task` said of those that it has made known, by their names."""
@@ -136,9 +138,9 @@ def known(name: str) -> Task | None:
     return found if isinstance(found, Task) else None
 
 
-def of_plans(*, others: bool) -> Iterator[Task]:
-    """The tasks that planned programs do, handeye's own first; with `others`, those of entry points as well."""
-    for name in (*_BUILT_IN, *_REGISTERED, *(_entry_points() if others else ())):
+def of_plans(kind: Kind) -> Iterator[Task]:
+    """The tasks of a kind that planned programs do; each is imported when it is come to."""
+    for name in _NAMES[kind]():
         try:
             found = known(name)
         except InvalidInput:  # told where it is asked for by its name
@@ -177,3 +179,10 @@ def _loaded(words: str) -> AnyTask:
             f"{quoted(words)} is no task, which is an object of a class that is derived from handeye.Task"
         )
     return found
+
+
+_NAMES: Final[dict[Kind, Callable[[], Iterable[str]]]] = {
+    "ours": lambda: _BUILT_IN,
+    "registered": lambda: [*_REGISTERED],
+    "others": lambda: _entry_points(),
+}
