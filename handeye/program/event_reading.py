@@ -23,8 +23,11 @@ def own_kinds(system: str) -> tuple[type[SystemEvent], ...]:
 
 @cache
 def _at(place: str) -> tuple[type[SystemEvent], ...]:
-    """The kinds at `module:NAME`; raises BadArgument if one has the name of one that all systems have."""
-    own: tuple[type[SystemEvent], ...] = loaded(place)
+    """The kinds at `module:NAME`; raises BadArgument if they cannot be loaded, or all systems have one of that name."""
+    try:
+        own: tuple[type[SystemEvent], ...] = loaded(place)
+    except Exception as error:
+        raise BadArgument(f"{place} cannot be loaded: {type(error).__name__}: {error}") from error
     taken = _COMMON & {kind.__name__ for kind in own}
     if taken:
         raise BadArgument(f"{place} calls a kind of event {min(taken)}, which all systems have")

@@ -111,5 +111,13 @@ def test_no_system_can_give_another_meaning_to_a_common_kind(monkeypatch: pytest
         own_kinds("machine")
 
 
+def test_kinds_that_cannot_be_loaded_are_told_in_a_sentence(
+    written: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(entries, "_registered", {"machine": entry("MISSING")})
+    with pytest.raises(InvalidInput, match=r"MISSING cannot be loaded: AttributeError: "):
+        read_events(written)
+
+
 def test_the_account_of_a_run_tells_them_in_words() -> None:
     assert "the limit of 0.79 in is crossed" in "\n".join(account(EVENTS))
