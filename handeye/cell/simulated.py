@@ -50,9 +50,9 @@ class SimulatedCell(Clock, SnapshotCell):
         Raises ValueError if two devices or mechanisms have one name, by which their states are found.
         """
         self.arm = arm
-        """For the experimenter, who may push it."""
+        """The experimenter may push it."""
         self.lines = lines
-        """Lines of its devices, and what is broken on them; for who carries out a program, who knows its stages."""
+        """Lines of its devices, with what is broken on them."""
         devices = (arm, hand, screwdriver, lamp)
         parts: tuple[Mechanism[Any], ...] = (
             *((lines,) if lines.defects else ()),
@@ -86,12 +86,7 @@ class SimulatedCell(Clock, SnapshotCell):
             part.begin_stage(number)
 
     def advance(self, seconds: float) -> None:
-        """Let time pass.
-
-        Raises:
-            InvalidInput: not a whole number of physics steps.
-            PhysicsFailed: the physics broke down.
-        """
+        """Let time pass; raises BadArgument unless it is whole physics steps, PhysicsFailed if they fail."""
         model, data = self._model, self._data
         left = whole_steps(seconds, model.opt.timestep)
         while left:

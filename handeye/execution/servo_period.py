@@ -1,4 +1,4 @@
-"""What is known of a servo period when it has passed: what those who look on are told."""
+"""A servo period that has passed, as recorders and views are given it."""
 
 from dataclasses import dataclass
 
@@ -9,15 +9,15 @@ from handeye.touch.guards import ActiveGuard
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ServoPeriod:
-    """A servo period as the program knows it."""
+    """Readings, torques, felt force and guards of a servo period."""
 
     sensed: Sensed
     """Readings of all devices at its end."""
     effort: Array
-    """Torques put out in it, shape (n,), N m and (prismatic joints) N; zero under the brakes, and where servos are
-    closed outside the computer."""
+    """Torques put out in it, shape (n,), N m (N if prismatic); zero under the brakes and where servos are closed
+    outside the computer."""
     wrench: Array | None = None
-    """Force (N) of the hand on the world, and moment (N m) about its tool centre point, world axes, shape (6,), as
-    the program estimates them; None: it does not, or only for the tare. Shape (3,): the force alone, by a sensor."""
+    """Force (N) of the hand on the world and moment (N m) about its tool centre point in W, shape (6,), as estimated,
+    or the force alone, shape (3,), by a sensor; None: not estimated, or only for the tare."""
     guards: tuple[ActiveGuard, ...] = ()
     """Guards that watch at its end."""
