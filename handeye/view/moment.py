@@ -139,7 +139,7 @@ class Newest(Observer):
     def tick(self, period: ServoPeriod) -> None:
         sensed = period.sensed
         self._joints, self._gap = np.array(sensed.q), float(sensed.gap)
-        if len(self.parts):
+        if sensed.channels:
             self._channels = np.concatenate([np.array(values) for values in sensed.channels.values()])
         self.moment = self._now(None if period.wrench is None else np.array(period.wrench[:3]))
 
