@@ -1,4 +1,4 @@
-"""The hand-eye system of 1973: plans of motions, and what is kept of their preparation."""
+"""The hand-eye system of 1973: plans of motions, and cached camera calibrations."""
 
 from handeye.core.entries import PLANNED, Entry
 

@@ -8,10 +8,9 @@ from handeye.cli.common import Json, put_json, say
 from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
-    from handeye.systems.stanford.kept_calibrations import Kept, KeptCalibrations
+    from handeye.systems.stanford.kept_calibrations import KeptCalibration, KeptCalibrations
 
-SHOWN: Final = 20
-"""Calibrations that people are shown, the newest."""
+SHOWN: Final = 20  # the newest calibrations
 _AGES: Final = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 
 
@@ -48,7 +47,7 @@ def cache(
     return 0
 
 
-def _show(kept: "KeptCalibrations", entries: list["Kept"]) -> None:
+def _show(kept: "KeptCalibrations", entries: list["KeptCalibration"]) -> None:
     if kept.folder is None:
         say("nothing is kept: the environment variable HANDEYE_CACHE is empty, or there is no home folder")
         return

@@ -1,4 +1,4 @@
-"""Conditions under which an arm measures itself and calibrates the camera: equal ones come to the same, to the byte."""
+"""Conditions of a preparation: equal conditions give equal results, to the byte."""
 
 import platform
 
@@ -14,29 +14,25 @@ from handeye.tasks import task
 
 
 class Conditions(Record, frozen=True, kw_only=True):
-    """Everything that decides how a preparation comes out."""
+    """Everything on which the result of a preparation depends."""
 
     task: str
     world: WorldSpec
     camera: Renderer
-    driver: str
-    """What draws, by its own words."""
-    feels: bool
-    """The arm has measured itself first."""
+    driver: str  # description that OpenGL gives of itself, or ""
+    feels: bool  # the arm measures its joints first
     versions: dict[str, str]
-    code: str
-    """Digest of the program and its scenes."""
-    machine: tuple[str, ...]
-    """Kind of processor: another rounds otherwise."""
+    code: str  # digest of Handeye's code and scenes
+    machine: tuple[str, ...]  # kind of processor, since rounding depends on it
 
     @property
     def line(self) -> bytes:
-        """All of it as a line of JSON; equal conditions have equal lines."""
+        """The conditions as one line of JSON, equal for equal conditions."""
         return msgspec.json.encode(self, order="deterministic")
 
 
 def conditions_of(setup: Setup, camera: Renderer) -> Conditions | None:
-    """Conditions of a run whose pictures are made so; None if code of its caller is among them."""
+    """The conditions of a run with this renderer; None if it uses code that is not Handeye's."""
     ours = type(task(setup.task)).__module__.startswith("handeye.")
     if camera.method == "replaced" or not ours:
         return None
@@ -61,5 +57,5 @@ def _driver(camera: Renderer) -> str:
 
 
 def _instructions() -> tuple[str, ...]:
-    """Sets of instructions that NumPy has found here."""
+    """Instruction sets that NumPy found on this computer."""
     return tuple(np.show_config(mode="dicts")["SIMD Extensions"]["found"])

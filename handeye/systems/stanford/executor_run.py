@@ -1,4 +1,4 @@
-"""The system that carries out plans of motions, in the cell of a task."""
+"""The system of 1973 as a `System`: runs of plans of motions in the cell of a task."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -52,7 +52,7 @@ from handeye.vision.marks import Mark
 
 
 class RunningPlan(RunningSystem):
-    """Carries out a plan with the arm of a simulated cell."""
+    """A run of a plan with the arm of a simulated cell."""
 
     def __init__(self, setup: Setup, around: Surroundings) -> None:
         """Build the cell.
@@ -141,7 +141,7 @@ class RunningPlan(RunningSystem):
         return [self._started(), *self._friction(seconds)]
 
     def _prepare(self, eye: CameraSetup) -> float:
-        """Measure joints and camera, unless an earlier run has kept that; simulated seconds for the joints."""
+        """Measure the joints and calibrate the camera, or take up a kept preparation; return the joints' time, s."""
         kept = KeptCalibrations.of_user()
         conditions = None if kept.folder is None else conditions_of(self._setup, self._cell.renderer)
         earlier = None if conditions is None or self._anew else kept.find(conditions)
@@ -158,7 +158,7 @@ class RunningPlan(RunningSystem):
         return seconds
 
     def _goes_on_from(self, earlier: Preparation) -> bool:
-        """Take up what an earlier run has kept; False if it cannot be used, and nothing is changed."""
+        """Take up a kept preparation; False, with nothing changed, if it cannot be used."""
         try:
             take_up(earlier, self.context, self._cell)
         except InvalidInput:
@@ -214,29 +214,31 @@ class RunningPlan(RunningSystem):
         self._take_calibration()
 
     def _measure_joints(self) -> float:
-        """Let the arm measure its friction and weigh its links, if its program feels; simulated seconds of that."""
+        """Measure friction and link weights if the program uses force; return the simulated time, s."""
         if not self.plan.program.feels:
             return 0.0
         before = self.time
         try:
-            found = measure_joints(self._cell.devices, self.arm, self.state.drive, self._halt)
-            self.state.drive.friction, self.state.drive.links = found.friction, found.links
+            measured = measure_joints(self._cell.devices, self.arm, self.state.drive, self._halt)
+            self.state.drive.friction, self.state.drive.links = measured.friction, measured.links
         except (FrictionUnknown, PhysicsFailed) as error:
             self.state.unable = str(error)
         return round(self.time - before, 6)
 
     def _friction(self, seconds: float) -> Iterator[FrictionMeasured]:
-        """The event of friction that was measured in so many seconds; none if it was not."""
+        """The event for friction measured in `seconds`; none if it was not measured."""
         drive = self.state.drive
         if drive.links is not None:
             joints = ArmNames.of(self.arm).joints
             measured = zip(joints, drive.friction.tolist(), strict=True)
-            found = tuple(JointFriction(joint=joint, friction=round(value, 6)) for joint, value in measured)
+            frictions = tuple(
+                JointFriction(joint=joint, friction=round(value, 6)) for joint, value in measured
+            )
             links = tuple(round(factor, 6) for factor in drive.links.tolist())
-            yield FrictionMeasured(time=self.time, joints=found, links=links, seconds=seconds)
+            yield FrictionMeasured(time=self.time, joints=frictions, links=links, seconds=seconds)
 
     def _calibrate(self, eye: CameraSetup) -> None:
-        """Calibrate the camera; the arm is held where that leaves it."""
+        """Calibrate the camera, then hold the arm where it is."""
         cell, drive = self._cell.devices, self.state.drive
         try:
             self.state.calibration = calibrate_camera(
@@ -249,7 +251,7 @@ class RunningPlan(RunningSystem):
         self._take_calibration()
 
     def _take_calibration(self) -> None:
-        """Look with the calibrated camera, if it is."""
+        """Use the calibrated camera model, or else that of the drawing."""
         if self.state.calibration is not None:
             self.context.camera = self.state.calibration.model
         elif self._eye is not None:
@@ -290,7 +292,7 @@ class RunningPlan(RunningSystem):
             raise BadArgument(f"{what} {name} cannot be set to {len(value)} numbers")
 
     def _saved_names(self) -> set[str]:
-        """The differences that the program saves or restores."""
+        """Names of the differences that the program saves or restores."""
         uses = [
             use for step in self.plan.program.steps for use in (*step.operation.reads, *step.operation.writes)
         ]
@@ -301,7 +303,7 @@ class RunningPlan(RunningSystem):
 
 
 class PlanSystem(System):
-    """Programs of the first waist, planned for an arm."""
+    """Plans of motions for an arm (the first waist)."""
 
     name = PLANNED
     plan = Plan
@@ -338,7 +340,7 @@ class PlanSystem(System):
         return plan.arm, plan.arm_digest
 
     def check(self, setup: Setup) -> None:
-        """See that a plan was made for the arm of its task, and that its world and faults can be had."""
+        """Refuse a plan for another arm than the task's, and a world or faults that the task lacks."""
         world, plan = setup.world, plan_of(setup)
         task(setup.task).check_arm(plan)
         task(setup.task).variation(world.seed).check(world)

@@ -1,7 +1,7 @@
-"""Calibrations that are kept for other runs: files in the user's cache, each found by all that it depends on.
+"""Calibrations kept for later runs: files in the user's cache, named by a digest of their conditions.
 
-What cannot be used is done again and replaced. Each is written whole or not at all, so that processes may write at
-once: equal conditions make equal bytes.
+A file that cannot be used is replaced. Files are written whole or not at all and equal conditions give equal bytes,
+so that several processes may write at once.
 """
 
 import hashlib
@@ -26,16 +26,13 @@ from handeye.systems.stanford.preparation import Preparation
 MAGIC: Final = "handeye-calibration"
 VERSION: Final = 1
 ENDING: Final = ".calibration"
-LARGEST: Final = 1 << 20
-"""Bytes of one, also unpacked: many times what the water pump's has."""
-MOST: Final = 1 << 24
-"""Bytes of all; beyond, the oldest go."""
-_ABANDONED: Final = 3600.0
-"""s after which a file that nobody has finished is nobody's any more."""
+LARGEST: Final = 1 << 20  # bytes of one file, also unpacked; a calibration for the water pump has some 6 kB
+MOST: Final = 1 << 24  # bytes of all files; beyond this the oldest are removed
+_ABANDONED_S: Final = 3600.0  # age at which an unfinished file is removed
 
 
-class Kept(Record, frozen=True, kw_only=True):
-    """A kept calibration, as people are told of it."""
+class KeptCalibration(Record, frozen=True, kw_only=True):
+    """A kept calibration, as `handeye cache` lists it."""
 
     file: str
     bytes: int
@@ -46,20 +43,20 @@ class Kept(Record, frozen=True, kw_only=True):
 
 
 class KeptCalibrations:
-    """The calibrations in a folder; without a folder none is found and none is kept."""
+    """The calibrations in a folder; without a folder none are found or kept."""
 
     def __init__(self, folder: Path | None, most: int = MOST) -> None:
-        """`most`: bytes that they may have together."""
+        """Limit the size of all files together to `most` bytes."""
         self.folder, self.most = folder, most
 
     @classmethod
     def of_user(cls) -> "KeptCalibrations":
-        """Those in this user's cache."""
+        """The calibrations in the user's cache."""
         folder = cache_folder()
         return cls(None if folder is None else folder / "calibrations")
 
     def find(self, wanted: Conditions) -> Preparation | None:
-        """A preparation under these conditions; None if none is kept, or what is there cannot be used."""
+        """The preparation kept for these conditions; None if there is none or it cannot be used."""
         if self.folder is None:
             return None
         try:
@@ -68,7 +65,7 @@ class KeptCalibrations:
             return None
 
     def keep(self, conditions: Conditions, preparation: Preparation) -> None:
-        """Keep a preparation, in the place of an earlier one; the oldest go if there are too many.
+        """Keep a preparation, replacing an earlier one, and remove the oldest files beyond the limit.
 
         Raises:
             InvalidInput: the folder cannot be written.
@@ -84,47 +81,47 @@ class KeptCalibrations:
         self._trim()
 
     def files(self) -> list[Path]:
-        """Their files, the newest first."""
+        """The files of the calibrations, newest first."""
         if self.folder is None:
             return []
         dated = [(_written(path), path) for path in self.folder.glob(f"[0-9a-f]*{ENDING}")]
         return [path for _, path in sorted(dated, reverse=True)]
 
-    def entries(self) -> Iterator[Kept]:
-        """What is known of each, the newest first; of what cannot be read nothing is told."""
+    def entries(self) -> Iterator[KeptCalibration]:
+        """The readable calibrations, newest first."""
         for path in self.files():
             with suppress(InvalidInput, ValueError):
                 line = read_whole(path, LARGEST).split(b"\n", 2)[1:2]
-                told = msgspec.json.decode(b"".join(line), type=Conditions)
-                yield Kept(
+                conditions = msgspec.json.decode(b"".join(line), type=Conditions)
+                yield KeptCalibration(
                     file=path.name,
                     bytes=_size(path),
                     age_s=round(max(0.0, time.time() - _written(path)), 1),
-                    task=told.task,
-                    world=told.world,
-                    camera=told.camera,
+                    task=conditions.task,
+                    world=conditions.world,
+                    camera=conditions.camera,
                 )
 
     def clear(self) -> int:
-        """Remove all of them, and nothing else; how many there were."""
-        found = self.files()
-        for path in (*found, *self._unfinished()):
+        """Remove all calibrations and no other files; return their number."""
+        files = self.files()
+        for path in (*files, *self._unfinished()):
             _remove(path)
-        return len(found)
+        return len(files)
 
     def _trim(self) -> None:
-        """Remove the oldest of too many, and what a process that was killed has left."""
+        """Remove the oldest files beyond the limit, and abandoned unfinished ones."""
         together = 0
         for path in self.files():
             together += _size(path)
             if together > self.most:
                 _remove(path)
         for path in self._unfinished():
-            if time.time() - _written(path) > _ABANDONED:
+            if time.time() - _written(path) > _ABANDONED_S:
                 _remove(path)
 
     def _unfinished(self) -> Iterator[Path]:
-        """Files that somebody is writing, or was."""
+        """Files that are being written, or whose writer was killed."""
         return iter(()) if self.folder is None else self.folder.glob(f".[0-9a-f]*{ENDING}.*")
 
 
@@ -133,7 +130,7 @@ def _place(folder: Path, conditions: Conditions) -> Path:
 
 
 def _decoded(data: bytes, wanted: Conditions) -> Preparation:
-    """The preparation in a file. Raises ValueError unless it is one under these conditions."""
+    """The preparation in a file; ValueError unless it was made under these conditions."""
     line, _, rest = data.partition(b"\n")[2].partition(b"\n")
     if line != wanted.line or data != sealed(MAGIC, VERSION, line + b"\n" + rest):
         raise ValueError("it is damaged, or of other conditions")
@@ -141,7 +138,7 @@ def _decoded(data: bytes, wanted: Conditions) -> Preparation:
 
 
 def _written(path: Path) -> float:
-    """When a file was written; 0 if it has just gone."""
+    """When a file was written, s since the epoch; 0 if it no longer exists."""
     try:
         return path.lstat().st_mtime
     except OSError:

@@ -1,6 +1,6 @@
-"""Preparation of a program: what the arm measures of itself and of the camera before the first instruction.
+"""Preparation of a run: the arm measures its joints and calibrates the camera before the first instruction.
 
-No instruction has a part in it, so that runs of many programs can begin with one that is kept
+It does not depend on the instructions, so that runs of other programs can start from a kept one
 (`systems/stanford/kept_calibrations.py`).
 """
 
@@ -14,19 +14,17 @@ from handeye.vision.calibration import Calibration
 
 
 class Preparation(Record, frozen=True, kw_only=True):
-    """Cell and memory as they are when all has been measured."""
+    """The state of cell and run after the preparation."""
 
     cell: CellState
     drive: DriveState
     calibration: Calibration | None
-    lens: float
-    """Focal length of the lens that is in place, m."""
-    friction_s: float
-    """Simulated seconds in which the arm measured its friction and weighed its links."""
+    lens: float  # focal length of the lens in place, m
+    friction_s: float  # simulated time in which the arm measured its friction and weighed its links
 
 
 def preparation_of(run: ExecutionContext, cell: SimulatedCell, friction_s: float) -> Preparation:
-    """The preparation that has just been carried out."""
+    """The preparation that a run has just carried out."""
     return Preparation(
         cell=cell.capture(),
         drive=copied(run.state.drive),
@@ -37,10 +35,10 @@ def preparation_of(run: ExecutionContext, cell: SimulatedCell, friction_s: float
 
 
 def take_up(preparation: Preparation, run: ExecutionContext, cell: SimulatedCell) -> None:
-    """Put a cell and what a run remembers where a preparation has left them.
+    """Set the state of a cell and a run to that after a preparation.
 
     Raises:
-        InvalidInput: it is of another cell or arm; nothing is changed.
+        InvalidInput: the preparation is for another cell or arm; nothing is changed.
     """
     state = copied(run.state)
     state.drive, state.lens = preparation.drive, preparation.lens

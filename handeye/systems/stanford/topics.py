@@ -1,4 +1,4 @@
-"""What of a run of a plan of motions can be shown: what the arm's sensors say, and what the program remembers."""
+"""What the stepper shows of a run of a plan: sensor values and the executor's state."""
 
 import math
 from typing import Final
@@ -42,7 +42,7 @@ def _hand(runner: Runner) -> HandView:
 
 
 def _force(runner: Runner) -> Vector3 | None:
-    """The force on which a guard has stopped the hand; it is old as soon as a servo period has passed."""
+    """The force, oz, at which a guard stopped the hand in this servo period; None if none did."""
     tripped = next((event for event in reversed(runner.events) if isinstance(event, GuardTripped)), None)
     if tripped is None or tripped.time != runner.time:
         return None
@@ -123,7 +123,7 @@ def _inches(p: Array) -> Vector3:
     return _three(p / INCH)
 
 
-def _named(table: dict[str, Array]) -> dict[str, Vector3]:
+def _differences(table: dict[str, Array]) -> dict[str, Vector3]:
     return {name: _inches(difference) for name, difference in sorted(table.items())}
 
 
@@ -135,11 +135,10 @@ TOPICS: Final[Topics] = {
     "gap": ("gap_in", lambda runner: _round(runner.context.drive.sensed.gap / INCH)),
     "switches": ("switches", lambda runner: tuple(map(bool, runner.context.drive.sensed.touch))),
     "error": ("error", _error),
-    "saved": ("saved_in", lambda runner: _named(runner.context.state.saved)),
-    "restored": ("restored_in", lambda runner: _named(runner.context.state.restored)),
+    "saved": ("saved_in", lambda runner: _differences(runner.context.state.saved)),
+    "restored": ("restored_in", lambda runner: _differences(runner.context.state.restored)),
     "search": ("search", _search),
     "parts": ("parts", _parts),
     "picture": ("picture", _picture),
     "positions": ("positions", _positions),
 }
-"""Topics of a plan of motions."""
