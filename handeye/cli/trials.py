@@ -152,7 +152,7 @@ def disturbed_trials(
 
     Exit code 0: every one was stopped in time; 3: one was not; 2: bad input; 130: interrupted.
     """
-    from handeye.trials.disturbing import DISTURBED, DisturbedWork
+    from handeye.trials.disturbing import DISTURBED, DisturbanceWork
     from handeye.trials.folder import head_of
     from handeye.trials.sweep import cases
 
@@ -166,7 +166,7 @@ def disturbed_trials(
     plan, spec = plan_or_own(None, world.task), world.spec
     return carry_out_sweep(
         DISTURBED,
-        DisturbedWork(plan=plan, world=spec, camera=camera),
+        DisturbanceWork(plan=plan, world=spec, camera=camera),
         cases(spec.seed, range(n), [each.name for each in chosen]),
         head_of(DISTURBED, spec, plan, camera=camera),
         options,

@@ -21,8 +21,8 @@ from handeye.runs.snapshot import Checkpoint
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Finished:
-    """A run that has ended: what it came to, and all of it as it was left."""
+class FinishedRun:
+    """A run that has ended: its result, and the runner as it was left."""
 
     result: Result
     runner: Runner
@@ -44,7 +44,7 @@ def run_plan(
     halt: Callable[[], bool] = lambda: False,
     without: tuple[Sense, ...] = (),
     operator: Operator = NOBODY,
-) -> Finished:
+) -> FinishedRun:
     """Carry out a plan in a world, and have it judged.
 
     Args:
@@ -56,7 +56,7 @@ def run_plan(
         calibrate: the camera is calibrated anew, whatever is kept of an earlier run.
         halt: the panic button, asked at every servo period.
         without: senses that the program does without.
-        operator: answers the program's calls; by default nobody does.
+        operator: answers the program's calls; by default no one.
 
     Raises:
         InvalidInput: the plan is for another arm, the referee has no finding of the name of a limit, or
@@ -82,7 +82,7 @@ def run_plan(
     )
     check_limits(runner)
     result = finished(runner, attend(runner, operator), metered, judged=referee, referee=umpire)
-    return Finished(result=result, runner=runner)
+    return FinishedRun(result=result, runner=runner)
 
 
 def brakes_hold(cell: SimulatedCell) -> bool:

@@ -26,14 +26,14 @@ class Difference(Record, frozen=True, kw_only=True):
     """Two-sided, of Wilcoxon's signed-rank test: how likely such differences are if both are alike."""
 
 
-class Paired(Record, frozen=True, kw_only=True):
+class PairedBatch(Record, frozen=True, kw_only=True):
     """A batch beside the first, over the trials that both have."""
 
     name: str
     pairs: int
     right: int
     first_right: int
-    """Of the first batch, over the same trials."""
+    """Right trials of the first batch among the same pairs."""
     only_first: int
     """Pairs in which only the first was right."""
     only_this: int
@@ -49,14 +49,14 @@ class Paired(Record, frozen=True, kw_only=True):
 
 
 class PairedTrial(NamedTuple):
-    """What a comparison needs to know of a trial."""
+    """Outcome and measures of one trial, for pairing."""
 
     standing: Standing
     broken_off: bool
     measures: Mapping[str, float]
 
 
-def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[Paired, ...]:
+def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[PairedBatch, ...]:
     """Each batch beside the first one.
 
     Raises:
@@ -84,7 +84,7 @@ def _trials(head: Head, rows: Sequence[TrialRow]) -> dict[Key, PairedTrial]:
     return found
 
 
-def beside(name: str, first: Mapping[Key, PairedTrial], other: Mapping[Key, PairedTrial]) -> Paired:
+def beside(name: str, first: Mapping[Key, PairedTrial], other: Mapping[Key, PairedTrial]) -> PairedBatch:
     """A batch beside another; raises InvalidInput if they have no trial in common."""
     pairs = [(first[key], this) for key, this in other.items() if key in first]
     if not pairs:
@@ -92,7 +92,7 @@ def beside(name: str, first: Mapping[Key, PairedTrial], other: Mapping[Key, Pair
     right = [(one.standing == "right", this.standing == "right") for one, this in pairs]
     only_first, only_this = right.count((True, False)), right.count((False, True))
     ended = [this for _, this in pairs if not this.broken_off]
-    return Paired(
+    return PairedBatch(
         name=name,
         pairs=len(pairs),
         right=sum(this for _, this in right),

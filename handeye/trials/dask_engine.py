@@ -7,7 +7,7 @@ from typing import Any, Final
 from handeye.core.errors import Refused
 from handeye.core.extras import MissingExtra
 from handeye.core.versions import code_digest
-from handeye.trials.sweep import Case, Engine, Guarded
+from handeye.trials.sweep import Case, Engine, GuardedWork
 from handeye.trials.workers import TRIES, Answer
 
 HOST: Final = "127.0.0.1"
@@ -25,9 +25,9 @@ def dask_workers(count: int, scheduler: str | None) -> Engine:
 
 
 def _answers(
-    work: Guarded[Any], cases: Sequence[Case], count: int, scheduler: str | None
+    work: GuardedWork[Any], cases: Sequence[Case], count: int, scheduler: str | None
 ) -> Generator[Answer[Case, list[Any]], None, None]:
-    """What comes of trials, in the order they end.
+    """Answers for each case, in the order they end.
 
     A trial whose worker is killed is begun once more by the scheduler, which does not tell.
 
@@ -54,7 +54,7 @@ def _answers(
             done.release()
 
 
-def _tried(work: Guarded[Any], code: str, case: Case) -> list[Any]:
+def _tried(work: GuardedWork[Any], code: str, case: Case) -> list[Any]:
     """Carry out a case on a worker.
 
     Raises:

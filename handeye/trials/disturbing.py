@@ -1,4 +1,4 @@
-"""Undoing what somebody has disturbed: does a guard stop the arm before anything comes to harm?"""
+"""Reversals of disturbed work: does a guard stop the arm before harm is done?"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -31,8 +31,8 @@ FORCE: Final = 60.0
 """N that the hand may not feel."""
 
 
-class Disturbed(Record, frozen=True, kw_only=True):
-    """What undoing came to when something had been disturbed."""
+class DisturbanceResult(Record, frozen=True, kw_only=True):
+    """Result of one reversal after a disturbance."""
 
     name: str
     built: bool
@@ -43,7 +43,7 @@ class Disturbed(Record, frozen=True, kw_only=True):
     """The statement that was being undone."""
     line: str = ""
     message: str = ""
-    """What the operator was told, or what the referee found wrong."""
+    """The call of the operator, or the referee’s complaint."""
     moved: float = 0.0
     """How far the part moved that moved most in one step without being held, mm."""
     part: str = ""
@@ -57,10 +57,10 @@ class Disturbed(Record, frozen=True, kw_only=True):
         return self.stopped and self.moved <= MOVED and self.felt <= FORCE
 
 
-class DisturbedRow(TrialRow, frozen=True, kw_only=True):
+class DisturbanceRow(TrialRow, frozen=True, kw_only=True):
     """One disturbance, which is the condition, tried once."""
 
-    tried: Disturbed | None = None
+    tried: DisturbanceResult | None = None
     """None: it broke off."""
 
     @property
@@ -81,27 +81,27 @@ class DisturbedRow(TrialRow, frozen=True, kw_only=True):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DisturbedWork:
+class DisturbanceWork:
     """Has what a plan builds disturbed and undone, once for each case."""
 
     plan: Plan
     world: WorldSpec
-    """What the worlds are but for their seeds."""
+    """World of every case, but for its seed."""
     camera: str
 
-    def __call__(self, case: Case) -> list[DisturbedRow]:
+    def __call__(self, case: Case) -> list[DisturbanceRow]:
         """Try one."""
         world = replace(self.world, seed=case.seed)
         tried = disturbed(self.plan, world, self.camera, case.condition)
-        return [DisturbedRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
+        return [DisturbanceRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
 
-def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturbed:
-    """What undoing comes to with one disturbance."""
+def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> DisturbanceResult:
+    """Build, disturb, reverse, and judge once."""
     change = next(each for each in task(plan.task).disturbances() if each.name == name)
     runner = Runner(Checkpoint(setup=Setup(plan=plan, world=world, camera=camera, judged=True)))
     if not _built(runner, plan, change):
-        return Disturbed(name=name, built=False)
+        return DisturbanceResult(name=name, built=False)
     change.make(runner.arm_cell)
     begun, moved, part = len(runner.events), 0.0, ""
     runner.order_reversal(0, halts=True)
@@ -109,7 +109,7 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturbed
         moved, part = max((moved, part), _moved(runner))
     result = finished(runner, advance(runner), Meter(), judged=True)
     undone = [event for event in runner.events[begun:] if isinstance(event, UndoStarted)]
-    return Disturbed(
+    return DisturbanceResult(
         name=name,
         built=True,
         stopped=runner.call is not None and brakes_hold(runner.arm_cell),
@@ -133,7 +133,7 @@ def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
 
 
 def _wrong(result: Result) -> str:
-    """What the referee found wrong when all had been undone."""
+    """The referee’s complaints after a complete reversal."""
     wrong = "; ".join(check.told for check in result.referee.values() if check.refuses)
     return wrong or "undone, and everything is back"
 
@@ -158,7 +158,7 @@ def _moved(runner: Runner) -> tuple[float, str]:
     return max(ways, default=(0.0, ""))
 
 
-def _sentence(row: DisturbedRow) -> str:
+def _sentence(row: DisturbanceRow) -> str:
     found = row.tried
     if found is None:
         return f"{row.condition:16} {row.verdict}: {row.detail}"
@@ -170,18 +170,18 @@ def _sentence(row: DisturbedRow) -> str:
     return f"{found.name:16} {how}{where}: {found.message}; {met}"
 
 
-def _more(rows: Sequence[DisturbedRow]) -> dict[str, object]:
+def _more(rows: Sequence[DisturbanceRow]) -> dict[str, object]:
     tried = [row.tried for row in rows if row.tried]
     return {"harmless": sum(each.harmless for each in tried if each.built), "disturbances": tried}
 
 
 DISTURBED: Final = Sweep(
     kind="disturbed",
-    row=DisturbedRow,
+    row=DisturbanceRow,
     outcomes={"stopped in time": "right", "not in time": "silent", "not built": "uncounted"},
     success="stopped in time",
     noun="disturbance",
     sentence=_sentence,
     more=_more,
 )
-"""What is built is disturbed behind the arm's back, and undone."""
+"""Work is disturbed behind the arm's back and then reversed."""

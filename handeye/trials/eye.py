@@ -69,7 +69,7 @@ class EyeWork:
     task: str
     trial: str
     world: WorldSpec
-    """What the worlds are but for their seeds."""
+    """World of every case, but for its seed."""
     camera: str
     known: Known
 

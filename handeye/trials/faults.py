@@ -50,7 +50,7 @@ SOON: Final = 120
 
 
 class PanicInStage(Observer):
-    """Hits the button once, when so many servo periods of a stage have passed."""
+    """Hits the button once, a number of servo periods into a stage."""
 
     def __init__(self, stage: int, periods: int = SOON) -> None:
         """Wait for a stage, by its index."""
@@ -64,7 +64,7 @@ class PanicInStage(Observer):
         return [self]
 
     def down(self) -> bool:
-        """True from when the button is hit until somebody has asked."""
+        """True once the button is hit, and only the first time it is asked."""
         hit = self._under_way and self._left <= 0 and not self._hit
         self._hit = self._hit or hit
         return hit
@@ -78,18 +78,18 @@ class PanicInStage(Observer):
 
 
 class FaultTrial(Record, frozen=True, kw_only=True):
-    """What a run with one fault came to."""
+    """Result of a run with one fault."""
 
     name: str
     """The fault, as it would be typed."""
     outcome: Outcome
     stage: str | None
-    """In which it stopped; None: it came to its end, or did not begin."""
+    """Stage in which it stopped; None: it finished, or never began."""
     message: str
-    """What the operator was told, or what the referee found wrong."""
+    """The call of the operator, or the referee’s complaints."""
     error: int | None
     line: str | None
-    """Of the script, where it stopped in a stage."""
+    """Line of the script where it stopped in a stage."""
     exit_code: Annotated[int, msgspec.Meta(ge=0)]
 
 
@@ -133,12 +133,12 @@ class FaultWork:
 
     plan: Plan
     world: WorldSpec
-    """What the worlds are but for their seeds."""
+    """World of every case, but for its seed and fault."""
     faults: Mapping[str, Fault]
     camera: str
 
     def __call__(self, case: Case) -> list[FaultRow]:
-        """Carry one out, or have somebody hit the panic button in it."""
+        """Carry out one run with its fault, or with the panic button hit in it."""
         fault, catalogue = self.faults[case.condition], with_panic(task(self.plan.task).faults(case.seed))
         world = msgspec.structs.replace(self.world, seed=case.seed, faults=(fault,))
         if fault.name == PANIC.name:
@@ -168,7 +168,7 @@ def usual(catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None) -
 def trial_of(
     fault: Fault, catalogue: Catalogue, result: Result, events: Sequence[AnyEvent], *, braked: bool
 ) -> FaultTrial:
-    """What a run with a fault came to, by its result and by what happened."""
+    """Result of a run with a fault, from its result and events."""
     begun = [event for event in events if isinstance(event, StepStarted)]
     stopped = not result.completed and begun
     return FaultTrial(
@@ -183,7 +183,7 @@ def trial_of(
 
 
 def _message(result: Result) -> str:
-    """What the operator was told, or what the referee found wrong."""
+    """The call of the operator, or the referee’s complaints."""
     if result.completed:
         return "; ".join(check.told for check in result.referee.values() if check.refuses)
     return result.message

@@ -46,7 +46,7 @@ class Failure(Record, frozen=True, kw_only=True):
     detail: str
     """With figures."""
     line: str | None
-    """Of the script, where the program stopped."""
+    """Line of the script where the program stopped."""
     command: str
     """Carries it out again."""
 
@@ -62,7 +62,7 @@ class Cause(Record, frozen=True, kw_only=True):
 
 
 class Figures(Record, frozen=True, kw_only=True):
-    """What the trials of a sweep come to. But for the host's seconds, equal sweeps have equal figures."""
+    """Figures of a sweep. But for host seconds, equal sweeps have equal figures."""
 
     kind: str
     n: int
@@ -85,15 +85,15 @@ class Figures(Record, frozen=True, kw_only=True):
     """Where there are several."""
     failures: tuple[Failure, ...]
     causes: tuple[Cause, ...]
-    """Of the failures, the most frequent first."""
+    """Causes of the failures, the most frequent first."""
     cpu_s: float
-    """Of all trials."""
+    """Processor time of all trials."""
     wall_s: float
-    """Of the host, since this command began."""
+    """Time since this command began."""
 
     @property
     def exit_code(self) -> int:
-        """3: a failure was taken for a success; 1: every trial broke off; 0 otherwise."""
+        """3: a failure was taken for a success; 1: every trial broke off; else 0."""
         return 3 if self.silent_failures else int(0 < self.failed == self.n)
 
 

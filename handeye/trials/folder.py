@@ -29,7 +29,7 @@ _NAMES: Final = {
     "on_stop": "answers of the operator",
     "simulated_limit_s": "limit of simulated time", "versions": "versions", "code": "program",
 }  # fmt: skip
-"""What parts of a head are called."""
+"""Words for the parts of a head."""
 
 
 class Head(Record, frozen=True, kw_only=True):
@@ -50,7 +50,7 @@ class Head(Record, frozen=True, kw_only=True):
     """How calls of the operator are answered."""
     simulated_limit_s: float | None = None
     settings: dict[str, str] = msgspec.field(default_factory=dict)
-    """What else decides the trials, by what it is called."""
+    """Further settings that decide the trials, by their names for people."""
     versions: dict[str, str]
     code: str
     """Digest of handeye and its scenes."""
@@ -126,7 +126,7 @@ class BatchFolder(Generic[R]):
 
 
 def read_batch(path: Path) -> tuple[Head, tuple[Any, ...]]:
-    """What a folder holds: the head, and the trials that have ended, by condition and number.
+    """Head of the batch in a folder, and its rows sorted by condition and number.
 
     Raises:
         InvalidInput: the folder holds no batch, or one that this handeye cannot read.

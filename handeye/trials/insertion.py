@@ -39,10 +39,10 @@ from handeye.trials.sweep import Case, Details, Sweep, TrialRow
 Search = Literal["gentle", "1973"]
 TASK: Final = "insertion"
 TRIALS_A_WORLD: Final = 10
-"""Chosen: the pin is fetched once for so many trials, which takes a second of a processor."""
+"""Trials that share one fetched pin; fetching takes a second of a processor."""
 _WRITTEN_STEP: Final = "SEARCH  .07"
 _STEP_SHARE: Final = 0.92
-"""Of the coarsest step of a search in which each hole is caught, the share that is taken: .07 in for Factory's hole."""
+"""Share taken of the coarsest step that catches every hole: .07 in for Factory's hole."""
 _PLACE: Final = 0.005
 """in, to which it is rounded down."""
 
@@ -55,10 +55,10 @@ def bench() -> Inserting:
 
 
 class Condition(Record, frozen=True, kw_only=True):
-    """What is tried."""
+    """Hole, error of its place, and search."""
 
     clearance: float = CLEARANCE
-    """Of the hole, in diameter, mm."""
+    """Clearance of the hole in diameter, mm."""
     chamfer: float = CHAMFER
     """mm"""
     sd: float = SPREAD
@@ -67,7 +67,7 @@ class Condition(Record, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """Its name for people."""
         search = "" if self.search == "gentle" else f", {self.search}"
         return f"{self.clearance:g} mm, chamfer {self.chamfer:g}, sd {self.sd:g}{search}"
 
@@ -99,7 +99,7 @@ def grid(search: Search) -> list[Condition]:
 
 
 class InsertionTrial(Record, frozen=True, kw_only=True):
-    """One trial, with what came of it."""
+    """Result of one trial."""
 
     seed: int
     """World seed."""
@@ -120,7 +120,7 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
     whole: float = 0.0
     """Seconds of the cell's clock that all of it took."""
     told: str = ""
-    """What the operator was told."""
+    """The call of the operator."""
 
 
 class _Feeling(Observer):
@@ -241,7 +241,7 @@ def tried(
 
 
 def _seen(trial: InsertionTrial, runner: Runner) -> InsertionTrial:
-    """What the witness says of a run that has ended, beside what the program says."""
+    """The trial with what the witness saw and the program reported."""
     seen, done = bench().witnessed(runner.arm_cell), runner.call is None and runner.trouble is None
     return replace(
         trial,
@@ -273,7 +273,7 @@ def _beginning(condition: Condition, begun: Runner, trial: InsertionTrial, plan:
 
 
 def _told(runner: Runner) -> str:
-    """What the operator was told."""
+    """The call of the operator."""
     if runner.call is None:
         return runner.trouble or ""
     return call_sentence(runner.call.message, runner.call.error, runner.call.cause)

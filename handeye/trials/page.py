@@ -13,8 +13,7 @@ from handeye.trials.text import sure
 
 _MARK: Final = "<!doctype html>\n<!-- handeye batch -->\n"
 PAGE: Final = Kind("page of trials", _MARK.encode(), ending=".html")
-_WIDE, _HIGH = 240.0, 16.0
-"""Of a plot in a line of a table, in its own units."""
+_WIDE, _HIGH = 240.0, 16.0  # plot in a table row, drawing units
 
 
 def sweep_page(title: str, sweep: Sweep[R], rows: Sequence[R], found: Figures) -> bytes:

@@ -18,12 +18,12 @@ class Rate(Record, frozen=True, kw_only=True):
     wilson95: tuple[float, float] | None
     """Wilson's score interval: it holds the probability in about 95 of 100 batches."""
     p_s: float | None
-    """Lower bound of the probability, 95 % one-sided: the least p for which so many successes or more have a chance
+    """Lower bound of the probability, 95 % one-sided: the least p for which this many successes have a chance
     of 5 %. It is the exact bound of Clopper and Pearson."""
 
 
 def rate(successes: int, trials: int) -> Rate:
-    """The rate of so many successes among so many trials."""
+    """Success rate with its bounds."""
     from scipy.stats import binomtest  # slow to import
 
     if trials == 0:

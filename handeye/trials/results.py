@@ -24,7 +24,7 @@ from handeye.trials.assembly import run_plan
 from handeye.trials.workers import in_processes
 
 _VERDICTS: Final = {0: ("assembled", "good"), 1: ("stopped", "doubtful"), 3: ("not right", "bad")}
-"""Of a result by its exit code, and their colours."""
+"""Verdict and colour by exit code."""
 _TOLD: Final = 2
 """Findings that a row tells."""
 

@@ -44,11 +44,11 @@ class Case(Record, frozen=True, kw_only=True):
     """Their numbers among the trials of the condition, from 0."""
     seed: int
     condition: str = ""
-    """What is tried, where a sweep tries several things."""
+    """Condition under which they run; empty: there is only one."""
 
 
 class TrialRow(Record, frozen=True, kw_only=True):
-    """What is kept of one trial. Equal trials have equal rows, but for host seconds and killed processes."""
+    """Record of one trial. Equal trials have equal rows, but for host seconds and killed processes."""
 
     trial: Annotated[int, msgspec.Meta(ge=0)]
     seed: Annotated[int, msgspec.Meta(ge=0)]
@@ -78,7 +78,7 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def outcome(self) -> str:
-        """Outcome of a trial that came to an end; each kind says its own."""
+        """Outcome of a trial that ended by itself; each kind defines its own."""
         raise NotImplementedError
 
     @property
@@ -120,7 +120,7 @@ class Details:
     """A table that a kind of sweep adds to its figures: on the terminal, the page, as CSV, and in the JSON."""
 
     name: str
-    """Of the table, and of its key in the JSON."""
+    """Name of the table and of its key in the JSON."""
     title: str
     rows: Sequence[Record]
     """Flat records; their fields are the columns. Fields that end in `_share` are shares of 1, in `_s` seconds."""
@@ -180,13 +180,13 @@ class Sweep(Generic[R]):
     """The word for trials that are right."""
     noun: str = "trial"
     sentence: Callable[[R], str] | None = None
-    """What people are told of each trial as it ends; empty: nothing. None: of failures, when all have ended."""
+    """Text printed as each trial ends, if not empty. None: failures are listed at the end."""
     narrated: bool = False
-    """Each trial is told on standard error with the rate so far: it takes long."""
+    """Each trial is noted on standard error with the rate so far."""
     summary: Callable[[Sequence[R]], Sequence[str]] = field(default=lambda _: ())
     """Lines below all others."""
     more: Callable[[Sequence[R]], Mapping[str, object]] = _nothing
-    """What the JSON of the figures has besides."""
+    """Further entries of the JSON."""
     details: Callable[[Sequence[R]], Sequence[Details]] = _no_details
     work: "Callable[[Case], Sequence[R]] | None" = None
     """Carries out the trials of a case, where that takes no options: such a kind has a command for nothing."""
@@ -203,7 +203,7 @@ Work = Callable[[Case], Sequence[R]]
 
 
 @dataclass(frozen=True, slots=True)
-class Guarded(Generic[R]):
+class GuardedWork(Generic[R]):
     """Work whose exceptions are results: of a thousand trials, none is worth the others."""
 
     work: Work[R]
@@ -225,7 +225,7 @@ def lost(row: type[R], case: Case, **fields: object) -> list[R]:
     return [row(trial=k, seed=case.seed, condition=case.condition, **fields) for k in case.trials]  # type: ignore[arg-type]
 
 
-Engine = Callable[[Guarded[Any], Sequence[Case]], Generator[Answer[Case, list[Any]], None, None]]
+Engine = Callable[[GuardedWork[Any], Sequence[Case]], Generator[Answer[Case, list[Any]], None, None]]
 """Carries out cases in any order; one whose process is lost is tried once more."""
 
 
@@ -233,7 +233,7 @@ def processes(jobs: int, wall_limit_s: float | None = None) -> Engine:
     """Processes on this computer, kept from case to case; this one, if one is enough and nothing limits its time."""
 
     def carry_out(
-        work: Guarded[Any], cases: Sequence[Case]
+        work: GuardedWork[Any], cases: Sequence[Case]
     ) -> Generator[Answer[Case, list[Any]], None, None]:
         if wall_limit_s is None and min(jobs, len(cases)) <= 1:
             return (Answer(item=case, value=work(case)) for case in cases)
@@ -266,7 +266,7 @@ def carry_out(
     """
     rows: dict[tuple[str, int], R] = {} if folder is None else dict(folder.rows)
     todo = [case for case in cases if any((case.condition, number) not in rows for number in case.trials)]
-    with closing(engine(Guarded(work, sweep.row), todo)) as carried_out:
+    with closing(engine(GuardedWork(work, sweep.row), todo)) as carried_out:
         for answer in carried_out:
             for row in rows_of(sweep, answer):
                 if folder is not None:

@@ -9,7 +9,7 @@ from rich.text import Text
 
 from handeye.core.diagnostics import visible
 from handeye.core.plain_text import counted, printable
-from handeye.trials.comparing import Paired
+from handeye.trials.comparing import PairedBatch
 from handeye.trials.figures import ConditionFigures, Failure, Figures, Spread
 from handeye.trials.sweep import R, Sweep, percent
 
@@ -18,7 +18,7 @@ NARROWEST: Final = 80
 
 
 class PlainTable(Table):
-    """A table of words and figures, which may come from a file that nobody trusts."""
+    """A table of words and figures, which may come from an untrusted file."""
 
     def __init__(self, words: tuple[str, ...], *figures: str) -> None:
         super().__init__(box=None, pad_edge=False, collapse_padding=True, header_style="bold")
@@ -36,7 +36,7 @@ class PlainTable(Table):
 
 
 def page(sweep: Sweep[R], rows: Sequence[R], found: Figures) -> RenderableType:
-    """All that is told of a sweep when it has ended."""
+    """Summary printed at the end of a sweep."""
     tables = [table for table in _tables(sweep, rows, found) if table.rows]
     spaced = [part for table in tables for part in (table, Text())]
     lines = [] if sweep.sentence else [*failures(found)]
@@ -132,7 +132,7 @@ def _place(stage: str, line: str | None = None) -> str:
     return f"{named}{f', line {line}' if line else ''}: " if named else ""
 
 
-def comparison(first: str, found: Sequence[Paired]) -> RenderableType:
+def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
     """Batches beside the first one: how often they are right, and what differs where both are."""
     rates = PlainTable(
         (f"beside {first}",),

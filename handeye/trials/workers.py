@@ -20,7 +20,7 @@ T = TypeVar("T")
 TRIES: Final = 2
 """Times that a trial is begun whose process is killed."""
 LONGEST_WAIT_S: Final = 86400.0
-"""Of one wait: the system takes no more than 24 days."""
+"""Longest single wait; the system accepts at most 24 days."""
 
 
 class WorkerLost(HandeyeError):
@@ -29,19 +29,19 @@ class WorkerLost(HandeyeError):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer(Generic[Item, T]):
-    """What came of one trial."""
+    """Outcome of one item."""
 
     item: Item
     value: T | None = None
     """None: there is none, for the reason that follows."""
     error: BaseException | None = None
-    """What the trial raised."""
+    """Exception that the trial raised."""
     killed: int = 0
     """How often its process was killed."""
     overdue: bool = False
     """Its process was ended because it took too long."""
     wall_s: float = 0.0
-    """Of the last time that it was tried."""
+    """Duration of the last attempt."""
 
     @property
     def lost(self) -> bool:
@@ -92,7 +92,7 @@ class _Given(Generic[Item]):
 def answers(
     trial: Callable[[Item], T], items: Sequence[Item], count: int, *, limit_s: float | None = None
 ) -> Generator[Answer[Item, T], None, None]:
-    """What a trial comes to for each of some items, in the order they end, in so many processes that are kept.
+    """Answers for each item, in the order they end, from a pool of processes.
 
     A trial whose process is killed is begun once more, in a new one. Who stops asking for answers ends the processes.
 
@@ -123,7 +123,7 @@ def answers(
 
 
 def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) -> Iterator[T]:
-    """What a trial comes to in many worlds, in the order they come.
+    """Values for many items, in the order they end.
 
     Who stops asking for them ends the processes too.
 
@@ -188,7 +188,7 @@ def _overdue(worker: Worker, limit_s: float | None) -> bool:
 
 
 def _answer(worker: Worker, limit_s: float | None) -> Answer[Any, Any]:
-    """What a worker has to say; it is without work then, unless it is lost."""
+    """The answer of a worker, which is idle afterwards unless it is lost."""
     given = worker.given
     assert given is not None
     wall_s, overdue = given.timer.wall_s, _overdue(worker, limit_s) and not worker.here.poll()
@@ -224,7 +224,7 @@ def _tried(trial: Callable[[Any], Any], item: Any) -> tuple[Any, BaseException |
 
 
 def _end_with_parent() -> None:
-    """End this process when the one that began it is gone, also where that was killed: nobody wants its answer."""
+    """End this process when the one that began it is gone, also where that was killed."""
     parent = parent_process()
     assert parent is not None
     connection.wait([parent.sentinel])

@@ -34,7 +34,7 @@ from handeye.trials.plans.distributions import margins
 from handeye.trials.plans.row import Row
 from handeye.trials.plans.trial import Trial
 from handeye.trials.rates import mcnemar, rate
-from handeye.trials.sweep import Case, Engine, Guarded, cases, processes, rows_of
+from handeye.trials.sweep import Case, Engine, GuardedWork, cases, processes, rows_of
 from handeye.trials.sweep import carry_out as carry_out_sweep
 from handeye.trials.tables import tables as tables_of
 from handeye.trials.workers import Answer
@@ -62,7 +62,7 @@ class Canned:
         self.breaks_after, self.tried = breaks_after, list[int]()
 
     def __call__(
-        self, work: Guarded[Row], cases: Sequence[Case]
+        self, work: GuardedWork[Row], cases: Sequence[Case]
     ) -> Generator[Answer[Case, list[Row]], None, None]:
         for number, case in enumerate(reversed(cases)):
             if number == self.breaks_after:

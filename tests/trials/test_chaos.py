@@ -19,7 +19,7 @@ from handeye.trials.chaos import trial
 from handeye.trials.chaos.invariants import wrong
 from handeye.trials.chaos.schedule import Break, Schedule, draw, parse_schedule
 from handeye.trials.chaos.sound_run import SoundRun, sound_run
-from handeye.trials.chaos.trial import Broken, Tried, shrunk, try_schedule
+from handeye.trials.chaos.trial import ScheduleResult, Violation, shrunk, try_schedule
 
 SCHEDULE = Schedule(
     seed=3,
@@ -77,10 +77,12 @@ def test_schedules_are_drawn_from_a_seed_and_can_be_told() -> None:
 
 
 def test_a_schedule_is_shrunk_to_what_it_fails_by() -> None:
-    def fails(schedule: Schedule) -> Tried:
+    def fails(schedule: Schedule) -> ScheduleResult:
         guilty = "lamp.dead@2" in schedule.faults and any(each.kind == "back" for each in schedule.breaks)
-        return Tried(
-            schedule=str(schedule), ended="break", broken=(Broken("resume", "it differs"),) if guilty else ()
+        return ScheduleResult(
+            schedule=str(schedule),
+            ended="break",
+            broken=(Violation("resume", "it differs"),) if guilty else (),
         )
 
     least, tried = shrunk(fails(SCHEDULE), SCHEDULE, fails)
@@ -116,7 +118,7 @@ def sound(tmp_path: Path) -> SoundRun:
     return sound_run(tmp_path, begin(SCRIPT).setup, WorldSpec(seed=3))
 
 
-def tried(sound: SoundRun, text: str) -> Tried:
+def tried(sound: SoundRun, text: str) -> ScheduleResult:
     return try_schedule(parse_schedule(f"seed=3 start=0 {text}".strip()), sound)
 
 

@@ -10,7 +10,7 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.core.variation import WorldSpec
 from handeye.tasks import task
 from handeye.tasks.water_pump.faults.after import MOVED_M, THIN_RATIO, bystanders
-from handeye.trials.disturbing import DISTURBED, Disturbed, DisturbedRow, DisturbedWork, disturbed
+from handeye.trials.disturbing import DISTURBED, DisturbanceResult, DisturbanceRow, DisturbanceWork, disturbed
 from handeye.trials.figures import figures
 from handeye.trials.sweep import Case
 
@@ -22,7 +22,7 @@ TAKE = """
         CHANGE  [0 0 1] 1.5
 """
 """Takes a pin out of its holder."""
-STOPPED = Disturbed(
+STOPPED = DisturbanceResult(
     name="top.removed", built=True, stopped=True, at="OPEN    2.8", line="327", message="it is gone"
 )
 
@@ -87,23 +87,23 @@ def test_a_stop_in_time_is_one_before_anything_is_pushed_or_wrecked() -> None:
     assert not replace(soft, stopped=False).harmless
 
 
-def row(tried: Disturbed) -> DisturbedRow:
-    return DisturbedRow(trial=0, seed=0, condition=tried.name, tried=tried)
+def row(tried: DisturbanceResult) -> DisturbanceRow:
+    return DisturbanceRow(trial=0, seed=0, condition=tried.name, tried=tried)
 
 
 def test_what_could_not_be_tried_counts_nowhere() -> None:
-    found = figures(DISTURBED, [row(Disturbed(name="top.glued", built=False)), row(STOPPED)])
+    found = figures(DISTURBED, [row(DisturbanceResult(name="top.glued", built=False)), row(STOPPED)])
     assert (found.n, found.right, found.uncounted, found.exit_code) == (1, 1, 1, 0)
 
 
 def test_the_command_tells_each_and_whether_all_were_stopped(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def work(self: DisturbedWork, case: Case) -> list[DisturbedRow]:
-        free = Disturbed(name=case.condition, built=True, message="top (at most 3 mm)")
+    def work(self: DisturbanceWork, case: Case) -> list[DisturbanceRow]:
+        free = DisturbanceResult(name=case.condition, built=True, message="top (at most 3 mm)")
         return [row(STOPPED if case.condition == STOPPED.name else free)]
 
-    monkeypatch.setattr(DisturbedWork, "__call__", work)
+    monkeypatch.setattr(DisturbanceWork, "__call__", work)
     words = ("trials", "disturbed", "--jobs", "1", "--only", "top.removed")
     code, out, _ = command(*words, "--only", "stack.moved")
     assert (code, {*out.splitlines()} >= {

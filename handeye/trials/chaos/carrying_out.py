@@ -1,4 +1,4 @@
-"""Carrying out a schedule: interrupted where it says so, taken up again from disk, and ended by its operator."""
+"""Carries out a schedule: interrupted where it says so, taken up again from disk, and ended by its operator."""
 
 import subprocess
 import sys
@@ -31,7 +31,7 @@ LIMIT: Final = 300.0
 
 
 class ReachedPosition(StopCondition, frozen=True, kw_only=True):
-    """Pause where so many steps are done."""
+    """Pause once a number of steps are done."""
 
     position: int
 
@@ -54,7 +54,7 @@ class Answers:
 
 
 class Button(Observer):
-    """A panic button that is hit behind so many servo periods; None: never."""
+    """A panic button that is hit after a number of servo periods; None: never."""
 
     def __init__(self, after: int | None) -> None:
         self._left = after
@@ -68,8 +68,8 @@ class Button(Observer):
 
 
 @dataclass(slots=True)
-class Carried:
-    """What carrying out a schedule came to."""
+class ScheduleRun:
+    """A schedule carried out."""
 
     folder: Path
     runner: Runner
@@ -77,10 +77,10 @@ class Carried:
     unbraked: list[str] = field(default_factory=list)
     """Stops at which the brakes were not on."""
     lost: list[str] = field(default_factory=list)
-    """What could not be read again from disk where the run was taken up, a sentence each."""
+    """Sentences on what could not be read back from disk."""
 
 
-class Carrying:
+class ScheduleRunner:
     """A schedule under way, in a folder of its own."""
 
     def __init__(self, schedule: Schedule, start: Checkpoint, folder: Path) -> None:
@@ -92,7 +92,7 @@ class Carrying:
         self._unbraked: list[str] = []
         self._lost: list[str] = []
 
-    def carry_out(self, stops: Sequence[StopCondition], *, broken: bool) -> Carried:
+    def carry_out(self, stops: Sequence[StopCondition], *, broken: bool) -> ScheduleRun:
         """All of it, until one of the stops; without its interruptions if it is not to be broken."""
         runner = pause = None
         for interruption in self._schedule.breaks if broken else ():
@@ -105,7 +105,7 @@ class Carrying:
             runner = self._runner(Button(None))
             pause = self._attended(runner, stops)
         self._end(runner, pause)
-        return Carried(self._place, runner, pause, self._unbraked, self._lost)
+        return ScheduleRun(self._place, runner, pause, self._unbraked, self._lost)
 
     def _end(self, runner: Runner, pause: Pause) -> None:
         """Finish the run, unless it only pauses, and keep its result; photographs would cost more than the run."""
@@ -165,8 +165,7 @@ class Interruption(ReachedPosition, frozen=True, kw_only=True):
 
 
 def kill_resumed(folder: Path, events: int) -> None:
-    """Resume a run in a process of its own, and kill that when it has written so many events; if it has not ended by
-    then."""
+    """Resume a run in a process of its own, and kill that once it has written a number of events, unless it ended."""
     journal = folder / EVENTS
     enough = _lines(journal) + events + 1  # and the one that tells that it was resumed
     process = subprocess.Popen(  # noqa: S603 - our own program

@@ -1,4 +1,4 @@
-"""What must hold after every schedule, whatever was in it."""
+"""Invariants that hold after every schedule."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +14,7 @@ from handeye.runs.folder import CHECKPOINTS, EVENTS, RESULT, TRACE
 from handeye.runs.snapshot import Snapshot
 from handeye.trace.eventlist import effective, read_events
 from handeye.trace.reading import read_trace
-from handeye.trials.chaos.carrying_out import Carried
+from handeye.trials.chaos.carrying_out import ScheduleRun
 
 HELD_FROM: Final = {
     "base": 3,
@@ -32,8 +32,8 @@ LAST: Final = 12
 """Number of the last stage, at whose end all must hold."""
 
 
-def on_disk(carried: Carried) -> Iterator[str]:
-    """What is lost or unsound on disk, a sentence each."""
+def on_disk(carried: ScheduleRun) -> Iterator[str]:
+    """Sentences on what is lost or unsound on disk."""
     yield from carried.lost
     yield from CheckpointStore(carried.folder / CHECKPOINTS).damaged()
     try:
@@ -44,8 +44,8 @@ def on_disk(carried: Carried) -> Iterator[str]:
         yield str(fault)
 
 
-def in_trace(carried: Carried) -> Iterator[str]:
-    """What is unsound in the trace, a sentence each."""
+def in_trace(carried: ScheduleRun) -> Iterator[str]:
+    """Sentences on what is unsound in the trace."""
     try:
         trace = read_trace(carried.folder / TRACE)
     except InvalidInput as fault:
@@ -57,7 +57,7 @@ def in_trace(carried: Carried) -> Iterator[str]:
         yield "the trace is of another world"
 
 
-def after_resuming(carried: Carried, unbroken: Carried) -> Iterator[str]:
+def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]:
     """Differences of a run that was interrupted from the same without interruptions, a sentence each."""
     if carried.runner.events != unbroken.runner.events:
         yield "other events than without interruptions"
@@ -70,7 +70,7 @@ def after_resuming(carried: Carried, unbroken: Carried) -> Iterator[str]:
 
 
 def wrong(findings: Findings, stages: int) -> list[str]:
-    """What a referee finds wrong who looks at a pump of whose stages so many are done."""
+    """Findings that fail after a number of stages."""
     return [
         f"{name}: {finding.subject} {finding.value:.3g} {finding.unit}"
         for name, finding in findings.items()
@@ -79,7 +79,7 @@ def wrong(findings: Findings, stages: int) -> list[str]:
 
 
 def _from(name: str) -> int:
-    """Number of the stage from whose end on a finding must hold: the last, if nobody says."""
+    """Number of the stage from whose end a finding must hold; by default the last."""
     return next((stage for words, stage in HELD_FROM.items() if name.startswith(words)), LAST)
 
 

@@ -18,15 +18,15 @@ from handeye.core.variation import Level, checked_seed
 from handeye.core.world_options import by_number, faults
 
 BreakKind = Literal["panic", "pause", "back", "kill"]
-"""Panic button, behind so many servo periods; a pause behind so many steps, from which the run is taken up again from
-disk; the same, and back by half of them; a process that is killed when it has written so many events."""
+"""Panic button after N servo periods; pause after N steps, resumed from disk; the same, going back by half of them;
+process killed after N events."""
 Answer = Literal["retry", "skip", "proceed", "abort"]
 Count = Annotated[int, msgspec.Meta(ge=1, le=9999)]
 
 _NEAR: Final = (1, 400)
 """Servo periods before the panic button is hit: up to seven seconds."""
 _FEW: Final = (1, 6)
-"""Steps, or events, before a run is interrupted otherwise."""
+"""Steps or events before any other interruption."""
 MOST_STEPS: Final = 24
 """Steps of a schedule that does not go on to the end of its stage."""
 
@@ -36,26 +36,26 @@ class Break(Record, frozen=True, kw_only=True):
 
     kind: BreakKind
     after: Count
-    """Of what, see `BreakKind`, since the run went on."""
+    """Count since the run went on, in the unit of its kind."""
 
     def __str__(self) -> str:
         return f"{self.kind}:{self.after}"
 
 
 class Schedule(Record, frozen=True, kw_only=True):
-    """What is done to a run, and where."""
+    """Faults, interruptions and answers for one run."""
 
     seed: int
     level: Level = "nominal"
     start: Annotated[int, msgspec.Meta(ge=0)]
     """Steps of the sound run that are done when it begins."""
     steps: Count | None = None
-    """It ends after so many at the latest; None: with the stage that it begins in."""
+    """Most steps before it ends; None: until the end of its first stage."""
     faults: tuple[str, ...] = ()
     """As they would be typed."""
     breaks: tuple[Break, ...] = ()
     answers: tuple[Answer, ...] = ()
-    """Of the operator, one after the other; then abort."""
+    """Answers of the operator in order, then abort."""
 
     def __str__(self) -> str:
         words = {

@@ -39,7 +39,7 @@ class SoundRun:
     """Numbers, from 1, of the stages that these begin in."""
 
     def at(self, position: int) -> Checkpoint:
-        """The state at or before so many steps done.
+        """The state at or before a number of steps.
 
         Raises:
             InvalidInput: there is none.

@@ -13,14 +13,14 @@ from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import StopCondition
 from handeye.runs.systems import listing_of
 from handeye.tasks import any_task
-from handeye.trials.chaos.carrying_out import Carried, Carrying, ReachedPosition
+from handeye.trials.chaos.carrying_out import ReachedPosition, ScheduleRun, ScheduleRunner
 from handeye.trials.chaos.invariants import after_resuming, in_trace, on_disk, wrong
 from handeye.trials.chaos.schedule import MOST_STEPS, Schedule
 from handeye.trials.chaos.sound_run import SoundRun, with_faults
 
 
 class EndOfStage(StopCondition, frozen=True, kw_only=True):
-    """Pause between two stages, once more than so many steps are done."""
+    """Pause between two stages, past a number of steps."""
 
     after: int
 
@@ -28,24 +28,24 @@ class EndOfStage(StopCondition, frozen=True, kw_only=True):
         return runner.between_stages and runner.position > self.after
 
 
-class Broken(Record, frozen=True):
+class Violation(Record, frozen=True):
     """An invariant that did not hold."""
 
     invariant: str
     what: str
-    """Of it, a sentence."""
+    """What was violated, a sentence."""
 
     def __str__(self) -> str:
         return f"{self.invariant}: {self.what}"
 
 
-class Tried(Record, frozen=True, kw_only=True):
-    """What a schedule came to."""
+class ScheduleResult(Record, frozen=True, kw_only=True):
+    """Result of a schedule."""
 
     schedule: str
     ended: str
     """The kind of its last pause; `error`: it raised what nothing should."""
-    broken: tuple[Broken, ...]
+    broken: tuple[Violation, ...]
     """None if all is well."""
 
     @property
@@ -54,7 +54,7 @@ class Tried(Record, frozen=True, kw_only=True):
         return frozenset(each.invariant for each in self.broken)
 
 
-def try_schedule(schedule: Schedule, sound: SoundRun) -> Tried:
+def try_schedule(schedule: Schedule, sound: SoundRun) -> ScheduleResult:
     """Carry a schedule out, and check what must hold.
 
     Raises:
@@ -62,7 +62,7 @@ def try_schedule(schedule: Schedule, sound: SoundRun) -> Tried:
     """
     begun = sound.at(schedule.start)
     start = with_faults(begun, schedule.given(any_task(begun.setup.task).faults(schedule.seed)))
-    ended, broken = "error", list[Broken]()
+    ended, broken = "error", list[Violation]()
     with tempfile.TemporaryDirectory(prefix="handeye-chaos-") as name:
         try:
             unbroken = _carried(schedule, start, Path(name) / "unbroken", broken=False)
@@ -72,24 +72,24 @@ def try_schedule(schedule: Schedule, sound: SoundRun) -> Tried:
                 carried = _carried(schedule, start, Path(name) / "broken", broken=True)
                 broken += [*_sound(carried), *_named("resume", after_resuming(carried, unbroken))]
         except Exception as error:
-            broken.append(Broken("error", f"{type(error).__name__}: {error}"))
-    return Tried(schedule=str(schedule), ended=ended, broken=tuple(dict.fromkeys(broken)))
+            broken.append(Violation("error", f"{type(error).__name__}: {error}"))
+    return ScheduleResult(schedule=str(schedule), ended=ended, broken=tuple(dict.fromkeys(broken)))
 
 
-def _carried(schedule: Schedule, start: Checkpoint, folder: Path, *, broken: bool) -> Carried:
+def _carried(schedule: Schedule, start: Checkpoint, folder: Path, *, broken: bool) -> ScheduleRun:
     stops: list[StopCondition] = [EndOfStage(after=start.position)]
     stages = listing_of(start.setup).stages
     if schedule.steps is not None or len(stages) < 2:
         stops.append(ReachedPosition(position=start.position + (schedule.steps or MOST_STEPS)))
-    return Carrying(schedule, start, folder).carry_out(stops, broken=broken)
+    return ScheduleRunner(schedule, start, folder).carry_out(stops, broken=broken)
 
 
-def _named(invariant: str, sentences: Iterator[str]) -> Iterator[Broken]:
-    return (Broken(invariant, sentence) for sentence in sentences)
+def _named(invariant: str, sentences: Iterator[str]) -> Iterator[Violation]:
+    return (Violation(invariant, sentence) for sentence in sentences)
 
 
-def _sound(carried: Carried) -> Iterator[Broken]:
-    """What every run must keep to, stopped or not."""
+def _sound(carried: ScheduleRun) -> Iterator[Violation]:
+    """Violations of what holds for every run, stopped or not."""
     yield from _named("brakes", iter(carried.unbraked))
     yield from _named("trace", in_trace(carried))
     yield from _named("disk", on_disk(carried))
@@ -98,8 +98,8 @@ def _sound(carried: Carried) -> Iterator[Broken]:
 # -- silence ------------------------------------------------------------------------------------------
 
 
-def _silent(carried: Carried, start: Checkpoint) -> Iterator[str]:
-    """What is wrong with a pump that the program takes for right.
+def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
+    """Failed findings on work that the program takes for right.
 
     A stage that the program has done is judged by those findings that must hold from its end on. If one does not, the
     program goes on, for a later check may notice that: it is silent only if it comes to its end with a wrong pump.
@@ -122,8 +122,10 @@ def _silent(carried: Carried, start: Checkpoint) -> Iterator[str]:
 # -- shrinking ----------------------------------------------------------------------------------------
 
 
-def shrunk(failing: Tried, schedule: Schedule, fails: Callable[[Schedule], Tried]) -> tuple[Schedule, Tried]:
-    """The schedule without whatever it fails without, one thing after the other, and what it then comes to."""
+def shrunk(
+    failing: ScheduleResult, schedule: Schedule, fails: Callable[[Schedule], ScheduleResult]
+) -> tuple[Schedule, ScheduleResult]:
+    """Shrink a failing schedule by removing one event at a time while it still fails."""
     for fewer in schedule.without():
         tried = fails(fewer)
         if tried.names & failing.names:

@@ -11,7 +11,7 @@ from handeye.runs.setup import Setup
 from handeye.tasks.interface import AnyTask
 from handeye.trials.chaos.schedule import Schedule, draw, parse_schedule
 from handeye.trials.chaos.sound_run import SoundRun, sound_run
-from handeye.trials.chaos.trial import Tried, shrunk, try_schedule
+from handeye.trials.chaos.trial import ScheduleResult, shrunk, try_schedule
 from handeye.trials.sweep import Case, Sweep, TrialRow
 from handeye.trials.workers import in_processes
 
@@ -21,9 +21,9 @@ LEVELS: Final[tuple[Level, ...]] = ("nominal", "low", "high")
 class ChaosRow(TrialRow, frozen=True, kw_only=True):
     """One schedule, which is the condition, tried."""
 
-    drawn: Tried | None = None
-    """What it came to; None: it broke off."""
-    shrunk: Tried | None = None
+    drawn: ScheduleResult | None = None
+    """Its result; None: it broke off."""
+    shrunk: ScheduleResult | None = None
     """The same with the fewest things with which it still fails; None: it does not fail."""
 
     @property

@@ -26,7 +26,7 @@ class SearchEnd(Record, frozen=True, kw_only=True):
     at: str
     """The position that it is around."""
     places: int
-    """Tried, the first included."""
+    """ScheduleResult, the first included."""
     found: bool
     """It did not come to its last place in vain."""
 

@@ -15,7 +15,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
-from handeye.trials.assembly import Finished
+from handeye.trials.assembly import FinishedRun
 from handeye.trials.plans.distributions import margin_details
 from handeye.trials.plans.row import APART, Row
 from handeye.trials.plans.trial import Trial, Watch, facts
@@ -41,7 +41,7 @@ class DismantlingTrial(Trial):
         if built:
             runner.order_reversal(0, halts=True)
             pause = advance(runner)
-        done = Finished(result=finished(runner, pause, Meter(timer=timer), judged=True), runner=runner)
+        done = FinishedRun(result=finished(runner, pause, Meter(timer=timer), judged=True), runner=runner)
         ended = "not built" if not built and watch.ended == "ended" else watch.ended
         met = [event.force for event in runner.events if isinstance(event, UndoFinished)]
         return facts(done, ended) | {"force": max(met, default=None)}

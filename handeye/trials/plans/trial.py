@@ -18,7 +18,7 @@ from handeye.runs.observer import Observer
 from handeye.runs.operator import NOBODY, parse_policy
 from handeye.runs.runner import Runner
 from handeye.tasks import task
-from handeye.trials.assembly import Finished, run_plan
+from handeye.trials.assembly import FinishedRun, run_plan
 from handeye.trials.folder import Head, head_of
 from handeye.trials.plans.contacts import contacts, searches
 from handeye.trials.plans.row import Row
@@ -96,7 +96,7 @@ def events_digest(events: list[AnyEvent]) -> str:
     return digest.hexdigest()[:16]
 
 
-def facts(done: Finished, ended: Ended) -> dict[str, object]:
+def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
     """What a row tells of any run."""
     steps = [event for event in done.runner.events if isinstance(event, StepStarted)]
     return {
