@@ -1,6 +1,7 @@
 """Plans: what a script makes the arm do, as a value that shows itself."""
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -9,11 +10,11 @@ from typing import Final
 from handeye import tasks
 from handeye.api.diagnostic import Diagnostic, ScriptError
 from handeye.api.flow import FlowDrawing, flow_drawing
-from handeye.api.plan_page import plan_page
 from handeye.core.arguments import given_file, given_place
 from handeye.core.diagnostics import has_errors, quoted
 from handeye.core.errors import BadArgument, BadFile
 from handeye.core.files import read_whole
+from handeye.core.notebook import bar, frame, heading, page, svg, table
 from handeye.core.plain_text import counted
 from handeye.core.source import Source
 from handeye.inspection.inspection import InspectedStage, InspectedStep, Inspection, inspection
@@ -22,6 +23,24 @@ from handeye.planfile.store import decode, plan_digest, write_plan
 from handeye.program.stage_names import stage_index
 from handeye.program.taught import Taught, load_taught, read_taught
 from handeye.runs.scripts import plan_script, plan_text, program_named
+
+
+def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic], flow: FlowDrawing | None) -> str:
+    """The stages of a plan with the time that each takes, what is doubtful about its script, and its flow."""
+    longest = max((stage.seconds for stage in found.stages), default=0.0) or 1.0
+    steps = sum(len(stage.steps) for stage in found.stages)
+    said = (
+        f"{found.name}: {counted(len(found.stages), 'stage')}, {counted(steps, 'step')}, "
+        f"{counted(found.motions, 'motion')} of the {found.arm} arm, {found.seconds:.1f} s planned"
+    )
+    rows = [
+        (each.number, each.name, len(each.steps), each.seconds, bar(each.seconds / longest))
+        for each in found.stages
+    ]
+    shown = table(("", "stage", "steps", "motion, s", ""), rows)
+    drawn = () if flow is None else (svg(flow.svg, flow.about),)
+    return page(heading(said), shown, *(frame(str(each)) for each in diagnostics), *drawn)
+
 
 DRAWN: Final = 30
 """Steps of a plan up to which a notebook shows its flow with it; of a longer one it shows `flow(stage)`."""

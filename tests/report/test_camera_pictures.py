@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from handeye.report.page.png import picture_png
+from handeye.report.page.seen import picture_png
 
 
 @pytest.mark.parametrize("columns", [6, 333])

@@ -1,17 +1,49 @@
 """What the camera saw: each picture as it was, with what was found in it drawn over it."""
 
+import struct
+import zlib
 from collections.abc import Iterator, Sequence
+from typing import Final
+
+import numpy as np
 
 from handeye.core.markup import Markup, data_address, element, note, section, to_moment
 from handeye.core.plain_text import counted
 from handeye.core.units import MILLIMETRE
+from handeye.ports.camera import Picture
 from handeye.program.diagnosis.cause_text import error_sentence
 from handeye.program.events import ErrorRaised
 from handeye.report.facts.seen import Finding, SeenPicture
 from handeye.report.page.figures import clock
-from handeye.report.page.png import picture_png
 from handeye.trace.sentences import sentence
 from handeye.vision.marks import Colour, Disc, Line, Loop, Mark
+
+_BEGIN: Final = b"\x89PNG\r\n\x1a\n"
+_GREY: Final = 0
+_BITS: Final = 4
+
+
+def picture_png(picture: Picture) -> bytes:
+    """A picture as a PNG file: grey, four bits a point, each level as it was."""
+    height, width = picture.shape
+    head = struct.pack(">IIBBBBB", width, height, _BITS, _GREY, 0, 0, 0)
+    return (
+        _BEGIN
+        + _chunk(b"IHDR", head)
+        + _chunk(b"IDAT", zlib.compress(_lines(picture), 9))
+        + _chunk(b"IEND", b"")
+    )
+
+
+def _lines(picture: Picture) -> bytes:
+    """The lines of a picture, two points a byte, each line behind the number of its filter: none."""
+    even = np.pad(picture, ((0, 0), (0, picture.shape[1] % 2)))
+    packed = (even[:, ::2] << 4 | even[:, 1::2]).astype(np.uint8)
+    return np.pad(packed, ((0, 0), (1, 0))).tobytes()
+
+
+def _chunk(name: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
 
 
 def seen_section(pictures: Sequence[SeenPicture], *, lost: int) -> Markup:

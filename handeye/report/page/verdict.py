@@ -1,22 +1,42 @@
-"""The head of the page: what the run came to, and, if it failed, why, at which line, and what the senses said."""
+"""The head of the page: verdict and figures and, if it failed, why, at which line, and what the senses said."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from handeye.core.markup import Markup, element, note
 from handeye.core.plain_text import counted
+from handeye.program import events as happened
 from handeye.program.events import StepStarted
 from handeye.report.facts.faults import told_faults
 from handeye.report.facts.outcome import Outcome
 from handeye.report.facts.told import Told
 from handeye.report.page.failure import where, why
 from handeye.report.page.figures import clock, duration
-from handeye.report.page.in_figures import in_figures
 from handeye.report.page.photograph import shown
 from handeye.report.page.referee import used
 from handeye.report.page.title import title
 from handeye.report.photographs import Photograph
 from handeye.report.recorded import Recorded
 from handeye.tasks import known
+
+
+def in_figures(run: Recorded) -> Iterator[Markup]:
+    """The figures as a list; of what there was none, nothing is said."""
+    told = [(count, what) for count, what in _figures(run) if count]
+    rows = (element("div", element("dd", str(count)), element("dt", what)) for count, what in told)
+    if told:
+        yield element("dl", *rows, class_="in-figures")
+
+
+def _figures(run: Recorded) -> Iterator[tuple[int, str]]:
+    kinds = Counter(type(event) for event in run.trace.events)
+    yield kinds[happened.PictureTaken], "pictures taken"
+    yield kinds[happened.GuardTripped], "motions ended by what the hand felt"
+    yield kinds[happened.Adjusted], "goals moved by what was sensed"
+    yield kinds[happened.SearchAdvanced], "further places tried in searches"
+    yield kinds[happened.ErrorTested], "times the program tested for an error"
+    if run.result is not None and run.result.referee:
+        yield sum(check.ok for check in run.result.referee.values()), "findings of the referee right"
 
 
 def verdict(run: Recorded, outcome: Outcome, told: Sequence[Told], photograph: Photograph) -> Markup:

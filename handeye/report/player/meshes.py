@@ -9,9 +9,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.core.pose import Array
-from handeye.report.player.coarse import CELLS, coarsened
 from handeye.report.player.packing import columns, octahedral, quantised, rounded, zigzag
-from handeye.report.player.surfaces import Surface
+from handeye.report.player.surfaces import Surface, creased
+
+CELLS: Final = 14
+"""Along the longest side of a body: what lies in one cell becomes one point."""
+
+
+def coarsened(surface: Surface, cell: float) -> Surface:
+    """A surface whose points within a cell (m) of a grid are one, and what is left of its triangles."""
+    places = np.floor((surface.points - surface.points.min(axis=0)) / cell + 0.5)
+    _, number = np.unique(places, axis=0, return_inverse=True)
+    number = number.reshape(-1)
+    count = np.bincount(number)
+    points = np.column_stack([np.bincount(number, column) / count for column in surface.points.T])
+    triangles = number[surface.triangles]
+    a, b, c = triangles.T
+    return creased(points, triangles[(a != b) & (b != c) & (c != a)])
+
 
 FINE: Final = 200
 """Triangles from which on a body has a coarser surface as well."""

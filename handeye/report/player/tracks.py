@@ -1,15 +1,67 @@
 """What a page needs to show where every body was: their tracks, and the clock."""
 
 from collections.abc import Iterable, Mapping
-from typing import Any, Final
+from dataclasses import dataclass
+from typing import Any, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.core.polyline import Rows, needed_rows, off_poses, smooth
 from handeye.core.pose import Array
 from handeye.report.player.packing import columns, packed, quantised, rounded, zigzag
-from handeye.report.player.track import Track
 from handeye.trace.messages import Poses
+
+PLACE: Final = 1.5e-4
+"""How far a body may be from where it was, m, before numbers are rounded."""
+TURN: Final = 2e-3
+"""How far it may be turned, rad."""
+_STILL: Final = 1e-6
+"""What is no movement: m, and parts of a quaternion."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Track:
+    """Some poses of a body; where it was in between lies on the straight way from one to the next."""
+
+    spans: tuple[tuple[int, int, int], ...]
+    """Servo periods from which and to which (exclusive) it is there, and how many of the poses are of them."""
+    periods: NDArray[np.int64]
+    """Servo periods of the poses, shape (n,)."""
+    poses: Array
+    """Shape (n, 7): place (m), then a unit quaternion w, x, y, z, each as near to the one before as it can be."""
+
+    @classmethod
+    def of(cls, poses: NDArray[np.floating[Any]], lowest: float) -> Self | None:
+        """The track of a body from its poses in all servo periods, shape (m, 7); None if it is never there.
+
+        Args:
+            lowest: height below which a body is put away and not there, m. NaN is not there either.
+        """
+        there = poses[:, 2] >= lowest
+        edges = np.flatnonzero(np.diff(there, prepend=False, append=False)).reshape(-1, 2).tolist()
+        if not edges:
+            return None
+        parts = [smooth(poses[first:after]) for first, after in edges]
+        kept = [_needed(part) for part in parts]
+        return cls(
+            spans=tuple((first, after, len(rows)) for (first, after), rows in zip(edges, kept, strict=True)),
+            periods=np.concatenate([first + rows for (first, _), rows in zip(edges, kept, strict=True)]),
+            poses=np.concatenate([part[rows] for part, rows in zip(parts, kept, strict=True)]),
+        )
+
+    def still(self, count: int) -> bool:
+        """It is there in all of so many servo periods, and nothing moves it."""
+        return self.spans == ((0, count, 1),)
+
+
+def _needed(poses: Array) -> Rows:
+    """The rows between which all others lie near enough."""
+    if np.ptp(poses, axis=0).max() < _STILL:
+        return np.zeros(1, dtype=np.int64)
+    numbers = np.arange(len(poses), dtype=np.float64)
+    return needed_rows(off_poses(poses, numbers, place=PLACE, turn=TURN), [0, len(poses) - 1])
+
 
 UNIT: Final = 0x1FFF
 """What 1 is in a quaternion: it turns by .01 degrees at most when it is rounded. The script knows it too."""
