@@ -70,10 +70,10 @@ def hand_message(period: ServoPeriod) -> bytes:
         estimated=felt is not None,
         force=UNSET if felt is None else _axes(felt[:3]),
         moment=UNSET if felt is None or not felt[3:].size else _axes(felt[3:]),
-        gap=_rounded(sensed.gap),
+        gap=rounded(sensed.gap),
         finger_1=sensed.touch[0],
         finger_2=sensed.touch[1],
-        driver_torque=_rounded(sensed.tool_torque),
+        driver_torque=rounded(sensed.tool_torque),
         guards=tuple(map(_guard, period.guards)),
     )
     return _encoder.encode(message)
@@ -109,13 +109,14 @@ def _in_place(schema: Any, defined: dict[str, Any]) -> Any:
 
 def _guard(active: ActiveGuard) -> GuardMessage:
     axis = UNSET if active.axis is None else _axes(active.axis)
-    return GuardMessage(guard=active.guard, limit=_rounded(active.limit), axis=axis)
+    return GuardMessage(guard=active.guard, limit=rounded(active.limit), axis=axis)
 
 
 def _axes(vector: Array) -> Axes:
     x, y, z = vector.tolist()
-    return Axes(x=_rounded(x), y=_rounded(y), z=_rounded(z))
+    return Axes(x=rounded(x), y=rounded(y), z=rounded(z))
 
 
-def _rounded(value: float) -> float:
+def rounded(value: float) -> float:
+    """A figure to `PLACES` decimal places."""
     return round(value, PLACES) + 0.0  # no negative zero

@@ -7,7 +7,7 @@ import msgspec
 from handeye.core.record import Record
 from handeye.ports.axes import Channel
 from handeye.ports.workcell import Sensed
-from handeye.trace.hand_message import in_one_piece
+from handeye.trace.hand_message import in_one_piece, rounded
 
 
 class ChannelValues(Channel, frozen=True, kw_only=True, omit_defaults=True):
@@ -29,7 +29,7 @@ _decoder: Final = msgspec.json.Decoder(ChannelsMessage)
 def channels_message(sensed: Sensed) -> bytes:
     """The message for a servo period."""
     told = [
-        ChannelValues(**msgspec.structs.asdict(channel), values=values)
+        ChannelValues(**msgspec.structs.asdict(channel), values=tuple(map(rounded, values)))
         for channel, values in sensed.channels.items()
     ]
     return _encoder.encode(ChannelsMessage(channels=tuple(told)))
