@@ -160,8 +160,8 @@ def test_an_import_by_a_name_made_at_run_time_is_seen(sneaky: str) -> None:
 
 
 def test_a_planted_upward_import_is_seen() -> None:
-    planted = owned(imports("from handeye.cli import app", "trace.events_read"))
-    assert upwards("trace.events_read", planted) == {"cli.__init__"}
+    planted = owned(imports("from handeye.cli import app", "trace.eventlist"))
+    assert upwards("trace.eventlist", planted) == {"cli.__init__"}
 
 
 def test_modules_named_at_run_time_are_those_listed() -> None:
