@@ -1,12 +1,14 @@
 """The referee of the bench of blocks, on poses that are made up: each finding refuses what it is about, no more."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from handeye.core.pose import Pose, pose
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.judge.finding import Findings, all_right
 from handeye.systems.trig.jobs.referee import (
     judge_back,
@@ -95,9 +97,22 @@ def test_bucket_hand_and_program(findings: Callable[[], Findings], names: set[st
 
 
 def test_a_world_without_a_seed_has_no_error_and_equal_seeds_have_equal_ones() -> None:
-    nominal, one, same, other = BlocksWorld(), BlocksWorld(1), BlocksWorld(1), BlocksWorld(2)
+    nominal, one, same, other = (
+        BlocksWorld(spec) for spec in (None, WorldSpec(seed=1), WorldSpec(seed=1), WorldSpec(seed=2))
+    )
     q = np.full(6, 0.1)
     assert (nominal.slip(3), nominal.friction, nominal.bending(q).any()) == (0.0, 0.4, False)
     assert (one.slip(3), one.friction) == (same.slip(3), same.friction) != (other.slip(3), other.friction)
     assert one.bending(q) == pytest.approx(same.bending(q), abs=0)
     assert max(abs(one.slip(number)) for number in range(1000)) == pytest.approx(0.0006)
+
+
+def test_errors_of_a_world_are_scaled_switched_off_and_set_without_changing_others() -> None:
+    def world(**changed: Any) -> BlocksWorld:
+        return BlocksWorld(WorldSpec(seed=1, **changed))
+
+    nominal, high, sure = world(), world(level="high"), world(overrides=Overrides(without=("taught",)))
+    wide = world(overrides=Overrides(set={"taught": 0.001}))
+    assert high.slip(3) == pytest.approx(2 * nominal.slip(3))
+    assert wide.slip(3) == pytest.approx(nominal.slip(3) / 0.3)
+    assert (sure.slip(3), sure.friction, high.friction) == (0.0, nominal.friction, nominal.friction)

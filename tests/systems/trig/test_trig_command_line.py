@@ -128,7 +128,10 @@ def test_a_job_that_is_right_is_told_and_kept(command: Command) -> None:
 @pytest.mark.usefixtures("low")
 def test_kept_jobs_are_compared_in_their_units_and_filmed(command: Command) -> None:
     for seed in ("3", "4"):
-        assert command("trig", "palletise", "--blocks", "0", "--seed", seed, "--out", seed)[0] == 0
+        words = ("--blocks", "0", "--seed", seed, "--without", "stack.place", "--out", seed)
+        assert command("trig", "palletise", *words)[0] == 0
+    page = Path("3/report.html").read_text(encoding="utf-8")
+    assert "in the world of seed 3, without stack.place, with 0 blocks" in page
     code, out, _ = command("compare", "3", "4")
     assert (code, "in B" in out) == (0, True)
     assert "place x of body cross_slide: A 150.490 mm, B 149.990 mm" in out

@@ -244,7 +244,7 @@ def test_the_script_of_a_job_touches_no_file_on_the_bench_either(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     with pytest.raises(InvalidInput, match="reads and writes no files"):
-        open_job("bucket", 0, "W stolen").teach(lambda: False)
+        open_job("bucket", WorldSpec(seed=0), "W stolen").teach(lambda: False)
     assert not [*tmp_path.iterdir()]
 
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import msgspec
 from trig_sessions import PALLETISE, typed
 
+from handeye.core.variation import WorldSpec
 from handeye.ports.clock import Clock
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -74,7 +75,7 @@ def low_job(blocks: int, seed: int) -> Runner:
 
 def low_setup(blocks: int, seed: int) -> Checkpoint:
     """A run of it that has not begun."""
-    start = setup_of_job("palletise", seed, blocks)
+    start = setup_of_job("palletise", WorldSpec(seed=seed), blocks)
     plan = TaughtPlan(job="palletise", script=low_script(blocks))
     return msgspec.structs.replace(start, setup=msgspec.structs.replace(start.setup, plan=plan))
 

@@ -12,10 +12,11 @@ from rich.status import Status
 from handeye.cli.common import Json, WholeNumber, complain, note, notes, put_json, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.videos import drawing
+from handeye.cli.world_options import ANY_ERRORS, ErrorOptions
 from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
-from handeye.core.variation import checked_seed
+from handeye.core.variation import WorldSpec
 from handeye.program.events import AnyEvent, StepStarted, UndoStarted
 from handeye.runs.observer import Observer
 
@@ -72,6 +73,7 @@ def palletise(
     *,
     blocks: Annotated[WholeNumber, Parameter(help="In the stack, 0 to 20; the pallet takes 15.")] = 20,
     seed: Seed = 0,
+    errors: ErrorOptions = ANY_ERRORS,
     json: Json = False,
     kept: KeptOptions = NOTHING,
 ) -> int:
@@ -87,10 +89,12 @@ def palletise(
 
     if not 0 <= blocks <= MOST_BLOCKS:
         raise BadArgument(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
-    return _work("palletise", checked_seed(seed), blocks, kept, json=json)
+    return _work("palletise", errors.of("palletise").spec(seed), blocks, kept, json=json)
 
 
-def bucket(*, seed: Seed = 0, json: Json = False, kept: KeptOptions = NOTHING) -> int:
+def bucket(
+    *, seed: Seed = 0, errors: ErrorOptions = ANY_ERRORS, json: Json = False, kept: KeptOptions = NOTHING
+) -> int:
     """Drop a block into a bucket, and put another one in its place: the paper's first example, with physics.
 
     It is taught and run in a drawn world, and a referee looks. It is not run backwards: what lies in a bucket cannot be
@@ -99,15 +103,15 @@ def bucket(*, seed: Seed = 0, json: Json = False, kept: KeptOptions = NOTHING) -
     Exit code 0: done and right; 1: the arm has stopped before; 3: done, and the referee disagrees; 2: bad input;
     130: interrupted.
     """
-    return _work("bucket", checked_seed(seed), None, kept, json=json)
+    return _work("bucket", errors.of("bucket").spec(seed), None, kept, json=json)
 
 
-def _work(name: "JobName", seed: int, blocks: int | None, kept: KeptOptions, *, json: bool) -> int:
+def _work(name: "JobName", world: WorldSpec, blocks: int | None, kept: KeptOptions, *, json: bool) -> int:
     from handeye.runs.folder import open_new
     from handeye.systems.trig.run.job import setup_of_job
     from handeye.systems.trig.run.job_video import JobVideo
 
-    start = setup_of_job(name, seed, blocks)
+    start = setup_of_job(name, world, blocks)
     _check_apart(kept)
     video = None if kept.video is None else JobVideo(kept.video, overwrite=kept.overwrite)
     folder = None if kept.out is None else open_new(kept.out, start, overwrite=kept.overwrite)

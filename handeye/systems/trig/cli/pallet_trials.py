@@ -1,13 +1,14 @@
 """The command for palletising trials."""
 
+import shlex
 from typing import Annotated
 
 from cyclopts import Parameter
 
 from handeye.cli.common import WholeNumber, positive
 from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
+from handeye.cli.world_options import ANY_ERRORS, ErrorOptions
 from handeye.core.errors import BadArgument
-from handeye.core.variation import WorldSpec, checked_seed
 
 
 def pallet_trials(
@@ -20,6 +21,7 @@ def pallet_trials(
     interrupt: Annotated[
         bool, Parameter(help="Break each run off after a drawn number of steps, and undo it from there.")
     ] = False,
+    errors: ErrorOptions = ANY_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
     """Palletise in many worlds, and take everything back: how often it comes out right, and how far off blocks are.
@@ -40,12 +42,14 @@ def pallet_trials(
     if not 0 <= blocks <= MOST_BLOCKS:
         raise BadArgument(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
     settings = {"blocks": str(blocks), "whether runs are broken off": "yes" if interrupt else "no"}
-    broken = " --interrupt" if interrupt else ""
+    world = errors.of("palletise").spec(seed)
+    words = shlex.join(errors.words())
+    broken = f"{' --interrupt' if interrupt else ''}{' ' + words if words else ''}"
     return carry_out_sweep(
         PALLET,
-        PalletWork(blocks=blocks, interrupt=interrupt),
-        cases(checked_seed(seed), range(n)),
-        head_of(PALLET, WorldSpec(seed=seed), settings=settings),
+        PalletWork(blocks=blocks, interrupt=interrupt, world=world),
+        cases(seed, range(n)),
+        head_of(PALLET, world, settings=settings),
         options,
         title=f"the palletiser with {blocks} blocks, in worlds from seed {seed} on",
         again=lambda row: f"handeye trials pallet --n 1 --seed {row.seed} --blocks {blocks}{broken}",

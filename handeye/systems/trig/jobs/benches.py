@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from handeye.cell.bench import Bench
     from handeye.cell.photograph import Photograph
     from handeye.cell.snapshot_cell import SnapshotCell
+    from handeye.core.variation import WorldSpec
     from handeye.judge.finding import Findings
     from handeye.ports.axes import Axes
     from handeye.systems.trig.language.axes_arm import AxesArm
@@ -150,9 +151,9 @@ def job_script(name: JobName, blocks: int = MOST_BLOCKS) -> str:
     return script_of(name, blocks)
 
 
-def open_job(name: JobName, seed: int | None, script: str) -> TaughtJob:
-    """A job in the world of a seed, or without errors if None, with nothing typed yet."""
+def open_job(name: JobName, world: "WorldSpec | None", script: str) -> TaughtJob:
+    """A job in a world, or without errors if None, with nothing typed yet."""
     from handeye.systems.trig.jobs.jobs import BucketJob, PalletJob
     from handeye.systems.trig.jobs.world import BlocksWorld
 
-    return {"palletise": PalletJob, "bucket": BucketJob}[name](script, BlocksWorld(seed))
+    return {"palletise": PalletJob, "bucket": BucketJob}[name](script, BlocksWorld(world))

@@ -17,7 +17,7 @@ from handeye.systems.trig.jobs.benches import read_taught_plan
 from handeye.systems.trig.jobs.referee import judge_back, judge_dropped, judge_hand, judge_placed
 from handeye.systems.trig.jobs.table import BlockTable
 from handeye.systems.trig.jobs.witness import SEEN, InitialScene, ObservedScene, stands
-from handeye.systems.trig.jobs.world import BlocksWorld
+from handeye.systems.trig.jobs.world import VARIATION, BlocksWorld
 from handeye.systems.trig.language.hearing import stripped
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.tabletop import MARK, arrange
@@ -46,14 +46,13 @@ class _BlocksTask(AnyTask):
         return {spec.name: spec.kind for spec in PURBRICK.axes}
 
     def variation(self, seed: int) -> Variation:
-        """Empty: worlds of these tasks depend on their seed alone (`systems/trig/jobs/world.py`)."""
-        return Variation()
+        return VARIATION
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        return BlockTable(BlocksWorld(spec.seed)).bench.model
+        return BlockTable(BlocksWorld(spec)).bench.model
 
     def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
-        table = BlockTable(BlocksWorld(spec.seed))
+        table = BlockTable(BlocksWorld(spec))
         lay(table, read_taught_plan(plan, "the plan of the run").script)
         return table.bench.model
 
@@ -77,7 +76,7 @@ class Pallet(_BlocksTask):
     def judge_apart(self, truth: Truth) -> Findings:
         seen = initial_scene(truth)
         stood = stands(truth.data, seen.blocks)
-        back = judge_hand(np.array(stood.hand), np.array(seen.hand), "initial_scene")
+        back = judge_hand(np.array(stood.hand), np.array(seen.hand), "began")
         return {**judge_back(seen.poses, stood.poses), "hand": back}
 
     def places(self, seen: InitialScene) -> list[Place]:

@@ -6,38 +6,56 @@ from typing import Final
 
 import numpy as np
 
+from handeye.core.distributions import Distribution, Noise, Range
 from handeye.core.pose import Array
 from handeye.core.random_streams import random_numbers
-from handeye.core.units import DEGREE, MILLIMETRE
+from handeye.core.variation import Quantity, Variation, WorldSpec
 
-TAUGHT: Final = 0.3 * MILLIMETRE
-"""Sigma of an axis driven with the teach box. Chosen."""
-STACKED: Final = 0.3 * MILLIMETRE
-"""Sigma of a stack's position along X and Y. Chosen: against a mark."""
-ALIGNED: Final = 0.1 * MILLIMETRE
-"""Sigma of a block's position in its stack along X and Y. Chosen."""
-TURNED: Final = 0.2 * DEGREE
-"""Sigma of a block's yaw in its stack: as much as ALIGNED over its length."""
-FRICTION: Final = (0.3, 0.5)
-"""Range of friction of blocks and platter; .4 in the world without errors. Chosen: dry aluminium."""
-SCALES: Final = (*3 * (0.05 * MILLIMETRE,), *3 * (2e-4,))
-"""m and rad: sigma of the amplitude of a potentiometer's nonlinearity. Chosen."""
-_WAVE: Final = (*3 * (0.1,), *3 * (1.0,))  # m and rad, its period
+TAUGHT: Final = "taught"
+STACKED: Final = "stack.place"
+ALIGNED: Final = "block.place"
+TURNED: Final = "block.turn"
+FRICTION: Final = "blocks.friction"
+SLIDES: Final = "axes.slide"
+TURNS: Final = "axes.turn"
+
+
+def _quantity(name: str, unit: str, distribution: Distribution, most: float, source: str) -> Quantity:
+    nominal = 0.4 if name == FRICTION else 0.0
+    return Quantity(
+        name=name, unit=unit, distribution=distribution, nominal=nominal, limits=(0.0, most), source=source
+    )
+
+
+VARIATION: Final = Variation(
+    _quantity(TAUGHT, "mm", Noise(0.3), 5.0, "Sigma of an axis driven with the teach box. Chosen."),
+    _quantity(STACKED, "mm", Noise(0.3), 5.0, "Sigma of a stack along X and Y. Chosen: against a mark."),
+    _quantity(ALIGNED, "mm", Noise(0.1), 5.0, "Sigma of a block in its stack along X and Y. Chosen."),
+    _quantity(TURNED, "deg", Noise(0.2), 10.0, "Sigma of a block's yaw in its stack. Chosen."),
+    _quantity(FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of blocks and platter. Chosen: dry aluminium."),
+    _quantity(SLIDES, "mm", Noise(0.05), 5.0, "Sigma of how far sliding potentiometers bend. Chosen."),
+    _quantity(TURNS, "rad", Noise(2e-4), 0.1, "Sigma of how far turning potentiometers bend. Chosen."),
+)
+"""Quantities of the bench: sigmas of errors, of which each has a stream of its own, and the friction."""
+_WAVE: Final = (*3 * (0.1,), *3 * (1.0,))  # m and rad, period of a potentiometer's error
 _MAX_SIGMAS: Final = 2.0  # larger errors are corrected by people
 
 
 @dataclass(frozen=True, slots=True)
 class BlocksWorld:
-    """A world, without errors if it has no seed. Each number has a stream of its own, by name."""
+    """A world, without errors if it has no specification. Each number has a stream of its own, by name."""
 
-    seed: int | None = None
+    spec: WorldSpec | None = None
 
-    def normal(self, name: str, sigma: float) -> float:
-        """A normal number by name, clipped at two sigma."""
-        if self.seed is None:
-            return 0.0
-        drawn = float(random_numbers(self.seed, f"blocks.{name}").standard_normal())
-        return sigma * min(max(drawn, -_MAX_SIGMAS), _MAX_SIGMAS)
+    def normal(self, name: str, quantity: str) -> float:
+        """A normal number by name, its sigma a quantity of the world, clipped at two sigma."""
+        return 0.0 if self.spec is None else VARIATION.value(quantity, self.spec) * self._drawn(name)
+
+    def _drawn(self, name: str) -> float:
+        """A standard normal number by name, clipped."""
+        assert self.spec is not None
+        drawn = float(random_numbers(self.spec.seed, f"blocks.{name}").standard_normal())
+        return min(max(drawn, -_MAX_SIGMAS), _MAX_SIGMAS)
 
     def slip(self, number: int) -> float:
         """Teaching error (m) of an axis drive, by its number from 0."""
@@ -46,17 +64,19 @@ class BlocksWorld:
     @property
     def friction(self) -> float:
         """Friction of blocks and platter."""
-        if self.seed is None:
-            return sum(FRICTION) / 2
-        return float(random_numbers(self.seed, "blocks.friction").uniform(*FRICTION))
+        return (
+            VARIATION.quantities[FRICTION].nominal
+            if self.spec is None
+            else VARIATION.value(FRICTION, self.spec)
+        )
 
     @property
     def bending(self) -> Callable[[Array], Array]:
         """Errors (m, rad) of the six potentiometers as a function of their readings."""
-        if self.seed is None:
+        if self.spec is None:
             return np.zeros_like
-        axes = range(len(SCALES))
-        amplitudes = np.array([self.normal(f"scale.{axis}", SCALES[axis]) for axis in axes])
-        phases = np.array([self.normal(f"scale.{axis}.phase", np.pi) for axis in axes])
+        sigmas = [*3 * (SLIDES,), *3 * (TURNS,)]
+        amplitudes = np.array([self.normal(f"scale.{axis}", sigma) for axis, sigma in enumerate(sigmas)])
+        phases = np.array([np.pi * self._drawn(f"scale.{axis}.phase") for axis in range(len(sigmas))])
         turns = 2 * np.pi / np.array(_WAVE)
         return lambda q: np.asarray(amplitudes * np.sin(turns * q + phases))

@@ -30,6 +30,7 @@ class JobReport(Record, frozen=True, kw_only=True):
 
     job: JobName
     seed: int  # of its world
+    world: str = ""  # its specification in words, where that is more than a seed
     blocks: int | None = None
     interrupted_after: int | None = None  # steps after which it was reversed
     outcome: Outcome
@@ -50,11 +51,15 @@ class JobReport(Record, frozen=True, kw_only=True):
         return tuple(check for check in (*self.checks.values(), *self.checks_back.values()) if check.refuses)
 
 
-def setup_of_job(name: JobName, seed: int, blocks: int | None) -> Checkpoint:
+def setup_of_job(name: JobName, world: WorldSpec, blocks: int | None) -> Checkpoint:
     """A new run of a job; `blocks` is the size of the palletiser's stack."""
     plan = TaughtPlan(job=name, script=job_script(name, blocks or 0))
-    setup = Setup(system=TAUGHT.name, plan=plan, world=WorldSpec(seed=seed), camera="auto", judged=True)
+    setup = Setup(system=TAUGHT.name, plan=plan, world=world, camera="auto", judged=True)
     return Checkpoint(setup=setup)
+
+
+def _told_world(world: WorldSpec) -> str:
+    return "" if world == WorldSpec(seed=world.seed) else str(world)
 
 
 def job_of(runner: Runner) -> RunningJob:
@@ -126,6 +131,7 @@ def account(runner: Runner, pause: Pause, result: Result, *, after: int | None =
     return JobReport(
         job=plan.job,
         seed=runner.setup.world.seed,
+        world=_told_world(runner.setup.world),
         blocks=job.stack,
         interrupted_after=after,
         outcome="halted" if pause.kind == "panic" else _OUTCOMES[result.exit_code],

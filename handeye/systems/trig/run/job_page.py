@@ -48,7 +48,7 @@ def job_page(done: JobReport, program: TrigProgram) -> bytes:
 
 def _facts(done: JobReport) -> str:
     blocks = "" if done.blocks is None else f", with {counted(done.blocks, 'block')}"
-    world = f"TRIG, on the Purbrick arm in the world of seed {done.seed}{blocks}"
+    world = f"TRIG, on the Purbrick arm in the world of {done.world or f'seed {done.seed}'}{blocks}"
     return f"{world}; {done.arm_s:,.0f} s of the arm’s clock, teaching included."
 
 

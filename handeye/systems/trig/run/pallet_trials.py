@@ -4,8 +4,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
+import msgspec
+
 from handeye.core.errors import PhysicsFailed, Refused
 from handeye.core.random_streams import random_numbers
+from handeye.core.variation import WorldSpec
 from handeye.runs.runner import Runner
 from handeye.systems.trig.run.job import JobReport, carried_out, setup_of_job
 from handeye.trials.sweep import Case, Sweep, TrialRow
@@ -48,18 +51,19 @@ class PalletWork:
 
     blocks: int
     interrupt: bool
+    world: WorldSpec
     """Reverse each run after a drawn number of steps."""
 
     def __call__(self, case: Case) -> list[PalletRow]:
         """Carry out one trial."""
-        report = tried(self.blocks, self.interrupt, case.seed)
+        report = tried(self.blocks, self.interrupt, case.seed, self.world)
         return [PalletRow(trial=case.trials[0], seed=case.seed, report=report)]
 
 
-def tried(blocks: int, interrupt: bool, seed: int) -> JobReport:
+def tried(blocks: int, interrupt: bool, seed: int, world: WorldSpec) -> JobReport:
     """One trial."""
     try:
-        runner = Runner(setup_of_job("palletise", seed, blocks))
+        runner = Runner(setup_of_job("palletise", msgspec.structs.replace(world, seed=seed), blocks))
     except (Refused, PhysicsFailed) as error:  # it cannot go where it is driven
         return JobReport(job="palletise", seed=seed, blocks=blocks, outcome="stopped", told=(str(error),))
     after = broken_off_after(seed, blocks) if interrupt else None

@@ -8,12 +8,12 @@ from typing import Any, Final
 import numpy as np
 
 from handeye.cell.snapshot_cell import SnapshotCell
+from handeye.core.entries import require
 from handeye.core.errors import BadFile, Refused
 from handeye.core.mutable_records import put_back
 from handeye.core.pose import Array
 from handeye.core.record import Vector3
 from handeye.core.units import MILLIMETRE
-from handeye.core.variation import WorldSpec
 from handeye.core.versions import versions
 from handeye.execution.servo import Halted
 from handeye.execution.servo_period import ServoPeriod
@@ -55,6 +55,7 @@ from handeye.systems.trig.language.position import is_named
 from handeye.systems.trig.language.script import Script
 from handeye.systems.trig.run.plan import TaughtStep, decode, encode, imagined, listing, text_now
 from handeye.systems.trig.run.state import Executed, TaughtState, Turn
+from handeye.tasks import any_task
 
 
 class RunningJob(RunningSystem):
@@ -66,7 +67,7 @@ class RunningJob(RunningSystem):
         self._setup, self._around, self._plan = setup, around, plan_of(setup)
         self._steps = listing(self._plan).steps
         self._numbers = listing(self._plan).numbers
-        self.job: TaughtJob = open_job(self._plan.job, setup.world.seed, self._plan.script)
+        self.job: TaughtJob = open_job(self._plan.job, setup.world, self._plan.script)
         self._state = TaughtState(at=0)
         self._laid = False
         self._sensed = sense_axes([self.job.axes])
@@ -401,9 +402,9 @@ class TaughtSystem(System):
 
     def check(self, setup: Setup) -> None:
         super().check(setup)
-        world = setup.world
-        if world != WorldSpec(seed=world.seed):
-            raise Refused(f"worlds of taught jobs are drawn by their seed alone, not as {world}")
+        if setup.world.faults:
+            require(self.name, "faults")
+        any_task(setup.task).variation(setup.world.seed).check(setup.world)
 
     def executed(self, plan: TaughtPlan, state: TaughtState) -> Sequence[Executed]:
         return state.executed(plan)
