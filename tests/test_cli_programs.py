@@ -95,3 +95,10 @@ def test_a_pin_that_was_put_in_is_put_back_into_its_holder(command: Command) -> 
 def test_what_a_task_does_not_have_is_told_and_no_traceback(command: Command, words: str, said: str) -> None:
     code, _, err = command(*words.split())
     assert (code, said in err) == (2 if said else 0, True)
+
+
+def test_a_script_of_the_name_wins_too_and_is_told(command: Command) -> None:
+    Path("insertion").write_text("OPEN 1\n", encoding="utf-8")
+    code, out, err = command("check", "insertion")
+    assert (code, out) == (0, "insertion: no errors\n")
+    assert err.startswith("insertion: taking this file, not the program of that name\n")

@@ -35,6 +35,7 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
     wanted = None if task_words is None else planned(named(task_words))
     program = None if given.is_file() else _program(given)
     if program is None:
+        _note_file(given)
         return given, wanted or task_of(given)
     file, work = program
     if wanted not in (None, work):
@@ -58,8 +59,7 @@ def plan_at(given: Path, task_words: str | None = None) -> Plan:
         raise BadArgument(
             f"{given} is a plan for the task {quoted(plan.task)}, not for {quoted(wanted.name)}; {_LEAVE_OUT}"
         )
-    if _is_name(given) and program_named(given.name) is not None:
-        note(f"{given}: taking this file, not the program of that name")
+    _note_file(given)
     return plan
 
 
@@ -89,6 +89,12 @@ def _program(given: Path) -> "tuple[Path, Task] | None":
         near = suggestion(given.name, program_names()) or "give a file"
         raise NoSuchName(f"{given}: there is no such file, and no program is called so; {near}")
     return found
+
+
+def _note_file(given: Path) -> None:
+    """Note that a file is taken and not the program of its name, if there is one."""
+    if _is_name(given) and given.is_file() and program_named(given.name) is not None:
+        note(f"{given}: taking this file, not the program of that name")
 
 
 def _is_name(given: Path) -> bool:

@@ -204,5 +204,5 @@ def test_the_commands_of_the_walk_are_answered_as_it_shows_and_their_trace_tells
     assert len(said) >= 10
     heard = "\n".join(transcript(stepper, said))
     assert as_recorded(heard, "\n".join(shown)).splitlines() == shown
-    told = list(account(stepper.hands.runner.events))
+    told = list(account(stepper.session.runner.events))
     assert all(stands(piece, told) for piece in pieces(of_command("trace show pump")))

@@ -68,7 +68,7 @@ def test_the_stepper_steps_goes_back_and_gives_the_same_events() -> None:
     stepped = Stepper(Runner(begin()))
     for line in ("step 3", "back 2", "until put it down", "back stage", "continue"):
         assert stepped.do(line).error is None, line
-    assert stepped.hands.runner.events == through.events
+    assert stepped.session.runner.events == through.events
 
 
 def test_a_checkpoint_on_disk_goes_on_to_the_same_end(tmp_path: Path) -> None:
