@@ -70,7 +70,7 @@ GROUPS: Final = {
         "Moment": "trace.replay.Moment",
         "Table": "trace.table.Table",
         "Video": "video.making.Video",
-        "handeye.compare": "api.comparing.compare",
+        "handeye.compare": "api.trace.compare",
         "handeye.Comparison": "comparison.comparison.Comparison",
         "First": "comparison.first.First",
         "QuantityDifference": "trace.quantities.QuantityDifference",

@@ -14,13 +14,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from handeye import tasks, trials, vision
     from handeye.api.begin import assemble, begin
-    from handeye.api.comparing import compare
     from handeye.api.diagnostic import Diagnostic, ScriptError
     from handeye.api.plans import Plan, plan
     from handeye.api.provided import demo, scripts
     from handeye.api.run import Run
     from handeye.api.state import State
-    from handeye.api.trace import Trace, open
+    from handeye.api.trace import Trace, compare, open
     from handeye.api.worlds import World
     from handeye.comparison.comparison import Comparison
     from handeye.core.errors import (
@@ -101,7 +100,7 @@ _HOMES = {
     "at_least": "handeye.judge.finding",
     "at_most": "handeye.judge.finding",
     "begin": "handeye.api.begin",
-    "compare": "handeye.api.comparing",
+    "compare": "handeye.api.trace",
     "demo": "handeye.api.provided",
     "open": "handeye.api.trace",
     "plan": "handeye.api.plans",

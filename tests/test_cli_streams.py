@@ -16,8 +16,8 @@ import pytest
 from cyclopts import App
 
 from handeye import cli
+from handeye.cli import STAND_INS
 from handeye.cli.common import notes, screen
-from handeye.cli.streams import STAND_INS
 from handeye.results.page import _MARK
 
 SCRIPT = """        STAGE   "insert the aligning pins"

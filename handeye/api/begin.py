@@ -7,8 +7,8 @@ from pathlib import Path
 
 from handeye.api.parts import Camera, limits_of, parts_of, referee_of
 from handeye.api.plans import FileName, Planned
-from handeye.api.run import Keeping, Place, Run
-from handeye.api.starts import Start, Wanted, start_of
+from handeye.api.run import Place, Run, RunEnding
+from handeye.api.starts import RunRequest, Start, start_of
 from handeye.api.worlds import World
 from handeye.core.arguments import given_file, given_place
 from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
@@ -86,7 +86,7 @@ def begin(
     """
     timer = HostTimer()
     parts, umpire, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
-    wanted = Wanted(
+    wanted = RunRequest(
         seed=seed,
         world=world,
         camera=camera if isinstance(camera, str) and camera != "auto" else None,
@@ -104,7 +104,7 @@ def begin(
     judged = start.state.setup.judged if judge is None else judge
     spent = None if start.folder is None else start.folder.spent
     meter = Meter(timer=timer, planning_cpu_s=start.planning_cpu_s, before=spent)
-    keeping = Keeping(folder=folder, judged=judged, referee=umpire, meter=meter)
+    keeping = RunEnding(folder=folder, judged=judged, referee=umpire, meter=meter)
     run = _built(start, parts, keeping)
     if number is not None:
         run.reach(number)
@@ -185,7 +185,7 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
         ) from None
 
 
-def _built(start: Start, parts: Parts, keeping: Keeping) -> Run:
+def _built(start: Start, parts: Parts, keeping: RunEnding) -> Run:
     """The run, ready for its first step.
 
     Raises:

@@ -11,11 +11,10 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.api.answer import Answer, answer
 from handeye.api.exporting import exported
 from handeye.api.plans import Plan
 from handeye.api.run_page import run_page
-from handeye.api.state import State, state_of
+from handeye.api.state import Answer, State, answer, state_of
 from handeye.api.trace import Trace
 from handeye.core.arguments import given_count, given_file, given_place
 from handeye.core.errors import BadArgument, Refused
@@ -51,7 +50,7 @@ Place = str | int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Keeping:
+class RunEnding:
     """What is done with a run when it ends."""
 
     folder: RunFolder | None
@@ -76,7 +75,7 @@ class Run:
     the operator is called: ...
     """
 
-    def __init__(self, stepper: Stepper, keeping: Keeping, why: str) -> None:
+    def __init__(self, stepper: Stepper, keeping: RunEnding, why: str) -> None:
         """Use `handeye.begin`."""
         self._stepper, self._session = stepper, stepper.session
         self._runner, self._keeping = stepper.session.runner, keeping

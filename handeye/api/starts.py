@@ -30,8 +30,8 @@ from handeye.runs.systems import listing_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Wanted:
-    """What somebody says of a run besides its plan; None: nothing."""
+class RunRequest:
+    """Run options that the caller set; None: unset."""
 
     seed: object
     world: object
@@ -80,7 +80,7 @@ class Start:
 
 def start_of(
     script: FileName | Planned | None,
-    wanted: Wanted,
+    wanted: RunRequest,
     *,
     stage: str | None,
     taught: FileName | None,
@@ -112,7 +112,7 @@ def _is_kept(given: FileName) -> bool:
     return bool(name) and "\n" not in name and (name.endswith(ENDING) or os.path.isdir(name))
 
 
-def _new(plan: Plan, wanted: Wanted) -> Checkpoint:
+def _new(plan: Plan, wanted: RunRequest) -> Checkpoint:
     """A run that has not begun.
 
     Raises:
@@ -129,7 +129,7 @@ def _new(plan: Plan, wanted: Wanted) -> Checkpoint:
     return Checkpoint(setup=setup)
 
 
-def _kept(given: FileName, at: str | None, wanted: Wanted) -> Checkpoint:
+def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
     """A state that was kept: that of a checkpoint, the newest of a folder, or the one nearest before a stage.
 
     Raises:
@@ -145,7 +145,7 @@ def _kept(given: FileName, at: str | None, wanted: Wanted) -> Checkpoint:
     return _with_parts(start, wanted)
 
 
-def _again(given: FileName, wanted: Wanted) -> Start:
+def _again(given: FileName, wanted: RunRequest) -> Start:
     """The folder of a run and its newest state, to go on in the same folder.
 
     Raises:
@@ -163,7 +163,7 @@ def _again(given: FileName, wanted: Wanted) -> Start:
     return Start(state=start, folder=folder)
 
 
-def _check_same(path: Path, begun: Setup, wanted: Wanted) -> None:
+def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
     """Raises InvalidInput unless a run carries out a plan, in the world and with the camera that are wanted."""
     require(begun.system, "python", str(path))
     if wanted.of_task not in (None, begun.task):
@@ -175,7 +175,7 @@ def _check_same(path: Path, begun: Setup, wanted: Wanted) -> None:
         raise Refused(f"the run in {path} has the camera `{begun.camera}`, not `{wanted.camera}`")
 
 
-def _with_parts(start: Checkpoint, wanted: Wanted) -> Checkpoint:
+def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
     """The same with parts of the caller's from here on: what is told of its beginning says so."""
     if not wanted.replaced and not wanted.judged and wanted.limits is None:
         return start
@@ -195,7 +195,7 @@ def _with_parts(start: Checkpoint, wanted: Wanted) -> Checkpoint:
     return msgspec.structs.replace(start, setup=_with_referee(changed, wanted), events=events)
 
 
-def _with_referee(setup: Setup, wanted: Wanted) -> Setup:
+def _with_referee(setup: Setup, wanted: RunRequest) -> Setup:
     """The same, judged by the caller's code or limits in the place of what judged it before."""
     if "referee" in wanted.replaced:
         return msgspec.structs.replace(setup, limits={})

@@ -8,6 +8,8 @@ import numpy as np
 from handeye.core.plain_text import counted, one_line
 from handeye.core.pose import Array, Pose
 from handeye.core.source import line_name
+from handeye.debugger.formatting import as_text
+from handeye.debugger.reply import Reply
 from handeye.runs.runner import Runner
 
 
@@ -128,3 +130,16 @@ def _kept(values: Array) -> Array:
     copy = np.array(values)
     copy.flags.writeable = False
     return copy
+
+
+class Answer(Reply, frozen=True, kw_only=True):
+    """A reply of the stepper; `print` shows it as the stepper does."""
+
+    def __str__(self) -> str:
+        """The answer for people, as lines of text."""
+        return as_text(self)
+
+
+def answer(reply: Reply) -> Answer:
+    """A reply that prints itself."""
+    return Answer(**{field: getattr(reply, field) for field in reply.__struct_fields__})

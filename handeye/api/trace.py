@@ -8,11 +8,15 @@
 
 import os
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from handeye.comparison.comparison import Comparison, comparison
 from handeye.core.arguments import given_file
 from handeye.core.errors import CannotWrite, InvalidInput, Taken
 from handeye.core.notebook import inked, line, page, sandbox
+from handeye.report.recorded import RecordedRun
+from handeye.results.recorded_run import recorded_run
 from handeye.runs.folder import TRACE
 from handeye.trace import trace as recorded
 from handeye.trace.reading import read_trace_as
@@ -67,9 +71,9 @@ class Trace(recorded.Trace):
         """
         from handeye.core.arguments import given_file
         from handeye.video.making import make_video
-        from handeye.video.wanted import Wanted
+        from handeye.video.request import VideoRequest
 
-        wanted = Wanted(
+        wanted = VideoRequest(
             camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
             captions=captions,
         )  # fmt: skip
@@ -113,8 +117,36 @@ def _report(trace: Trace) -> bytes:
     from handeye.report.facts.scene import check_scene
     from handeye.report.page.document import report_page
     from handeye.report.photographs import no_album
-    from handeye.report.recorded import Recorded
+    from handeye.report.recorded import RecordedRun
 
-    run = Recorded(trace=trace)
+    run = RecordedRun(trace=trace)
     check_scene(run)
     return report_page(run, no_album(run, _WITHOUT), animation(run))
+
+
+def compare(
+    a: str | os.PathLike[str] | recorded.Trace, b: str | os.PathLike[str] | recorded.Trace
+) -> Comparison:
+    """Compare two recorded runs, step by step; printed, it is what `handeye compare` says.
+
+    Args:
+        a: the folder of a run that has ended, a `trace.mcap`, or an open trace.
+        b: likewise.
+
+    Raises:
+        InvalidInput: a run cannot be read, or cannot be compared.
+
+    >>> for seed in 1, 2:
+    ...     run = handeye.assemble(seed, script="OPEN 1\\nCLOSE .1\\n", camera="ray", out=folder / str(seed))
+    >>> found = handeye.compare(folder / "1", folder / "2")
+    >>> found.same, found.first.place.text, found.parted
+    (False, 'OPEN 1', None)
+    """
+    return comparison(_recorded(a), _recorded(b))
+
+
+def _recorded(run: str | os.PathLike[str] | recorded.Trace) -> RecordedRun:
+    if isinstance(run, recorded.Trace):
+        return RecordedRun(trace=run)
+    trace = open(run)
+    return recorded_run(Path(run), trace)

@@ -14,7 +14,7 @@ show = records:show: Show what a run came to, or how far it has come; its folder
 report = reports:report: Make a page of a run, or of two: one file with what happened, why, and what was seen and felt.
 video = videos:video: Make a video of a recorded run; nothing is simulated.
 view = views:view: Show the live cell in a browser, and step a run or teach positions there; or show a run that was recorded.
-compare = comparisons:compare: Compare two runs, step by step: what went otherwise first, where each searched, felt and corrected.
+compare = reports:compare: Compare two runs, step by step: what went otherwise first, where each searched, felt and corrected.
 do = teaching:do: Plan functions and carry them out at once, each by itself: `handeye do "OPEN 3" PARK`.
 repl = teaching:repl: Type functions to collect and check them; DO carries them out. HELP lists the commands.
 teach = teaching:teach: Move the arm and name positions; new names go into the taught file, and the rest of it stays.
@@ -35,7 +35,7 @@ trace show = traces:show: Show what happened in a run, and why.
 trace stats = traces:stats: Count and time what happened in a run, stage by stage.
 trace photograph = traces:photograph: Photograph the cell as it was at a moment of a recorded run; nothing is simulated.
 trace verify = traces:verify: Carry out a recorded run again and compare.
-trace thin = thinning:thin: Write a trace with no more of the motion than it takes to show the run, a tenth as large.
+trace thin = trace_exports:thin: Write a trace with no more of the motion than it takes to show the run, a tenth as large.
 trace plot = trace_exports:plot: Draw joints, force of the hand and events of a run against time; it needs the extra `plot`, matplotlib.
 trace export: Write joints, forces and events of a run as tables.
 trace export csv = trace_exports:csv: Write tables of a run as CSV, with a README that tells their columns.

@@ -89,7 +89,7 @@ class Job:
     then: Sequence[Then] = ()
     """What is done when the referee has found the work right, one after the other."""
     planning_cpu_s: float = 0.0
-    """Of the planning phase."""
+    """Seconds of the planning phase."""
 
 
 class _KeepStages(Observer):

@@ -1,18 +1,19 @@
-"""Command that makes a page of a run."""
+"""Commands that make a page of one run, or of two beside each other."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import TaskWords, note, say
+from handeye.cli.common import Json, TaskWords, note, put_json, say
 from handeye.cli.programs import made_known
 from handeye.cli.trace_files import TraceFile, motion_file
-from handeye.core.errors import BadArgument
+from handeye.core.errors import BadArgument, InvalidInput
 
 if TYPE_CHECKING:
-    from handeye.report.recorded import Recorded
-
+    from handeye.comparison.comparison import Comparison
+    from handeye.comparison.page import Animations
+    from handeye.report.recorded import RecordedRun
 
 DEMO: Final = "demo.html"
 """The page of the run that comes with handeye, if nobody says otherwise."""
@@ -43,7 +44,6 @@ def report(
 
     Exit code 0: it is written, whatever the run came to; 2: bad input.
     """
-    from handeye.cli.comparisons import write_comparison
     from handeye.core import resources
 
     made_known(task)
@@ -109,7 +109,7 @@ def page_of(run: Path) -> bytes:
     return report_page(recorded, album(recorded), animation(recorded))
 
 
-def read_recorded(run: Path) -> "Recorded":
+def read_recorded(run: Path) -> "RecordedRun":
     """The run in a folder or a trace, as far as it can be read; raises InvalidInput if there is none."""
     from handeye.results.recorded_run import recorded_run
     from handeye.trace.reading import is_cut_short, read_trace
@@ -117,3 +117,77 @@ def read_recorded(run: Path) -> "Recorded":
     file = motion_file(run)
     cut = is_cut_short(file)
     return recorded_run(run, read_trace(file, lenient=cut), whole=not cut)
+
+
+def compare(
+    a: TraceFile,
+    b: TraceFile,
+    /,
+    *,
+    task: TaskWords = None,
+    output: Annotated[
+        Path | None,
+        Parameter(name=["--output", "-o"], help="A page with both views under one slider, .html."),
+    ] = None,
+    overwrite: Annotated[bool, Parameter(help="Replace the page that is there.")] = False,
+    json: Json = False,
+) -> int:
+    """Compare two runs, step by step: what went otherwise first, where each searched, felt and corrected.
+
+    Runs of different plans, scenes or worlds are compared as far as they go.
+
+    Exit code 0: they are compared, whatever was found; 2: bad input.
+    """
+    from handeye.comparison.comparison import as_json, comparison
+    from handeye.comparison.text import comparison_text
+
+    made_known(task)
+    if output is None:
+        found = comparison(read_recorded(a), read_recorded(b))
+    else:
+        found = write_comparison(a, b, output, overwrite=overwrite)
+        note(f"its page: {output}")
+    if json:
+        put_json(as_json(found))
+    else:
+        for line in comparison_text(found):
+            say(line)
+    return 0
+
+
+def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comparison":
+    """Write the page of two runs, by their folders or traces; what it shows; raises InvalidInput if there is no such
+    run, they cannot be compared, or the page cannot be written there.
+
+    Args:
+        overwrite: a page of two runs that is there may be replaced.
+    """
+    from handeye.comparison.comparison import comparison
+    from handeye.comparison.page import PAGE, comparison_page
+    from handeye.core.files import check_free, check_place, write_over
+
+    check_place(place, PAGE)
+    check_free(place, "comparison", overwrite=overwrite)
+    one, other = read_recorded(a), read_recorded(b)
+    found = comparison(one, other)
+    write_over(place, comparison_page(one, other, found, _animations(one, other)), PAGE)
+    return found
+
+
+def _animations(a: "RecordedRun", b: "RecordedRun") -> "Animations | str":
+    """What is shown of both runs to walk round in, or why there is nothing."""
+    from handeye.report.animation import animation
+    from handeye.report.facts.scene import check_scene
+
+    made = []
+    for run in (a, b):
+        try:
+            check_scene(run)
+            shown = animation(run)
+        except InvalidInput as fault:
+            return f"{fault}."
+        if shown is None:
+            return f"{run.trace.name} holds no motion."
+        made.append(shown)
+    one, other = made
+    return one, other

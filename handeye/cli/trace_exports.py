@@ -1,4 +1,4 @@
-"""Commands that hand what a trace holds to other programs, and draw it."""
+"""Commands that export, draw and thin traces."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -7,9 +7,9 @@ from cyclopts import Parameter
 
 from handeye.cli.common import say
 from handeye.cli.reports import read_recorded
-from handeye.cli.trace_files import TraceFile
+from handeye.cli.trace_files import TraceFile, trace_file
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import BadArgument
+from handeye.core.errors import BadArgument, CannotWrite
 from handeye.core.files import check_place, write_over
 from handeye.core.plain_text import counted
 
@@ -71,4 +71,30 @@ def _exported(run: Path, output: Path, kind: "Format", *, overwrite: bool) -> in
     written = export_tables(output, lambda: read_recorded(run).trace, kind, overwrite=overwrite)
     said = ", ".join(f"{table.name} ({counted(table.rows, 'row')})" for table in written)
     say(f"{output}: {said}")
+    return 0
+
+
+def thin(
+    file: TraceFile,
+    /,
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The thinned trace, .mcap.")],
+    overwrite: Annotated[bool, Parameter(help="Replace the trace that is there.")] = False,
+) -> int:
+    """Write a trace with no more of the motion than it takes to show the run, a tenth as large.
+
+    It is a trace in its own right; only `verify` needs the whole one.
+    """
+    from handeye.core.files import check_free, check_place
+    from handeye.trace.reading import TRACE, read_trace
+    from handeye.trace.thinning import write_thinned
+
+    whole = trace_file(file)
+    trace = read_trace(whole)
+    check_place(output, TRACE)
+    if output.exists() and output.samefile(whole):
+        raise CannotWrite(f"{output} holds the trace that is to be thinned")
+    check_free(output, "trace", overwrite=overwrite)
+    kept = write_thinned(trace, output)
+    say(f"{output}: {kept} of {len(trace.times)} servo periods")
     return 0

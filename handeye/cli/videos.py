@@ -68,11 +68,11 @@ def video(
     """
     from handeye.runs.folder import VIDEO
     from handeye.video.making import make_video
-    from handeye.video.wanted import Wanted
+    from handeye.video.request import VideoRequest
 
     made_known(task)
     width, height = _size(size)
-    wanted = Wanted(
+    wanted = VideoRequest(
         camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
         captions=captions,
     )  # fmt: skip

@@ -15,7 +15,7 @@ from handeye.core.errors import BadFile
 from handeye.core.units import INCHES, Measures
 from handeye.program.events import StepStarted
 from handeye.report.facts.outcome import Kind, outcome
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.tasks import known_any
 from handeye.trace.stats import StageFigures, statistics
 
@@ -81,7 +81,7 @@ class Comparison:
         return "\n".join(comparison_text(self))
 
 
-def comparison(a: Recorded, b: Recorded) -> Comparison:
+def comparison(a: RecordedRun, b: RecordedRun) -> Comparison:
     """Compare two runs; raises an InvalidInput if one follows no plan, or its trace cannot be understood."""
     for run in (a, b):
         _check(run)
@@ -101,7 +101,7 @@ def comparison(a: Recorded, b: Recorded) -> Comparison:
     )
 
 
-def _check(run: Recorded) -> None:
+def _check(run: RecordedRun) -> None:
     """Raises an InvalidInput if a run follows no plan, or has steps that its plan lacks."""
     name = run.trace.name
     require(run.trace.head.system, "compare", name)
@@ -110,7 +110,7 @@ def _check(run: Recorded) -> None:
         raise BadFile(f"{name} tells of steps that its plan lacks")
 
 
-def _compared(run: Recorded) -> Compared:
+def _compared(run: RecordedRun) -> Compared:
     head = run.trace.head
     return Compared(
         name=run.trace.name,
@@ -121,7 +121,7 @@ def _compared(run: Recorded) -> Compared:
     )
 
 
-def _stages(a: Recorded, b: Recorded) -> tuple[Stages, ...]:
+def _stages(a: RecordedRun, b: RecordedRun) -> tuple[Stages, ...]:
     """Stages of two runs, in order of their start."""
     one, other = ({stage.stage: stage for stage in statistics(run.trace.events, {}).stages} for run in (a, b))
     return tuple(

@@ -6,7 +6,7 @@ from difflib import SequenceMatcher
 from typing import Final
 
 from handeye.comparison.pairing import CarriedOut, Place, TwoRuns
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 _BEFORE: Final = -1  # pair number for the time before the first step
 
@@ -61,7 +61,7 @@ def course(runs: TwoRuns) -> Course:
     return Course(legs=tuple(legs), end=time, a=at[0], b=at[1])
 
 
-def _done(run: Recorded, steps: Sequence[CarriedOut]) -> list[_Done]:
+def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_Done]:
     """Steps of a run, preceded by the time before; each lasts until the next begins."""
     begun = [each.place for each in steps]
     times = [*(place.time for place in begun), run.ends]

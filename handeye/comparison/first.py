@@ -22,7 +22,7 @@ from handeye.program.events import (
     StepFinished,
     StepStarted,
 )
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.tasks import known
 from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, LOG, MACHINES, MOMENTS, SCENE
 from handeye.trace.quantities import QuantityDifference, differing, differing_events
@@ -238,7 +238,7 @@ def _other_step(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | 
     return None
 
 
-def _place(run: Recorded, started: StepStarted | None) -> Place | None:
+def _place(run: RecordedRun, started: StepStarted | None) -> Place | None:
     return None if started is None else place_of(run, started)
 
 

@@ -38,7 +38,7 @@ from handeye.report import player
 from handeye.report.animation import Animation
 from handeye.report.page.document import head, packed, resource
 from handeye.report.page.moments import json_markup
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.stats import StageFigures
 
 _MARK: Final = "<!doctype html>\n<!-- handeye comparison -->\n"
@@ -46,7 +46,7 @@ PAGE: Final = Kind("comparison of handeye", _MARK.encode(), ending=".html")
 Animations = tuple[Animation, Animation]
 
 
-def comparison_page(a: Recorded, b: Recorded, found: Comparison, animated: Animations | str) -> bytes:
+def comparison_page(a: RecordedRun, b: RecordedRun, found: Comparison, animated: Animations | str) -> bytes:
     """The page of two runs; the same for the same traces.
 
     Args:
@@ -191,7 +191,7 @@ def _otherwise(found: Comparison, way: Course) -> Iterator[Markup]:
     if found.first is None:
         yield element("p", "Nothing was recorded otherwise.")
         return
-    yield element("h3", "Recorded otherwise first")
+    yield element("h3", "RecordedRun otherwise first")
     yield element("p", _link(way, found.first.a, found.first.b, moment_words(found.first)))
     yield from (element("p", line) for line in first_words(found.first, found.measures))
     if found.parted is None:

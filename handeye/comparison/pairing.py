@@ -12,7 +12,7 @@ from handeye.core.record import Record
 from handeye.core.source import line_name
 from handeye.inspection.alignment import Pair, aligned
 from handeye.program.events import StepStarted, UndoStarted
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.runs.system import Listing, StepFacts
 from handeye.runs.systems import system_named
 from handeye.trace.steps import DoneStep, done_steps
@@ -38,7 +38,7 @@ class Place(Record, frozen=True, kw_only=True):
 
 
 @lru_cache(maxsize=4)
-def listing_of(run: Recorded) -> Listing:
+def listing_of(run: RecordedRun) -> Listing:
     """Stages and steps of what a run carried out."""
     system, trace = system_named(run.trace.head.system), run.trace
     return system.listing(system.decode(trace.plan, f"the plan in {trace.name}"))
@@ -55,7 +55,7 @@ def _aligned_texts(before: Sequence[str], after: Sequence[str]) -> Sequence[Pair
     return pairs
 
 
-def place_of(run: Recorded, started: StepStarted) -> Place:
+def place_of(run: RecordedRun, started: StepStarted) -> Place:
     """The place of a step that was begun."""
     program = listing_of(run)
     return Place(
@@ -77,7 +77,7 @@ Fact = TypeVar("Fact")
 class CarriedOut:
     """An executed step of a run."""
 
-    run: Recorded
+    run: RecordedRun
     turn: Turn
     done: DoneStep
 
@@ -96,8 +96,8 @@ class CarriedOut:
 class TwoRuns:
     """Two runs, and the pairs of their steps."""
 
-    a: Recorded
-    b: Recorded
+    a: RecordedRun
+    b: RecordedRun
 
     @property
     def thinned(self) -> bool:
@@ -138,7 +138,7 @@ class TwoRuns:
         return tuple(_turns(self.a, self.numbers[0])), tuple(_turns(self.b, self.numbers[1]))
 
 
-def _turns(run: Recorded, numbers: Mapping[int, int]) -> Iterator[CarriedOut]:
+def _turns(run: RecordedRun, numbers: Mapping[int, int]) -> Iterator[CarriedOut]:
     before: Counter[int] = Counter()
     for done in done_steps(run.trace.events):
         if isinstance(done.started, UndoStarted):

@@ -8,7 +8,7 @@ from typing import Any
 from handeye.comparison.pairing import Place, TwoRuns, place_of
 from handeye.program import events as happened
 from handeye.program.events import AnyEvent, StepStarted
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,7 +48,7 @@ def parting(runs: TwoRuns) -> Parting | None:
     return None
 
 
-def _turnings(run: Recorded) -> Iterator[Turning]:
+def _turnings(run: RecordedRun) -> Iterator[Turning]:
     place: Place | None = None
     for event in run.trace.events:
         if _decides(event) is not None:

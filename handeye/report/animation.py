@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from handeye.report.player import scene_bytes, tracks_bytes
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -14,7 +14,7 @@ class Animation:
     tracks: bytes
 
 
-def animation(run: Recorded) -> Animation | None:
+def animation(run: RecordedRun) -> Animation | None:
     """The animation of a run; None: nothing was recorded between its events."""
     if not len(run.trace.times):
         return None

@@ -13,7 +13,7 @@ from handeye.cell.posed import posed
 from handeye.core.errors import InvalidInput
 from handeye.program.events import GuardTripped, StepFinished
 from handeye.report.facts.outcome import Outcome, outcome
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.tasks import known
 from handeye.tasks.interface import AnyTask
 from handeye.trace.stages import Stage
@@ -57,7 +57,7 @@ SMALL: Final = _Print(width=480, height=360, finer=1, shadow=2048)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Wanted:
+class _PhotographRequest:
     """A photograph that is to be taken."""
 
     time: float
@@ -74,27 +74,27 @@ class Album:
     stages: tuple[Photograph, ...]
 
 
-def album(run: Recorded) -> Album:
+def album(run: RecordedRun) -> Album:
     """The photographs of a run: of its end, or of where it failed, and of its stages."""
     return Album(leading=_leading(run, outcome(run)), stages=_of_stages(run))
 
 
-def no_album(run: Recorded, why: str) -> Album:
+def no_album(run: RecordedRun, why: str) -> Album:
     """An album without a photograph, where somebody wants none: it says why, once."""
-    leading = _none(_Wanted(time=outcome(run).time, view=_room(run), shows="The run"), LARGE, why)
+    leading = _none(_PhotographRequest(time=outcome(run).time, view=_room(run), shows="The run"), LARGE, why)
     return Album(leading=leading, stages=())
 
 
-def _leading(run: Recorded, outcome: Outcome) -> Photograph:
+def _leading(run: RecordedRun, outcome: Outcome) -> Photograph:
     """The photograph that leads: the finished work, or the moment at which the run failed."""
     shows = "The end of the run" if outcome.ended else "The hand at the last moment"
-    wanted = _Wanted(time=outcome.time, view=_leading_view(run, outcome), shows=shows)
+    wanted = _PhotographRequest(time=outcome.time, view=_leading_view(run, outcome), shows=shows)
     (taken,) = _taken(run, [wanted], LARGE)
     left = run.end if outcome.ended else None
     return taken if taken.webp is not None or left is None else _left(left, taken)
 
 
-def _leading_view(run: Recorded, outcome: Outcome) -> str | Near:
+def _leading_view(run: RecordedRun, outcome: Outcome) -> str | Near:
     """The work, where the referee looked at it too; else all of the cell; of a run that did not end the hand."""
     if not outcome.ended:
         return _at_hand(run, outcome.time)
@@ -111,7 +111,7 @@ def _left(picture: bytes, missing: Photograph) -> Photograph:
     return replace(missing, webp=_webp(points.astype(np.uint8, copy=False), LARGE), missing="")
 
 
-def _of_stages(run: Recorded) -> tuple[Photograph, ...]:
+def _of_stages(run: RecordedRun) -> tuple[Photograph, ...]:
     """A photograph of each stage; of many stages, of some."""
     stages = [
         (number, stage)
@@ -122,7 +122,7 @@ def _of_stages(run: Recorded) -> tuple[Photograph, ...]:
     return _taken(run, [_of_stage(run, number, stage) for number, stage in stages[::every]], SMALL)
 
 
-def _of_stage(run: Recorded, number: int, stage: Stage) -> _Wanted:
+def _of_stage(run: RecordedRun, number: int, stage: Stage) -> _PhotographRequest:
     """The moment of a stage that shows most: the last at which a guard was met, or its end."""
     trips = [
         event.time
@@ -130,18 +130,18 @@ def _of_stage(run: Recorded, number: int, stage: Stage) -> _Wanted:
         if isinstance(event, GuardTripped) and stage.begin <= event.time <= stage.end
     ]
     time = run.seconds(trips[-1] if trips else stage.end)
-    return _Wanted(
+    return _PhotographRequest(
         time=time, view=_at_hand(run, time) if trips else _room(run), shows=f"{number} {stage.name}"
     )
 
 
-def _room(run: Recorded) -> str:
+def _room(run: RecordedRun) -> str:
     """The camera of the scene that shows all of it."""
     task = known(run.trace.head.task)
     return AnyTask.camera if task is None else task.camera
 
 
-def _at_hand(run: Recorded, time: float) -> str | Near:
+def _at_hand(run: RecordedRun, time: float) -> str | Near:
     """A view of the hand where it was after the last step before a time."""
     ended = [
         event.hand
@@ -153,7 +153,7 @@ def _at_hand(run: Recorded, time: float) -> str | Near:
     return Near(camera=_room(run), place=ended[-1], distance=_NEAR) if ended else _room(run)
 
 
-def _taken(run: Recorded, wanted: Sequence[_Wanted], size: _Print) -> tuple[Photograph, ...]:
+def _taken(run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _Print) -> tuple[Photograph, ...]:
     """The photographs, or why there are none."""
     try:
         return tuple(_take(run, wanted, size))
@@ -161,13 +161,13 @@ def _taken(run: Recorded, wanted: Sequence[_Wanted], size: _Print) -> tuple[Phot
         return tuple(_none(each, size, f"No photograph: {fault}.") for each in wanted)
 
 
-def _none(wanted: _Wanted, size: _Print, why: str) -> Photograph:
+def _none(wanted: _PhotographRequest, size: _Print, why: str) -> Photograph:
     return Photograph(
         time=wanted.time, shows=wanted.shows, width=size.width, height=size.height, webp=None, missing=why
     )
 
 
-def _take(run: Recorded, wanted: Sequence[_Wanted], size: _Print) -> Iterator[Photograph]:
+def _take(run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _Print) -> Iterator[Photograph]:
     wide, high = size.finer * size.width, size.finer * size.height
     photographer = Photographer(run.trace.scene, width=wide, height=high, shadow=size.shadow)
     begin, end = run.trace.covers

@@ -11,7 +11,7 @@ from handeye.trace.trace import Trace
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Recorded:
+class RecordedRun:
     """A recorded run. Times are seconds since it began, as people see them."""
 
     trace: Trace

@@ -16,7 +16,7 @@ from handeye.tasks.interface import HistoricalTiming, Words
 TimingRow = tuple[str, float, float | None]
 """Name, seconds here, and seconds of its day; None: nobody told."""
 _NEUTRAL = Words(done="The referee found everything right.", product="the work")
-"""Of a task that only the program knew that began the run."""
+"""Words for a task that only the program that began the run knew."""
 _MARK = {
     "done": ("✓", "green"),
     "under way": ("▸", "yellow"),

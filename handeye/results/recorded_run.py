@@ -4,7 +4,7 @@ from pathlib import Path
 
 from handeye.core.errors import InvalidInput
 from handeye.core.files import read_whole
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.results.kept_run import kept_run
 from handeye.results.result import Result
 from handeye.runs.folder import PICTURES, RESULT
@@ -12,7 +12,7 @@ from handeye.tasks import known
 from handeye.trace.trace import Trace
 
 
-def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> Recorded:
+def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> RecordedRun:
     """A run of which the trace was read.
 
     Args:
@@ -20,7 +20,7 @@ def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> Recorded:
         whole: the trace was read to its end.
     """
     result, remarks = _result(run)
-    return Recorded(trace=trace, whole=whole, result=result, end=_end(run, trace), remarks=remarks)
+    return RecordedRun(trace=trace, whole=whole, result=result, end=_end(run, trace), remarks=remarks)
 
 
 def _end(run: Path, trace: Trace) -> bytes | None:

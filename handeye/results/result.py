@@ -115,7 +115,7 @@ class CameraReport(Record, frozen=True, kw_only=True):
 
     @property
     def used(self) -> bool:
-        """Somebody has calibrated it."""
+        """Whether it was calibrated."""
         return self.residual_in is not None
 
 
@@ -155,8 +155,8 @@ class Result(Record, frozen=True, kw_only=True):
     without: tuple[Sense, ...] | UnsetType = UNSET
     """Senses that the program did without."""
     apart: bool | UnsetType | None = UNSET
-    """Of a run in which the arm has undone what it did, the referee's word whether everything lies where it was found;
-    None: nobody was asked, or not all of it is undone."""
+    """After a reversal: the referee's word whether everything lies where it was found; None: not asked, or not all of
+    it is undone."""
     built: dict[str, Check] | UnsetType = UNSET
     """Findings on what a job has built, as it was before it took that back: `referee` has those after."""
 

@@ -15,12 +15,12 @@ from handeye.core.errors import BadFile, Taken
 from handeye.core.files import check_place, write_over
 from handeye.report.facts.scene import check_scene
 from handeye.report.facts.seen import SeenPicture
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.trace import Trace
 from handeye.video.captions import captioned
 from handeye.video.formats import format_of
+from handeye.video.request import VideoRequest
 from handeye.video.storyboard import Frame, Storyboard, storyboard
-from handeye.video.wanted import Wanted
 from handeye.vision.drawing import annotate
 
 _FINER: Final = 2  # drawn points per frame point along a side
@@ -40,7 +40,7 @@ class Video:
 
 
 def make_video(
-    trace: Trace, path: Path, wanted: Wanted, *, overwrite: bool, told: Told = lambda done, of: None
+    trace: Trace, path: Path, wanted: VideoRequest, *, overwrite: bool, told: Told = lambda done, of: None
 ) -> Video:
     """Write a video of a recorded run, whole or not at all, without simulation; raises Taken unless `overwrite`."""
     require(trace.head.system, "video", trace.name)
@@ -48,7 +48,7 @@ def make_video(
     check_place(path, form.kind)
     if path.exists() and not overwrite:
         raise Taken(f"{path} is there already; --overwrite replaces it")
-    check_scene(Recorded(trace=trace))
+    check_scene(RecordedRun(trace=trace))
     board = storyboard(trace, wanted)
     form.check(len(board.frames), wanted.width, wanted.height)
     data = form.encode(_drawn(trace, board, wanted, told), board.held)
@@ -56,7 +56,7 @@ def make_video(
     return Video(path=path, seconds=board.seconds, frames=len(board.frames), bytes=len(data))
 
 
-def _drawn(trace: Trace, board: Storyboard, wanted: Wanted, told: Told) -> Iterator[Photograph]:
+def _drawn(trace: Trace, board: Storyboard, wanted: VideoRequest, told: Told) -> Iterator[Photograph]:
     """Draw the frames in order."""
     photographer = Photographer(
         trace.scene, width=_FINER * wanted.width, height=_FINER * wanted.height, shadow=_SHADOW

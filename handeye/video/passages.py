@@ -11,7 +11,7 @@ from handeye.core.errors import Refused
 from handeye.core.pose import Array
 from handeye.program.events import CameraBusy
 from handeye.report.facts.seen import SeenPicture, seen_pictures
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.trace import Trace
 
 MAX_WAIT_S: Final = 1.0
@@ -54,7 +54,7 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
 def _pictures(trace: Trace) -> dict[float, SeenPicture]:
     """Pictures by the clock."""
     clocks = {trace.elapsed(picture.time): picture.time for picture in trace.pictures}
-    return {clocks[picture.time]: picture for picture in seen_pictures(Recorded(trace=trace))}
+    return {clocks[picture.time]: picture for picture in seen_pictures(RecordedRun(trace=trace))}
 
 
 def _without_waits(trace: Trace, span: Span) -> Iterator[Span]:

@@ -11,7 +11,7 @@ from handeye.api.trace import Trace
 from handeye.core.errors import InvalidInput
 from handeye.report import animation
 from handeye.report.facts import scene
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.reading import read_trace_as
 
 EVIL = "</iframe><script>alert(1)</script>"
@@ -54,13 +54,13 @@ def test_it_says_what_it_weighs(trace: Trace) -> None:
 
 
 def test_words_of_the_run_are_data(trace: Trace) -> None:
-    page = renamed(Recorded(trace=trace), program=EVIL).trace._repr_html_()
+    page = renamed(RecordedRun(trace=trace), program=EVIL).trace._repr_html_()
     assert "<script" not in page
     assert page.count("<iframe") == page.count("</iframe>") == 1
 
 
 def test_a_trace_that_cannot_be_shown_says_why(trace: Trace, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(_: Recorded) -> None:
+    def refuse(_: RecordedRun) -> None:
         raise InvalidInput("recorded by <an older> handeye")
 
     monkeypatch.setattr(scene, "check_scene", refuse)

@@ -16,7 +16,7 @@ from handeye.comparison.course import Course, course
 from handeye.comparison.page import comparison_page
 from handeye.comparison.pairing import TwoRuns
 from handeye.report.animation import animation
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
 from handeye.trace.reading import read_trace
@@ -25,14 +25,14 @@ PLACE = 3e-4
 """How far a body may be from where it was, m."""
 
 
-def kept(script: str, seed: int, folder: Path) -> Recorded:
+def kept(script: str, seed: int, folder: Path) -> RecordedRun:
     """A run in which the arm takes a pin out of its holder."""
     start = begin(script, seed)
     keeping = open_new(folder, start)
     runner = Runner(start, observers=lambda runner: [keeping.watch(runner, start, again=False)])
     through(runner).finish()
     keeping.close()
-    return Recorded(trace=read_trace(folder / TRACE))
+    return RecordedRun(trace=read_trace(folder / TRACE))
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,7 @@ from handeye.report.animation import animation
 from handeye.report.page.document import report_page
 from handeye.report.photographs import album
 from handeye.report.player import shown_poses
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 EVIL = "</script><img src=x onerror=alert(1)>"
 PLACE, TURN = 3e-4, np.radians(0.3)
@@ -60,21 +60,21 @@ TOLD = os.environ.get("HANDEYE_CHECK_TRACE")
 
 
 @pytest.fixture(scope="module", params=["short", "demo"] if TOLD is None else [TOLD])
-def run(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+def run(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
     """A run in which the arm takes a pin out of its holder, or a whole one."""
     if request.param != "short":
         return read_recorded(resources.demo() if request.param == "demo" else Path(request.param))
-    return Recorded(trace=traced(begin(), tmp_path_factory.mktemp("short") / "run"))
+    return RecordedRun(trace=traced(begin(), tmp_path_factory.mktemp("short") / "run"))
 
 
-def written(run: Recorded, folder: Path) -> Path:
+def written(run: RecordedRun, folder: Path) -> Path:
     """The file of its report."""
     (folder / "report.html").write_bytes(report_page(run, album(run), animation(run)))
     return folder / "report.html"
 
 
 @pytest.fixture(scope="module")
-def file(run: Recorded, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def file(run: RecordedRun, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written(run, tmp_path_factory.mktemp("report"))
 
 
@@ -133,7 +133,7 @@ def test_every_control_that_is_no_link_has_a_key(page: Page) -> None:
     assert page.evaluate(f"{controls}.filter({keyless}).map(node => node.outerHTML)") == []
 
 
-def test_the_line_that_is_lit_is_the_one_under_way(run: Recorded, page: Page) -> None:
+def test_the_line_that_is_lit_is_the_one_under_way(run: RecordedRun, page: Page) -> None:
     begin, end = run.trace.covers
     for clock in (
         np.linspace(begin + 0.1, end - 0.1, 20) * 60
@@ -143,7 +143,7 @@ def test_the_line_that_is_lit_is_the_one_under_way(run: Recorded, page: Page) ->
         assert page.evaluate(LIT) == (None if step is None else f"line-0-{step.line}")
 
 
-def test_every_body_is_where_it_was(run: Recorded, page: Page) -> None:
+def test_every_body_is_where_it_was(run: RecordedRun, page: Page) -> None:
     rows, shown = np.linspace(0, len(run.trace.times) - 1, 20).astype(int), shown_poses(run.trace)
     for row in rows:
         seconds = run.seconds(run.trace.times[row])
@@ -158,7 +158,7 @@ def test_every_body_is_where_it_was(run: Recorded, page: Page) -> None:
                 assert pose is None, (name, row)
 
 
-def test_what_becomes_another_body_goes_as_that_one_comes(run: Recorded, page: Page) -> None:
+def test_what_becomes_another_body_goes_as_that_one_comes(run: RecordedRun, page: Page) -> None:
     """A screw in its thread is another body, which is hidden before."""
     for name, poses in run.trace.poses.items():
         there = poses[:, 2] > -1.0
@@ -170,7 +170,7 @@ def test_what_becomes_another_body_goes_as_that_one_comes(run: Recorded, page: P
             assert shown == [there[row], there[row + 1]], (name, row)
 
 
-def test_keys_play_and_go_by_steps_and_stages(run: Recorded, page: Page) -> None:
+def test_keys_play_and_go_by_steps_and_stages(run: RecordedRun, page: Page) -> None:
     begins = (run.seconds(stage.begin) for stage in run.trace.stages)
     second = next(begin for begin in begins if begin > run.begins + 0.01)
     sought(page, run.begins)
@@ -196,7 +196,7 @@ def test_a_figure_leads_to_its_moment(page: Page) -> None:
     page.wait(f"Math.abs(Number(document.getElementById('time').value) - {told}) < .02")
 
 
-def test_whatever_a_stage_is_called_nothing_runs(run: Recorded, browser: Browser, tmp_path: Path) -> None:
+def test_whatever_a_stage_is_called_nothing_runs(run: RecordedRun, browser: Browser, tmp_path: Path) -> None:
     page = opened(browser, written(renamed(run, stage=EVIL), tmp_path))
     page.evaluate("location.hash = '#t=1'")
     assert page.evaluate("document.querySelectorAll('img[src=x]').length") == 0
@@ -213,7 +213,7 @@ def test_without_webgl_it_says_so_and_shows_photographs(file: Path, tmp_path: Pa
 
 
 def test_without_scripts_everything_but_the_view_is_there(
-    browser: Browser, file: Path, run: Recorded
+    browser: Browser, file: Path, run: RecordedRun
 ) -> None:
     page = browser.page(Path("/dev/null"))
     page.ask("Emulation.setScriptExecutionDisabled", value=True)

@@ -23,11 +23,11 @@ from handeye.core.errors import InvalidInput
 from handeye.core.faults import Fault
 from handeye.core.variation import WorldSpec
 from handeye.program.events import Event, GuardTripped, StepStarted, UndoFinished, UndoStarted
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.reading import read_trace
 
 
-def with_events(path: Path, number: int, **fields: object) -> Recorded:
+def with_events(path: Path, number: int, **fields: object) -> RecordedRun:
     """The made-up run, in which fields of the event of a number are others."""
     recording = Recording(path).begin()
     write, events = recording.recorder.event, iter(range(len(EVENTS)))
@@ -37,7 +37,7 @@ def with_events(path: Path, number: int, **fields: object) -> Recorded:
 
     recording.recorder.event = altered  # type: ignore[method-assign]
     recording.play().close()
-    return Recorded(trace=read_trace(path))
+    return RecordedRun(trace=read_trace(path))
 
 
 def answer(command: Command, *words: str) -> dict[str, Any]:
@@ -139,7 +139,7 @@ def test_a_message_that_is_none_is_refused(tmp_path: Path) -> None:
         comparison(run, replace(run, trace=replace(run.trace, messages=broken)))
 
 
-def conditions_of(run: Recorded, **fields: object) -> tuple[Condition, ...]:
+def conditions_of(run: RecordedRun, **fields: object) -> tuple[Condition, ...]:
     """In what a run whose head has other fields depended on something else; all else of it is compared all the same."""
     head = msgspec.structs.replace(run.trace.head, **fields)
     found = comparison(run, replace(run, trace=replace(run.trace, head=head)))
@@ -162,7 +162,7 @@ def test_runs_of_different_tasks_are_compared_as_far_as_they_go_and_it_says_so(t
 def test_a_run_that_was_interrupted_differs_where_it_ends(tmp_path: Path) -> None:
     run = recorded(tmp_path / "a.mcap")
     Recording(tmp_path / "b.mcap").begin().play(last=19).close()
-    found = comparison(run, Recorded(trace=read_trace(tmp_path / "b.mcap")))
+    found = comparison(run, RecordedRun(trace=read_trace(tmp_path / "b.mcap")))
     assert found.first is not None
     assert found.first.place is not None
     assert (found.first.differing.name, found.first.place.line) == ("step", 4)

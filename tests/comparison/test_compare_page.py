@@ -13,17 +13,17 @@ from handeye.comparison.page import comparison_page
 from handeye.core.errors import InvalidInput
 from handeye.report import animation
 from handeye.report.animation import Animation
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 EVIL = "</script><img src=x onerror=alert(1)>"
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+def run(tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
     return recorded(tmp_path_factory.mktemp("page") / "a.mcap")
 
 
-def page_of(a: Recorded, b: Recorded) -> str:
+def page_of(a: RecordedRun, b: RecordedRun) -> str:
     """The page of two runs, with something in the place of their animations."""
     shown = Animation(scene=b"scene", tracks=b"tracks")
     return comparison_page(a, b, comparison(a, b), (shown, shown)).decode()
@@ -34,11 +34,11 @@ def heading(page: Node) -> str:
     return found.text
 
 
-def test_the_heading_says_what_came_of_it(run: Recorded) -> None:
+def test_the_heading_says_what_came_of_it(run: RecordedRun) -> None:
     assert heading(tree(page_of(run, run))) == "Both did the same, to the last bit."
 
 
-def test_both_views_stand_under_one_slider(run: Recorded) -> None:
+def test_both_views_stand_under_one_slider(run: RecordedRun) -> None:
     page = tree(page_of(run, run))
     assert [node.attributes["id"] for node in page.all("canvas")] == ["view-a", "view-b"]
     assert len([node for node in page.all("input") if node.attributes["type"] == "range"]) == 1
@@ -46,7 +46,7 @@ def test_both_views_stand_under_one_slider(run: Recorded) -> None:
         assert page.one(name).attributes["type"] == "application/octet-stream"
 
 
-def test_the_script_is_told_where_both_runs_stand(run: Recorded) -> None:
+def test_the_script_is_told_where_both_runs_stand(run: RecordedRun) -> None:
     legs = json.loads(tree(page_of(run, run)).one("moments").text)
     begun = [step for step in legs if step[3]]
     assert len(begun) == 9
@@ -54,13 +54,13 @@ def test_the_script_is_told_where_both_runs_stand(run: Recorded) -> None:
     assert legs[-1][:3] == pytest.approx([run.ends] * 3)
 
 
-def test_what_a_run_is_called_stays_text(run: Recorded) -> None:
+def test_what_a_run_is_called_stays_text(run: RecordedRun) -> None:
     page = page_of(run, renamed(run, stage=EVIL, text=EVIL, program=EVIL))
     assert tree(page).all("img") == []
     assert EVIL not in page
 
 
-def test_the_same_traces_give_the_same_page(run: Recorded) -> None:
+def test_the_same_traces_give_the_same_page(run: RecordedRun) -> None:
     assert page_of(run, run) == page_of(run, run)
 
 
@@ -109,7 +109,7 @@ def test_a_report_of_two_runs_has_to_be_told_its_place(command: Command) -> None
 def test_without_a_scene_the_page_says_so_and_has_all_else(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def lacking(_: Recorded) -> None:
+    def lacking(_: RecordedRun) -> None:
         raise InvalidInput("a.mcap is of another scene: here there is no `base`")
 
     monkeypatch.setattr("handeye.report.facts.scene.check_scene", lacking)

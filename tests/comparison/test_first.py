@@ -13,7 +13,7 @@ from handeye.comparison.comparison import comparison
 from handeye.comparison.first import First, first_difference
 from handeye.comparison.pairing import TwoRuns
 from handeye.program.events import GuardTripped
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS
 from handeye.trace.reading import read_trace
 from handeye.trace.records import RawMessage
@@ -24,11 +24,11 @@ LATE = 5_000_000_000
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+def run(tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
     return recorded(tmp_path_factory.mktemp("first") / "a.mcap")
 
 
-def altered(run: Recorded, change: Callable[[int, RawMessage], RawMessage | None]) -> Recorded:
+def altered(run: RecordedRun, change: Callable[[int, RawMessage], RawMessage | None]) -> RecordedRun:
     """The run with its messages changed by their numbers, or left out."""
     messages = (change(number, message) for number, message in enumerate(run.trace.messages))
     kept = tuple(message for message in messages if message is not None)
@@ -45,17 +45,17 @@ def late(message: RawMessage) -> RawMessage:
     return replace(message, time=message.time + LATE, data=data)
 
 
-def first(a: Recorded, b: Recorded) -> First:
+def first(a: RecordedRun, b: RecordedRun) -> First:
     found = first_difference(TwoRuns(a, b))
     assert found is not None
     return found
 
 
-def test_a_run_that_began_later_by_the_clock_is_the_same(run: Recorded) -> None:
+def test_a_run_that_began_later_by_the_clock_is_the_same(run: RecordedRun) -> None:
     assert first_difference(TwoRuns(run, altered(run, lambda _, message: late(message)))) is None
 
 
-def test_a_step_that_went_on_later_differs_in_its_time(run: Recorded) -> None:
+def test_a_step_that_went_on_later_differs_in_its_time(run: RecordedRun) -> None:
     periods = [number for number, message in enumerate(run.trace.messages) if message.topic == JOINTS]
     paused = altered(run, lambda number, message: message if number < periods[2] else late(message))
     found = first(run, paused)
@@ -64,7 +64,7 @@ def test_a_step_that_went_on_later_differs_in_its_time(run: Recorded) -> None:
     assert found.period == 3
 
 
-def test_a_body_that_moved_in_one_run_alone_is_named(run: Recorded) -> None:
+def test_a_body_that_moved_in_one_run_alone_is_named(run: RecordedRun) -> None:
     moves = [number for number, message in enumerate(run.trace.messages) if message.topic == FRAMES]
     still = altered(run, lambda number, message: None if number == moves[2] else message)
     for a, b in ((run, still), (still, run)):
@@ -74,7 +74,7 @@ def test_a_body_that_moved_in_one_run_alone_is_named(run: Recorded) -> None:
         assert found.period == 2
 
 
-def test_what_happened_next_is_named_where_the_other_run_went_on(run: Recorded) -> None:
+def test_what_happened_next_is_named_where_the_other_run_went_on(run: RecordedRun) -> None:
     events = [number for number, message in enumerate(run.trace.messages) if message.topic == EVENTS]
     trip = next(n for n, event in enumerate(run.trace.events) if isinstance(event, GuardTripped))
     went_on = altered(run, lambda number, message: None if number == events[trip] else message)
@@ -85,7 +85,7 @@ def test_what_happened_next_is_named_where_the_other_run_went_on(run: Recorded) 
     assert found.period == 6
 
 
-def test_what_was_not_recorded_before_a_run_was_taken_up_makes_no_difference(run: Recorded) -> None:
+def test_what_was_not_recorded_before_a_run_was_taken_up_makes_no_difference(run: RecordedRun) -> None:
     events = [number for number, message in enumerate(run.trace.messages) if message.topic == EVENTS]
 
     def forgotten(number: int, message: RawMessage) -> RawMessage | None:
@@ -110,9 +110,9 @@ def test_a_line_that_nobody_comes_to_makes_no_difference(tmp_path: Path) -> None
     assert [condition.what for condition in found.conditions] == ["plan"]
 
 
-def test_a_thinned_trace_is_compared_by_what_happened(run: Recorded, tmp_path: Path) -> None:
+def test_a_thinned_trace_is_compared_by_what_happened(run: RecordedRun, tmp_path: Path) -> None:
     write_thinned(run.trace, tmp_path / "thin.mcap")
-    thin = Recorded(trace=read_trace(tmp_path / "thin.mcap"))
+    thin = RecordedRun(trace=read_trace(tmp_path / "thin.mcap"))
     assert len(thin.trace.times) < len(run.trace.times)
     for found in (comparison(run, thin), comparison(thin, run), comparison(thin, thin)):
         assert found.same

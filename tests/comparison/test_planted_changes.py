@@ -13,7 +13,7 @@ from handeye.comparison.first import First
 from handeye.comparison.pairing import Place, place_of
 from handeye.core.pose import Array
 from handeye.program.events import StepStarted
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 pytestmark = pytest.mark.slow
 
@@ -24,7 +24,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def base(folder: Path) -> Recorded:
+def base(folder: Path) -> RecordedRun:
     """The run without any change."""
     return kept(folder / "base", block_start())
 
@@ -66,7 +66,7 @@ EDITS = [
 
 
 @pytest.mark.parametrize("edit", EDITS, ids=lambda edit: f"{edit.old.strip()} to {edit.new.strip()}")
-def test_a_changed_line_is_named(folder: Path, base: Recorded, edit: Edit) -> None:
+def test_a_changed_line_is_named(folder: Path, base: RecordedRun, edit: Edit) -> None:
     changed = kept(folder / f"edit{EDITS.index(edit)}", block_start(SCRIPT.replace(edit.old, edit.new)))
     found = comparison(base, changed)
     first = first_of(found)
@@ -92,7 +92,7 @@ ERRORS = [
 ]
 
 
-def columns(run: Recorded) -> dict[str, Array]:
+def columns(run: RecordedRun) -> dict[str, Array]:
     """Everything that is recorded of each servo period, by its name, shape (n,): what a comparison should go by."""
     trace, names = run.trace, "xyz"
     told = {"gap": trace.gaps}
@@ -105,7 +105,7 @@ def columns(run: Recorded) -> dict[str, Array]:
 
 @pytest.mark.parametrize(("name", "value"), ERRORS)
 def test_an_error_of_the_world_is_named_where_it_first_shows(
-    folder: Path, base: Recorded, name: str, value: float
+    folder: Path, base: RecordedRun, name: str, value: float
 ) -> None:
     changed = kept(folder / f"{name}{value}", block_start(**{name: value}))
     found = comparison(base, changed)
@@ -119,14 +119,14 @@ def test_an_error_of_the_world_is_named_where_it_first_shows(
     assert (first.place, first.period or 1) == (step_of(base, row), row + 1)
 
 
-def step_of(run: Recorded, row: int) -> Place:
+def step_of(run: RecordedRun, row: int) -> Place:
     """The step in whose servo periods a row of the trace is."""
     time = run.trace.times[row]
     begun = [event for event in run.trace.events if isinstance(event, StepStarted) and event.time < time]
     return place_of(run, begun[-1])
 
 
-def test_two_seeds_of_one_plan_differ_in_where_the_block_stands(folder: Path, base: Recorded) -> None:
+def test_two_seeds_of_one_plan_differ_in_where_the_block_stands(folder: Path, base: RecordedRun) -> None:
     other = kept(folder / "seed", block_start(seed=1))
     found = comparison(base, other)
     (condition,) = found.conditions
@@ -157,7 +157,7 @@ FLIPS = [Flip(row, joint) for row, joint in zip(range(3, 500, 50), [0, 1, 2] * 3
 
 @pytest.mark.parametrize("flip", FLIPS, ids=lambda flip: f"period {flip.row}, joint {flip.joint + 1}")
 def test_a_flipped_bit_of_noise_is_named_with_its_servo_period(
-    folder: Path, base: Recorded, flip: Flip, monkeypatch: pytest.MonkeyPatch
+    folder: Path, base: RecordedRun, flip: Flip, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     as_it_was = base.trace.joints[flip.row]
     noisy = as_it_was.copy()

@@ -10,16 +10,16 @@ from report_pages import recorded
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.core.world_options import faults, from_start_only, overrides
 from handeye.report.facts.again import command
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.tasks import task
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+def run(tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
     return recorded(tmp_path_factory.mktemp("run") / "trace.mcap")
 
 
-def of(run: Recorded, **head: object) -> Recorded:
+def of(run: RecordedRun, **head: object) -> RecordedRun:
     """The run with another beginning."""
     return replace(run, trace=replace(run.trace, head=msgspec.structs.replace(run.trace.head, **head)))
 
@@ -47,16 +47,16 @@ def world_of(words: list[str]) -> WorldSpec:
     ],
     ids=str,
 )  # fmt: skip
-def test_its_options_stand_for_the_same_world(run: Recorded, world: WorldSpec) -> None:
+def test_its_options_stand_for_the_same_world(run: RecordedRun, world: WorldSpec) -> None:
     typed = command(of(run, world=world))
     assert typed is not None
     words = shlex.split(typed)
     assert world_of(words[words.index("--seed") :]) == world
 
 
-def test_the_shipped_plan_is_assembled_and_another_one_is_run(run: Recorded) -> None:
+def test_the_shipped_plan_is_assembled_and_another_one_is_run(run: RecordedRun) -> None:
     assert shlex.split(command(run) or "")[:3] == ["handeye", "run", "plan.json"]
 
 
-def test_there_is_none_where_code_of_the_caller_belongs_to_the_run(run: Recorded) -> None:
+def test_there_is_none_where_code_of_the_caller_belongs_to_the_run(run: RecordedRun) -> None:
     assert command(of(run, replaced={"camera": "fog.Foggy"})) is None

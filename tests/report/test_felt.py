@@ -11,7 +11,7 @@ from handeye.report import player
 from handeye.report.animation import animation
 from handeye.report.facts.felt import GuardedMotion, guarded_motions
 from handeye.report.page.document import report_page
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 
@@ -21,14 +21,14 @@ HALF_A_NEWTON = 0.5
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+def run(tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
     """A run that feels for the table, and then for nothing."""
     start = Checkpoint(setup=Setup(plan=plan_of(FEEL), world=WorldSpec(seed=0), camera="ray"))
-    return Recorded(trace=traced(start, tmp_path_factory.mktemp("felt") / "run"))
+    return RecordedRun(trace=traced(start, tmp_path_factory.mktemp("felt") / "run"))
 
 
 @pytest.fixture(scope="module")
-def motions(run: Recorded) -> tuple[GuardedMotion, ...]:
+def motions(run: RecordedRun) -> tuple[GuardedMotion, ...]:
     return guarded_motions(run)
 
 
@@ -39,7 +39,7 @@ def test_each_guarded_motion_is_told_with_its_line_and_guard(motions: tuple[Guar
     ]
 
 
-def test_the_curve_ends_where_the_guard_tripped(run: Recorded, motions: tuple[GuardedMotion, ...]) -> None:
+def test_the_curve_ends_where_the_guard_tripped(run: RecordedRun, motions: tuple[GuardedMotion, ...]) -> None:
     (met,) = (event for event in run.trace.events if isinstance(event, GuardTripped))
     table = motions[0]
     assert table.trip is not None
@@ -55,13 +55,13 @@ def test_a_guard_that_was_not_met_has_no_trip(motions: tuple[GuardedMotion, ...]
     assert free.values.max() < free.limit
 
 
-def test_the_page_says_of_each_what_came_of_it(run: Recorded) -> None:
+def test_the_page_says_of_each_what_came_of_it(run: RecordedRun) -> None:
     said = [figure.all("span")[-1].text for figure in tree(page_of(run)).one("felt").all("figure")]
     assert said[0].endswith("guard 11.1 N (40 oz)")
     assert said[1].startswith("not met: ")
 
 
-def test_what_the_player_needs_is_in_the_page_and_let_in(run: Recorded) -> None:
+def test_what_the_player_needs_is_in_the_page_and_let_in(run: RecordedRun) -> None:
     page = tree(report_page(run, no_photographs(run), animation(run)).decode())
     packed = [
         node.attributes["id"]
@@ -77,7 +77,7 @@ def test_what_the_player_needs_is_in_the_page_and_let_in(run: Recorded) -> None:
     assert policy.count("'sha256-") == len(scripts) + 1
 
 
-def test_a_plan_of_few_steps_without_pictures_gives_a_page(run: Recorded) -> None:
+def test_a_plan_of_few_steps_without_pictures_gives_a_page(run: RecordedRun) -> None:
     page = tree(page_of(run))
     assert page.all("h1")[0].text == "The program came to its end."
     assert "took no picture" in page.one("seen").text

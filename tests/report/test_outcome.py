@@ -13,7 +13,7 @@ from handeye.program import events as happened
 from handeye.program.diagnosis.causes import NothingBetween
 from handeye.program.events import AnyEvent
 from handeye.report.facts.outcome import Kind, outcome
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.results.result import Check, Result
 
 WRONG = Check(
@@ -31,11 +31,11 @@ STOPPED: Sequence[AnyEvent] = (
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+def run(tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
     return recorded(tmp_path_factory.mktemp("run") / "trace.mcap")
 
 
-def ending(run: Recorded, events: Sequence[AnyEvent], came: Result | None = None) -> Recorded:
+def ending(run: RecordedRun, events: Sequence[AnyEvent], came: Result | None = None) -> RecordedRun:
     """The run, which ends with these events after it has begun its first stage."""
     return replace(run, trace=replace(run.trace, events=(*run.trace.events[:2], *events)), result=came)
 
@@ -60,25 +60,25 @@ DONE = [EVENTS[-1]]
         ([STARTED], None, "paused"),
     ],
 )
-def test_it_is_of_one_kind(run: Recorded, events: list[AnyEvent], came: Result | None, kind: Kind) -> None:
+def test_it_is_of_one_kind(run: RecordedRun, events: list[AnyEvent], came: Result | None, kind: Kind) -> None:
     assert outcome(ending(run, events, came)).kind == kind
 
 
-def test_a_trace_that_was_cut_short_breaks_off_whatever_it_says(run: Recorded) -> None:
+def test_a_trace_that_was_cut_short_breaks_off_whatever_it_says(run: RecordedRun) -> None:
     assert outcome(replace(ending(run, [STARTED, CALLED]), whole=False)).kind == "broken off"
 
 
-def test_a_stop_is_told_with_its_line_its_stage_and_its_reason(run: Recorded) -> None:
+def test_a_stop_is_told_with_its_line_its_stage_and_its_reason(run: RecordedRun) -> None:
     found = outcome(ending(run, STOPPED))
     assert (found.step, found.stage, found.call, found.time) == (STARTED, "open", CALLED, 2.0)
 
 
-def test_a_call_that_was_answered_stops_nothing(run: Recorded) -> None:
+def test_a_call_that_was_answered_stops_nothing(run: RecordedRun) -> None:
     answered = happened.OperatorAnswered(time=12.0, choice="proceed", step=2)
     assert outcome(ending(run, [STARTED, CALLED, answered])).kind == "paused"
 
 
-def test_a_run_that_failed_leads_with_the_reason_the_line_and_its_stage(run: Recorded) -> None:
+def test_a_run_that_failed_leads_with_the_reason_the_line_and_its_stage(run: RecordedRun) -> None:
     head = tree(page_of(ending(run, STOPPED))).all("header")[0]
     assert head.all("h1")[0].text == "Stopped in “open”."
     assert reasons(head) == ["The program calls the operator: “THE GASKET LIES OFF ITS PLACE”."]
@@ -99,27 +99,27 @@ def test_a_run_that_failed_leads_with_the_reason_the_line_and_its_stage(run: Rec
     ],
 )
 def test_a_call_without_a_message_is_told_by_its_error_or_its_cause(
-    run: Recorded, call: dict[str, Any], reason: str
+    run: RecordedRun, call: dict[str, Any], reason: str
 ) -> None:
     called = happened.OperatorCalled(time=12.0, message="", **call)
     head = tree(page_of(ending(run, [STARTED, called]))).all("header")[0]
     assert reasons(head) == [reason]
 
 
-def test_work_that_is_not_right_leads_with_what_is_wrong(run: Recorded) -> None:
+def test_work_that_is_not_right_leads_with_what_is_wrong(run: RecordedRun) -> None:
     came = result(completed=True, assembled=False, checks={"gap": WRONG})
     head = tree(page_of(ending(run, DONE, came))).all("header")[0]
     assert head.all("h1")[0].text == "The program reported success, but the pump is not right."
     assert reasons(head) == ["Gap under a head: 5 mm; right is at most 0.2 mm."]
 
 
-def test_the_panic_button_is_told_where_it_was_hit(run: Recorded) -> None:
+def test_the_panic_button_is_told_where_it_was_hit(run: RecordedRun) -> None:
     head = tree(page_of(ending(run, [STARTED, happened.PanicStopped(time=12.0)]))).all("header")[0]
     assert head.all("h1")[0].text == "The panic button was hit in “open”."
     assert reasons(head)[0].startswith("A person stopped the run, not the program.")
 
 
-def test_figures_of_which_there_are_none_are_not_told(run: Recorded) -> None:
+def test_figures_of_which_there_are_none_are_not_told(run: RecordedRun) -> None:
     (figures,) = tree(page_of(run)).all("header")[0].all("dl")
     assert "0" not in [figure.text for figure in figures.all("dd")]
     assert tree(page_of(ending(run, DONE))).all("header")[0].all("dl") == []

@@ -12,18 +12,18 @@ from handeye.planfile.store import encode
 from handeye.program import events as happened
 from handeye.program.diagnosis.causes import PlacesTried
 from handeye.program.events import AnyEvent
-from handeye.report.facts.corrections import By, corrections
-from handeye.report.facts.planned import Why, ends
+from handeye.report.facts.corrections import Mover, corrections
+from handeye.report.facts.planned import EndReason, ends
 from handeye.report.facts.searches import searches
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+def run(tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
     return recorded(tmp_path_factory.mktemp("run") / "trace.mcap")
 
 
-def of(run: Recorded, *events: AnyEvent) -> Recorded:
+def of(run: RecordedRun, *events: AnyEvent) -> RecordedRun:
     """The run with these events behind its beginning."""
     return replace(run, trace=replace(run.trace, events=(*run.trace.events[:2], *events)))
 
@@ -42,18 +42,29 @@ ADJUSTED = happened.Adjusted(time=12.0, goal="P1", shift=(0.001, 0.0, 0.0))
 TRIPPED = happened.GuardTripped(time=11.5, guard="force", value=9.0, limit=8.0)
 
 
-def test_an_end_says_why_it_is_where_it_is(run: Recorded) -> None:
+def test_an_end_says_why_it_is_where_it_is(run: RecordedRun) -> None:
     events = [*step(), *step(ADJUSTED, off=0.001), *step(off=0.001), *step(TRIPPED, off=0.01)]
     told = ends(of(run, *events))
-    assert [end.why for end in told] == [Why.PLANNED, Why.MOVED, Why.CARRIED, Why.GUARD]
+    assert [end.why for end in told] == [
+        EndReason.PLANNED,
+        EndReason.MOVED,
+        EndReason.CARRIED,
+        EndReason.GUARD,
+    ]
     assert np.allclose([end.off for end in told], [0, 0.001, 0.001, 0.01])
 
 
-def test_a_moved_goal_names_the_save_that_moved_it(run: Recorded) -> None:
+def test_a_moved_goal_names_the_save_that_moved_it(run: RecordedRun) -> None:
     events = [*step(SAVED, line=5, text="SAVE E1"), *step(RESTORED, ADJUSTED, line=9)]
     (moved,) = corrections(of(run, *events))
     (cause,) = moved.causes
-    assert (moved.goal, moved.step.line, cause.name, cause.place, cause.by) == ("P1", 9, "E1", "5", By.SAVE)
+    assert (moved.goal, moved.step.line, cause.name, cause.place, cause.by) == (
+        "P1",
+        9,
+        "E1",
+        "5",
+        Mover.SAVE,
+    )
 
 
 SEARCHING = """
@@ -76,18 +87,18 @@ def numbered(events: list[AnyEvent], step: int) -> list[AnyEvent]:
     ]
 
 
-def test_a_moved_goal_names_the_place_of_the_search_that_moved_it(run: Recorded) -> None:
+def test_a_moved_goal_names_the_place_of_the_search_that_moved_it(run: RecordedRun) -> None:
     seeking = replace(run, trace=replace(run.trace, plan=encode(plan_of(SEARCHING)).encode()))
     shift = happened.Adjusted(time=12.0, goal="P1", shift=(0.001, 0.0, 0.0))
     sent = numbered(step(advanced(1), line=5, text="AOJ AGAIN"), 2)
     events = [*numbered(step(), 0), *sent, *numbered(step(shift, line=4), 1)]
     anew = [*numbered(step(), 3), *numbered(step(shift, line=7), 4)]
     first, second = corrections(of(seeking, *events, *anew))
-    assert [(cause.name, cause.by, cause.place) for cause in first.causes] == [("place 2", By.SEARCH, "5")]
+    assert [(cause.name, cause.by, cause.place) for cause in first.causes] == [("place 2", Mover.SEARCH, "5")]
     assert second.causes == ()
 
 
-def test_a_look_is_named_only_for_what_the_search_does_not_explain(run: Recorded) -> None:
+def test_a_look_is_named_only_for_what_the_search_does_not_explain(run: RecordedRun) -> None:
     seeking = replace(run, trace=replace(run.trace, plan=encode(plan_of(SEARCHING_PART)).encode()))
     seen = happened.PartSeen(time=11.5, part="BASE", x=0.0, y=0.0, yaw=0.0)
     sent = numbered(step(seen, advanced(1), line=5), 2)
@@ -98,26 +109,26 @@ def test_a_look_is_named_only_for_what_the_search_does_not_explain(run: Recorded
         for event in numbered(step(happened.Adjusted(time=12.0, goal="A", shift=shift)), 1)
     ]
     by_search, by_both = corrections(of(seeking, *numbered(step(), 0), *sent, *moves))
-    assert [cause.by for cause in by_search.causes] == [By.SEARCH]
-    assert [cause.by for cause in by_both.causes] == [By.LOOK, By.SEARCH]
+    assert [cause.by for cause in by_search.causes] == [Mover.SEARCH]
+    assert [cause.by for cause in by_both.causes] == [Mover.LOOK, Mover.SEARCH]
 
 
 def advanced(count: int) -> AnyEvent:
     return happened.SearchAdvanced(time=11.0 + count, count=count, offset=(0.001 * count, 0.0))
 
 
-def test_a_search_holds_its_places_from_the_first_on(run: Recorded) -> None:
+def test_a_search_holds_its_places_from_the_first_on(run: RecordedRun) -> None:
     (found,) = searches(of(run, *step(advanced(1)), *step(advanced(2))))
     assert found.places == ((0.0, 0.0), (0.001, 0.0), (0.002, 0.0))
     assert not found.exhausted
 
 
-def test_a_search_that_begins_anew_is_another(run: Recorded) -> None:
+def test_a_search_that_begins_anew_is_another(run: RecordedRun) -> None:
     found = searches(of(run, *step(advanced(1)), *step(advanced(2)), *step(advanced(1))))
     assert [len(search.places) for search in found] == [3, 2]
 
 
-def test_a_search_without_an_end_says_so(run: Recorded) -> None:
+def test_a_search_without_an_end_says_so(run: RecordedRun) -> None:
     gone = happened.ErrorRaised(time=14.0, number=6, cause=PlacesTried(places=2))
     (found,) = searches(of(run, *step(advanced(1)), *step(gone)))
     assert found.exhausted

@@ -9,19 +9,19 @@ import pytest
 from recordings import BOUNDARIES, Recording
 from report_pages import Node, page_of, recorded, renamed, tree
 
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.reading import read_trace
 
 EVIL = "</script><img src=x onerror=alert(1)>"
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+def run(tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
     return recorded(tmp_path_factory.mktemp("run") / "trace.mcap")
 
 
 @pytest.fixture(scope="module")
-def page(run: Recorded) -> Node:
+def page(run: RecordedRun) -> Node:
     return tree(page_of(run))
 
 
@@ -42,7 +42,7 @@ def test_the_policy_lets_in_its_own_script_and_style_and_pictures_in_the_file(pa
     }
 
 
-def test_it_fetches_nothing(run: Recorded, page: Node) -> None:
+def test_it_fetches_nothing(run: RecordedRun, page: Node) -> None:
     addresses = [node.attributes.get(key) or "" for node in page for key in ("src", "href")]
     assert {address.split(":")[0] for address in addresses if address[:1] not in ("", "#")} == {"data"}
     assert re.findall(r"https?:|//\w|url\(|@import", page_of(run)) == []
@@ -53,7 +53,7 @@ def test_it_has_no_style_and_no_script_in_attributes(page: Node) -> None:
     assert {name for name in names if name == "style" or name.startswith("on")} == set()
 
 
-def test_the_same_trace_gives_the_same_page(run: Recorded, tmp_path: Path) -> None:
+def test_the_same_trace_gives_the_same_page(run: RecordedRun, tmp_path: Path) -> None:
     assert page_of(recorded(tmp_path / "again.mcap")) == page_of(run)
 
 
@@ -69,7 +69,7 @@ def test_names_are_used_once(page: Node) -> None:
 
 
 @pytest.mark.parametrize("word", ["stage", "text", "program"])
-def test_whatever_a_name_is_it_is_shown_as_its_characters(run: Recorded, word: str) -> None:
+def test_whatever_a_name_is_it_is_shown_as_its_characters(run: RecordedRun, word: str) -> None:
     hostile = tree(page_of(renamed(run, **{word: EVIL})))
     plain = tree(page_of(run))
     assert EVIL in hostile.text
@@ -78,7 +78,7 @@ def test_whatever_a_name_is_it_is_shown_as_its_characters(run: Recorded, word: s
     ]
 
 
-def test_what_cannot_be_seen_is_not_hidden(run: Recorded) -> None:
+def test_what_cannot_be_seen_is_not_hidden(run: RecordedRun) -> None:
     page = tree(page_of(renamed(run, stage="open\u202e")))
     assert page.one("felt").all("h3")[0].text == "open\N{REPLACEMENT CHARACTER}"
 
@@ -106,7 +106,7 @@ def test_every_figure_that_leads_somewhere_has_a_name(page: Node) -> None:
     assert [link.text for link in links if not link.attributes.get("aria-label")] == []
 
 
-def test_the_figures_lead_to_moments_of_the_run(run: Recorded, page: Node) -> None:
+def test_the_figures_lead_to_moments_of_the_run(run: RecordedRun, page: Node) -> None:
     moments = [float((node.attributes["href"] or "")[3:]) for node in page.all("a")]
     assert moments
     assert all(0 <= moment <= run.ends + 0.01 for moment in moments)
@@ -128,7 +128,7 @@ def test_a_picture_is_there_with_what_was_found_over_it(page: Node) -> None:
 def beginning(path: Path, events: int, *, whole: bool = True) -> Node:
     """The page of the first events of the run."""
     Recording(path).begin().play(0, events).close()
-    return tree(page_of(Recorded(trace=read_trace(path), whole=whole)))
+    return tree(page_of(RecordedRun(trace=read_trace(path), whole=whole)))
 
 
 def test_a_run_without_pictures_says_so(tmp_path: Path) -> None:
@@ -150,7 +150,7 @@ def test_a_trace_that_was_cut_short_says_so(tmp_path: Path) -> None:
 def test_a_run_taken_up_from_a_checkpoint_says_what_it_has_not_seen(tmp_path: Path) -> None:
     taken_up = BOUNDARIES[2]
     Recording(tmp_path / "trace.mcap").resume(taken_up).play(taken_up).close()
-    page = tree(page_of(Recorded(trace=read_trace(tmp_path / "trace.mcap"))))
+    page = tree(page_of(RecordedRun(trace=read_trace(tmp_path / "trace.mcap"))))
     assert "taken up from a checkpoint" in page.all("header")[0].text
     told = [bar.attributes["aria-label"] or "" for bar in page.one("stages").all("a")]
     assert [bar.endswith("not recorded") for bar in told] == [True, True, False]

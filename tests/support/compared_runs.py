@@ -6,7 +6,7 @@ from typing import Final
 from block_task import block_plan
 
 from handeye.core.variation import Overrides, WorldSpec
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.runs.advance import advance
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
@@ -28,14 +28,14 @@ SCRIPT: Final = """TRANS ABOVE [20 24 1.2 90 90 0]
 """
 
 
-def kept(folder: Path, start: Checkpoint) -> Recorded:
+def kept(folder: Path, start: Checkpoint) -> RecordedRun:
     """A run to its end, or to where it stops, kept in a folder."""
     keeping = open_new(folder, start)
     runner = Runner(start, observers=lambda runner: [keeping.watch(runner, start, again=False)])
     advance(runner)
     runner.finish()
     keeping.close()
-    return Recorded(trace=read_trace(folder / TRACE))
+    return RecordedRun(trace=read_trace(folder / TRACE))
 
 
 def block_start(script: str = SCRIPT, seed: int = 0, **values: float) -> Checkpoint:

@@ -12,24 +12,24 @@ from handeye.core.markup import SHAPES, VOID
 from handeye.program.events import AnyEvent
 from handeye.report.page.document import report_page
 from handeye.report.photographs import Album, Photograph
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.reading import read_trace
 
 
-def recorded(path: Path) -> Recorded:
+def recorded(path: Path) -> RecordedRun:
     """A made-up run, recorded at a path."""
     record(path)
-    return Recorded(trace=read_trace(path))
+    return RecordedRun(trace=read_trace(path))
 
 
-def changed(run: Recorded, change: Callable[[AnyEvent], AnyEvent | None]) -> Recorded:
+def changed(run: RecordedRun, change: Callable[[AnyEvent], AnyEvent | None]) -> RecordedRun:
     """The run with its events changed, or left out."""
     events = tuple(each for event in run.trace.events if (each := change(event)) is not None)
     head = events[0]
     return replace(run, trace=replace(run.trace, head=head, events=events))
 
 
-def renamed(run: Recorded, **words: str) -> Recorded:
+def renamed(run: RecordedRun, **words: str) -> RecordedRun:
     """The run with other words in all its events: `stage`, `text`, `program`, `message`."""
 
     def change(event: AnyEvent) -> AnyEvent:
@@ -39,13 +39,13 @@ def renamed(run: Recorded, **words: str) -> Recorded:
     return changed(run, change)
 
 
-def no_photographs(run: Recorded, why: str = "No photograph: none was wanted.") -> Album:
+def no_photographs(run: RecordedRun, why: str = "No photograph: none was wanted.") -> Album:
     """An album with none."""
     none = Photograph(time=0.0, shows="nothing", width=4, height=3, webp=None, missing=why)
     return Album(leading=none, stages=(none,) * len(run.trace.stages))
 
 
-def page_of(run: Recorded) -> str:
+def page_of(run: RecordedRun) -> str:
     """Its report, without photographs and animation."""
     return report_page(run, no_photographs(run), None).decode()
 

@@ -8,7 +8,7 @@ from short_runs import GRASP, plan_of
 
 from handeye.planfile.store import encode
 from handeye.program.events import AnyEvent, Saved, StepFinished, StepStarted
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.trace import Trace
 
 Happening = Callable[..., AnyEvent]
@@ -20,7 +20,7 @@ def happens(kind: Callable[..., AnyEvent], **fields: object) -> Happening:
     return partial(kind, **fields)
 
 
-def told(*steps: tuple[str, Sequence[Happening]], script: str = GRASP) -> Recorded:
+def told(*steps: tuple[str, Sequence[Happening]], script: str = GRASP) -> RecordedRun:
     """A run of a script that carried out some steps, each by the words that it begins with."""
     plan = plan_of(script)
     events: list[AnyEvent] = [started()]
@@ -35,7 +35,7 @@ def told(*steps: tuple[str, Sequence[Happening]], script: str = GRASP) -> Record
         name="told.mcap", version=3, head=started(), plan=encode(plan).encode(), events=tuple(events), counts={},
         messages=(),
     )  # fmt: skip
-    return Recorded(trace=trace)
+    return RecordedRun(trace=trace)
 
 
 def saved(x: float) -> tuple[str, Sequence[Happening]]:

@@ -13,7 +13,7 @@ from handeye.core.errors import InvalidInput
 from handeye.program.events import AnyEvent, StageFinished, StageStarted, StepFinished
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
-from handeye.video.views import views
+from handeye.video.storyboard import views
 
 PLACES = {
     "left": ((0.2, 0.5, 0.0), (0.2, 0.7, 0.1)),

@@ -9,13 +9,13 @@ from handeye.core.units import UNITS, Unit
 from handeye.core.variation import Quantity, WorldSpec
 from handeye.planfile.store import written_digest
 from handeye.program.senses import Sense
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.tasks import DEFAULT, known, option
 
 _CAMERAS: Final = {"opengl": "gl", "rays": "ray"}
 
 
-def command(run: Recorded) -> str | None:
+def command(run: RecordedRun) -> str | None:
     """The command; None: code or a task of the caller's own belongs to the run, which no command line has."""
     head = run.trace.head
     if known(head.task) is None or head.own_parts:
@@ -39,7 +39,7 @@ def is_shipped(digest: str) -> bool:
     return made.is_file() and written_digest(made.read_bytes()) == digest
 
 
-def _camera(run: Recorded) -> list[str]:
+def _camera(run: RecordedRun) -> list[str]:
     kind = _CAMERAS.get(run.trace.head.camera.method)
     return [] if kind is None else ["--camera", kind]
 

@@ -9,13 +9,13 @@ import numpy as np
 from handeye.core.record import Vector3
 from handeye.program.events import Adjusted, PartSeen, Restored, Saved, SearchAdvanced, StepStarted
 from handeye.program.operation import Operation, Use
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.account import ASTRAY
 from handeye.trace.steps import DoneStep, done_steps
 
 
-class By(StrEnum):
-    """By what a goal is moved."""
+class Mover(StrEnum):
+    """What a goal is moved by."""
 
     SAVE = "saved in"
     LOOK = "seen in"
@@ -27,8 +27,8 @@ class Cause:
     """What moved a goal: a difference that was saved, a part that was seen, or the place that a search was at."""
 
     name: str
-    """Of the difference, the part, or the place."""
-    by: By
+    """Name of the difference, the part, or the place."""
+    by: Mover
     place: str
     """The line of its SAVE, of the look, or that sent the search on."""
     time: float
@@ -48,24 +48,24 @@ class Correction:
     causes: tuple[Cause, ...]
 
 
-def corrections(run: Recorded) -> tuple[Correction, ...]:
+def corrections(run: RecordedRun) -> tuple[Correction, ...]:
     """The goals that were moved, in order."""
     return tuple(_corrections(run))
 
 
-def _corrections(run: Recorded) -> Iterator[Correction]:
-    known: dict[tuple[By, str], Cause] = {}
+def _corrections(run: RecordedRun) -> Iterator[Correction]:
+    known: dict[tuple[Mover, str], Cause] = {}
     search = _Search()
     for step in done_steps(run.trace.events):
         search = _Search() if _concerns_search(_operation(run, step).writes) else search
         for event in step.events:
             match event:
                 case Saved():
-                    known[By.SAVE, event.name] = _cause(run, step, event.name, event.time, By.SAVE)
+                    known[Mover.SAVE, event.name] = _cause(run, step, event.name, event.time, Mover.SAVE)
                 case PartSeen():
-                    known[By.LOOK, event.part] = _cause(run, step, event.part, event.time, By.LOOK)
+                    known[Mover.LOOK, event.part] = _cause(run, step, event.part, event.time, Mover.LOOK)
                 case SearchAdvanced():
-                    cause = _cause(run, step, f"place {event.count + 1}", event.time, By.SEARCH)
+                    cause = _cause(run, step, f"place {event.count + 1}", event.time, Mover.SEARCH)
                     search = _Search(offset=event.offset, cause=cause)
                 case Adjusted():
                     yield Correction(
@@ -87,12 +87,16 @@ class _Search:
     """None: it is at its first."""
 
 
-def _cause(run: Recorded, step: DoneStep, name: str, time: float, by: By) -> Cause:
+def _cause(run: RecordedRun, step: DoneStep, name: str, time: float, by: Mover) -> Cause:
     return Cause(name=name, by=by, place=step.started.place, time=run.seconds(time))
 
 
 def _causes(
-    run: Recorded, step: DoneStep, adjusted: Adjusted, known: Mapping[tuple[By, str], Cause], search: _Search
+    run: RecordedRun,
+    step: DoneStep,
+    adjusted: Adjusted,
+    known: Mapping[tuple[Mover, str], Cause],
+    search: _Search,
 ) -> Iterator[Cause]:
     """What moved a goal: the look at its part, for what nothing else explains; differences, and the search."""
     restored = [event for event in step.events if isinstance(event, Restored)]
@@ -102,8 +106,8 @@ def _causes(
         rest = rest - np.array([*search.offset, 0.0])
     position = run.program.positions.get(adjusted.goal)
     if position is not None and position.of is not None and np.linalg.norm(rest) > ASTRAY:
-        yield from filter(None, [known.get((By.LOOK, position.of))])
-    yield from filter(None, (known.get((By.SAVE, event.name)) for event in restored))
+        yield from filter(None, [known.get((Mover.LOOK, position.of))])
+    yield from filter(None, (known.get((Mover.SAVE, event.name)) for event in restored))
     if searched and search.cause is not None:
         yield search.cause
 
@@ -113,6 +117,6 @@ def _concerns_search(uses: Iterable[Use]) -> bool:
     return any(use.kind == "search" for use in uses)
 
 
-def _operation(run: Recorded, step: DoneStep) -> Operation:
+def _operation(run: RecordedRun, step: DoneStep) -> Operation:
     """What a step does."""
     return run.program.steps[step.started.step].operation

@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.tasks import known
 
 
-def told_faults(run: Recorded) -> Iterator[tuple[str, str]]:
+def told_faults(run: RecordedRun) -> Iterator[tuple[str, str]]:
     """Each fault as it would be typed, and what it does: a sentence, empty where its task is not known."""
     world = run.trace.head.world
     task = known(run.trace.head.task)

@@ -9,7 +9,7 @@ import numpy as np
 from handeye.core.pose import Array
 from handeye.program.events import GuardTripped, StageStarted, StepStarted
 from handeye.program.guards import GuardKind
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.forces import Forces
 from handeye.trace.steps import DoneStep, done_steps
 
@@ -41,7 +41,7 @@ class GuardedMotion:
     """None: it was not met."""
 
 
-def guarded_motions(run: Recorded) -> tuple[GuardedMotion, ...]:
+def guarded_motions(run: RecordedRun) -> tuple[GuardedMotion, ...]:
     """The guarded motions, in order."""
     if not len(run.trace.times):
         return ()
@@ -49,13 +49,13 @@ def guarded_motions(run: Recorded) -> tuple[GuardedMotion, ...]:
     return tuple(_motions(run, forces))
 
 
-def lost_trips(run: Recorded, motions: Sequence[GuardedMotion]) -> int:
+def lost_trips(run: RecordedRun, motions: Sequence[GuardedMotion]) -> int:
     """How many guards were met in motions of which the trace holds nothing."""
     met = sum(isinstance(event, GuardTripped) for event in run.trace.events)
     return met - sum(motion.trip is not None for motion in motions)
 
 
-def _motions(run: Recorded, forces: Forces) -> Iterator[GuardedMotion]:
+def _motions(run: RecordedRun, forces: Forces) -> Iterator[GuardedMotion]:
     stage_of = _stages(run)
     for step in done_steps(run.trace.events):
         rows = step.span.rows(forces.times)
@@ -64,7 +64,7 @@ def _motions(run: Recorded, forces: Forces) -> Iterator[GuardedMotion]:
             yield _motion(run, forces, step, watched, stage_of[step.started.time, step.started.step])
 
 
-def _motion(run: Recorded, forces: Forces, step: DoneStep, watched: Array, stage: str) -> GuardedMotion:
+def _motion(run: RecordedRun, forces: Forces, step: DoneStep, watched: Array, stage: str) -> GuardedMotion:
     """A motion, by the servo periods in which a guard watched."""
     kind = GuardKind(str(forces.guard[watched[0]]))
     return GuardedMotion(
@@ -78,12 +78,12 @@ def _motion(run: Recorded, forces: Forces, step: DoneStep, watched: Array, stage
     )
 
 
-def _trip(run: Recorded, step: DoneStep) -> Trip | None:
+def _trip(run: RecordedRun, step: DoneStep) -> Trip | None:
     met = next((event for event in step.events if isinstance(event, GuardTripped)), None)
     return None if met is None else Trip(run.seconds(met.time), met.value, met.limit)
 
 
-def _stages(run: Recorded) -> dict[tuple[float, int], str]:
+def _stages(run: RecordedRun) -> dict[tuple[float, int], str]:
     """The stage of each step that was begun, by its time and number."""
     found: dict[tuple[float, int], str] = {}
     stage = ""

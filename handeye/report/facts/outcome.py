@@ -11,7 +11,7 @@ from handeye.program.events import (
     StepFinished,
     StepStarted,
 )
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.results.result import Check
 
 Kind = Literal["right", "wrong", "ended", "stopped", "panic", "paused", "broken off"]
@@ -53,7 +53,7 @@ class Outcome:
         return self.kind in ("right", "wrong", "ended")
 
 
-def outcome(run: Recorded) -> Outcome:
+def outcome(run: RecordedRun) -> Outcome:
     """The outcome of a run."""
     last = run.trace.events[-1]
     if isinstance(last, RunFinished) and last.completed:
@@ -69,7 +69,7 @@ def outcome(run: Recorded) -> Outcome:
     return Outcome(kind=kind, time=run.ends, stage=stage, step=step, call=call)
 
 
-def _ended(run: Recorded) -> Outcome:
+def _ended(run: RecordedRun) -> Outcome:
     """The outcome of a run whose program came to its end."""
     judged = None if run.result is None else run.result.judged
     if run.result is None or judged is None:
@@ -83,7 +83,7 @@ def _ended(run: Recorded) -> Outcome:
     )
 
 
-def _standing(run: Recorded) -> tuple[str | None, StepStarted | None, OperatorCalled | None]:
+def _standing(run: RecordedRun) -> tuple[str | None, StepStarted | None, OperatorCalled | None]:
     """The stage and the step that a run stands in, and the call of the operator that nobody has answered."""
     stages = run.trace.stages
     step: StepStarted | None = None

@@ -13,12 +13,12 @@ from handeye.program.events import (
     GuardTripped,
     StepStarted,
 )
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.account import ASTRAY
 from handeye.trace.steps import DoneStep, done_steps
 
 
-class Why(StrEnum):
+class EndReason(StrEnum):
     """Why a motion ended where it did."""
 
     PLANNED = "as planned"
@@ -28,7 +28,7 @@ class Why(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ended:
+class MotionEnd:
     """The end of a motion."""
 
     time: float
@@ -36,15 +36,15 @@ class Ended:
     step: StepStarted
     off: float
     """Distance of the hand from where the plan has it, m."""
-    why: Why
+    why: EndReason
 
 
-def ends(run: Recorded) -> tuple[Ended, ...]:
+def ends(run: RecordedRun) -> tuple[MotionEnd, ...]:
     """The ends of the motions, in order."""
     return tuple(_ends(run))
 
 
-def _ends(run: Recorded) -> Iterator[Ended]:
+def _ends(run: RecordedRun) -> Iterator[MotionEnd]:
     before = np.zeros(3)
     for step in done_steps(run.trace.events):
         off = _off(step)
@@ -52,7 +52,7 @@ def _ends(run: Recorded) -> Iterator[Ended]:
             why = _why(step.events, off, before)
             before = off
             time = run.seconds(step.events[-1].time)
-            yield Ended(time=time, step=step.started, off=float(np.linalg.norm(off)), why=why)
+            yield MotionEnd(time=time, step=step.started, off=float(np.linalg.norm(off)), why=why)
 
 
 def _off(step: DoneStep) -> Array | None:
@@ -62,10 +62,10 @@ def _off(step: DoneStep) -> Array | None:
     return None if hand is None or planned is None else np.subtract(hand, planned)
 
 
-def _why(events: list[AnyEvent], off: Array, before: Array) -> Why:
+def _why(events: list[AnyEvent], off: Array, before: Array) -> EndReason:
     if any(isinstance(event, GuardTripped) for event in events):
-        return Why.GUARD
+        return EndReason.GUARD
     if any(isinstance(event, Adjusted) for event in events):
-        return Why.MOVED
+        return EndReason.MOVED
     carried = np.linalg.norm(off) > ASTRAY and np.linalg.norm(off - before) < np.linalg.norm(off)
-    return Why.CARRIED if carried else Why.PLANNED
+    return EndReason.CARRIED if carried else EndReason.PLANNED

@@ -2,10 +2,10 @@
 
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadFile
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 
-def check_scene(run: Recorded) -> None:
+def check_scene(run: RecordedRun) -> None:
     """Make sure that what moved in a run is in its scene; raises InvalidInput if it is not, or no task of that name is
     known here.
     """

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from handeye.program.diagnosis.causes import PlacesTried
 from handeye.program.events import AnyEvent, ErrorRaised, SearchAdvanced, StepStarted
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,7 +22,7 @@ class Search:
     """It ran out of places; else it went on from the last."""
 
 
-def searches(run: Recorded) -> tuple[Search, ...]:
+def searches(run: RecordedRun) -> tuple[Search, ...]:
     """The searches that went on, in order."""
     return tuple(_search(run, tries) for tries in _tries(run.trace.events))
 
@@ -50,7 +50,7 @@ def _is_try(event: AnyEvent) -> bool:
     )
 
 
-def _search(run: Recorded, tries: list[tuple[StepStarted, AnyEvent]]) -> Search:
+def _search(run: RecordedRun, tries: list[tuple[StepStarted, AnyEvent]]) -> Search:
     gone_on = [event for _, event in tries if isinstance(event, SearchAdvanced)]
     return Search(
         step=tries[-1][0],

@@ -8,7 +8,7 @@ from google.protobuf.message import DecodeError
 from handeye.core.errors import BadFile
 from handeye.ports.camera import Picture
 from handeye.program.events import ErrorRaised, PartInspected, PartMatched, PartSeen, PictureTaken
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.annotations import read_annotations
 from handeye.trace.channels import ANNOTATIONS, nanoseconds
 from handeye.trace.steps import DoneStep, done_steps
@@ -29,23 +29,23 @@ class SeenPicture:
     picture: Picture
     """Levels 0 to 15, shape (rows, columns)."""
     marks: tuple[Mark, ...]
-    """Of what was found in it."""
+    """Marks of what was found in it."""
     findings: tuple[Finding, ...]
     """What that was, or why it was not found."""
 
 
-def seen_pictures(run: Recorded) -> tuple[SeenPicture, ...]:
+def seen_pictures(run: RecordedRun) -> tuple[SeenPicture, ...]:
     """The pictures, in order; raises InvalidInput if a message about one cannot be understood."""
     return tuple(_seen(run))
 
 
-def lost_pictures(run: Recorded) -> int:
+def lost_pictures(run: RecordedRun) -> int:
     """How many pictures were taken that the trace does not hold."""
     taken = sum(isinstance(event, PictureTaken) for event in run.trace.events)
     return taken - len(run.trace.pictures)
 
 
-def _seen(run: Recorded) -> Iterator[SeenPicture]:
+def _seen(run: RecordedRun) -> Iterator[SeenPicture]:
     shots = {shot.time: shot.picture for shot in run.trace.pictures}
     marks, findings = _marks(run), _findings(run)
     for event in run.trace.events:
@@ -60,7 +60,7 @@ def _seen(run: Recorded) -> Iterator[SeenPicture]:
             )
 
 
-def _marks(run: Recorded) -> dict[int, tuple[Mark, ...]]:
+def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
     """The last marks on each picture, by the time (ns) at which it was taken: each set holds those before."""
     try:
         return dict(
@@ -70,7 +70,7 @@ def _marks(run: Recorded) -> dict[int, tuple[Mark, ...]]:
         raise BadFile(f"{run.trace.name}: marks on a picture cannot be understood") from None
 
 
-def _findings(run: Recorded) -> dict[float, list[Finding]]:
+def _findings(run: RecordedRun) -> dict[float, list[Finding]]:
     """What the steps found in each picture, by the time of the cell's clock at which it was taken."""
     found: dict[float, list[Finding]] = {}
     taken: dict[str, float] = {}
@@ -83,6 +83,6 @@ def _findings(run: Recorded) -> dict[float, list[Finding]]:
     return found
 
 
-def _examined(run: Recorded, step: DoneStep) -> str | None:
+def _examined(run: RecordedRun, step: DoneStep) -> str | None:
     """The name of the picture that a step looks at; None: at none."""
     return run.program.steps[step.started.step].operation.examines

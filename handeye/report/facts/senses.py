@@ -6,7 +6,7 @@ import msgspec
 from msgspec import UNSET
 
 from handeye.core.errors import BadFile
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.channels import HAND, nanoseconds
 from handeye.trace.hand_message import Axes, HandMessage, read_hand
 
@@ -23,7 +23,7 @@ class Senses:
     """Size of the force of the hand, N; None: it was not estimated."""
 
 
-def senses_at(run: Recorded, seconds: float) -> Senses | None:
+def senses_at(run: RecordedRun, seconds: float) -> Senses | None:
     """What the senses told at a time since the run began; None: that was not recorded; raises InvalidInput if a message
     about the hand cannot be understood.
     """

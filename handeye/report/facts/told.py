@@ -4,7 +4,7 @@ from typing import Final, NamedTuple
 
 from handeye.program import events as happened
 from handeye.program.events import AnyEvent
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 SENSED: Final = (
     happened.Adjusted,
@@ -32,7 +32,7 @@ SENSED: Final = (
 """Events worth a caption."""
 
 
-class Told(NamedTuple):
+class CaptionedEvent(NamedTuple):
     """An event worth a caption."""
 
     time: float
@@ -40,8 +40,10 @@ class Told(NamedTuple):
     event: AnyEvent
 
 
-def told(run: Recorded) -> tuple[Told, ...]:
+def told(run: RecordedRun) -> tuple[CaptionedEvent, ...]:
     """All of them, in order."""
     return tuple(
-        Told(run.seconds(event.time), event) for event in run.trace.events if isinstance(event, SENSED)
+        CaptionedEvent(run.seconds(event.time), event)
+        for event in run.trace.events
+        if isinstance(event, SENSED)
     )

@@ -11,11 +11,11 @@ from handeye.report.page.record import facts
 from handeye.report.page.referee import findings_table
 from handeye.report.page.timing import timing_section
 from handeye.report.page.title import title
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.account import account
 
 
-def account_page(run: Recorded) -> bytes:
+def account_page(run: RecordedRun) -> bytes:
     """The report of a run of any system; the same for the same trace and result."""
     came = outcome(run)
     said = title(run, came)
@@ -26,7 +26,7 @@ def account_page(run: Recorded) -> bytes:
     return f"{MARK}{page}\n".encode()
 
 
-def _sections(run: Recorded) -> Iterator[Markup]:
+def _sections(run: RecordedRun) -> Iterator[Markup]:
     yield section("account", "What happened", element("pre", "\n".join(account(run.trace.events))))
     yield timing_section(run)
     yield channels_section(run.trace)

@@ -30,14 +30,14 @@ from handeye.report.page.title import title
 from handeye.report.page.verdict import verdict
 from handeye.report.page.view import view_section, widths
 from handeye.report.photographs import Album
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 
 MARK: Final = "<!doctype html>\n<!-- handeye report -->\n"
 """What every report begins with."""
 REPORT: Final = Kind("report of handeye", MARK.encode(), ending=".html")
 
 
-def report_page(run: Recorded, photographs: Album, animated: Animation | None) -> bytes:
+def report_page(run: RecordedRun, photographs: Album, animated: Animation | None) -> bytes:
     """The report of a run; the same for the same trace and result on one machine; raises InvalidInput if its trace
     cannot be understood.
 
@@ -59,7 +59,7 @@ def report_page(run: Recorded, photographs: Album, animated: Animation | None) -
     return (MARK + page + "\n").encode()
 
 
-def _sections(run: Recorded, photographs: Album) -> Iterator[Markup]:
+def _sections(run: RecordedRun, photographs: Album) -> Iterator[Markup]:
     felt, stages = guarded_motions(run), run.trace.stages
     yield view_section(run, photographs.stages)
     yield timing_section(run)

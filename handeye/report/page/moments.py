@@ -9,13 +9,13 @@ from handeye.core.markup import Markup, element
 from handeye.core.plain_text import printable
 from handeye.program.events import StepStarted
 from handeye.report.facts.outcome import Outcome
-from handeye.report.facts.told import Told
+from handeye.report.facts.told import CaptionedEvent
 from handeye.report.page.source import line_id
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.sentences import measures_of, sentence
 
 
-def moments(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Markup:
+def moments(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Markup:
     """The data, as an element that is not shown."""
     files = ("", *run.program.required)
     steps = [event for event in run.trace.events if isinstance(event, StepStarted)]

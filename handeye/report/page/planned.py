@@ -20,11 +20,144 @@ from handeye.core.markup import (
 from handeye.core.plain_text import counted, one_line
 from handeye.core.units import INCH, MILLIMETRE
 from handeye.report.facts.corrections import Cause, Correction
-from handeye.report.facts.planned import Ended, Why
+from handeye.report.facts.planned import EndReason, MotionEnd
 from handeye.report.facts.searches import Search
 from handeye.report.page.figures import clock, exact_clock, millimetres
 from handeye.report.page.plots import Scale, dot, drawing, rule, words
 from handeye.trace.stages import Stage
+
+_WIDE: Final = 1160.0
+_HIGH: Final = 250.0
+_LEFT: Final = 56.0
+_FOOT: Final = 26.0
+_CLASSES: Final = {
+    EndReason.PLANNED: "planned",
+    EndReason.MOVED: "moved",
+    EndReason.GUARD: "guarded",
+    EndReason.CARRIED: "carried",
+}
+_MEANING: Final = {
+    EndReason.PLANNED: "ended as planned",
+    EndReason.MOVED: "its goal had been moved by what was sensed before",
+    EndReason.GUARD: "a guard ended it",
+    EndReason.CARRIED: "began off its plan, and went on so",
+}
+_DECADES: Final = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+"""mm"""
+
+
+def planned_section(
+    ends: Sequence[MotionEnd],
+    corrections: Sequence[Correction],
+    searches: Sequence[Search],
+    stages: Sequence[Stage],
+    origin: float,
+) -> Markup:
+    """The section; `origin`: the cell's clock when the run began, s."""
+    return section(
+        "planned",
+        "Planned and found",
+        *_ends(ends, stages, origin),
+        *_corrections(corrections),
+        *searched(searches),
+    )
+
+
+def _ends(ends: Sequence[MotionEnd], stages: Sequence[Stage], origin: float) -> Iterator[Markup]:
+    if not ends:
+        yield note("No motion of this run came to an end.")
+        return
+    yield note(
+        f"How far from its planned end each of {counted(len(ends), 'motion')} ended, in millimetres, by the arm’s own "
+        "sensors. The plan is made before the arm has seen or felt anything; the working phase moves its goals."
+    )
+    yield element(
+        "div", _chart(ends, stages, origin), class_="chart", tabindex="0", role="region", aria_label="chart"
+    )
+    counts = {why: sum(end.why is why for end in ends) for why in EndReason}
+    yield element("ul", *(_key(why, counts[why]) for why in EndReason if counts[why]), class_="key")
+
+
+def _key(why: EndReason, count: int) -> Markup:
+    mark = element("svg", dot(6, 6, 4, class_=_CLASSES[why]), viewBox="0 0 12 12", aria_hidden="true")
+    return element("li", mark, f" {_MEANING[why]}: {count}")
+
+
+def _chart(ends: Sequence[MotionEnd], stages: Sequence[Stage], origin: float) -> Markup:
+    sizes = [max(end.off / MILLIMETRE, _DECADES[0]) for end in ends]
+    decades = [ten for ten in _DECADES if min(sizes) / 10 < ten < max(sizes) * 10]
+    begin, end = ends[0].time, max(ends[-1].time, ends[0].time + 1)
+    x = Scale(
+        min(begin, *(stage.begin - origin for stage in stages)) if stages else begin, end, _LEFT, _WIDE - 8
+    )
+    y = _Decades(min(decades), max(decades))
+    strokes = [*_grid(decades, y), *_bands(stages, origin, x), *(_dot(each, x, y) for each in ends)]
+    label = f"distance of {counted(len(ends), 'motion end')} from the plan, against time"
+    return drawing(*strokes, wide=_WIDE, high=_HIGH, label=label)
+
+
+class _Decades:
+    """The logarithmic scale of distances, mm."""
+
+    def __init__(self, least: float, most: float) -> None:
+        self._scale = Scale(log10(least), log10(most), _HIGH - _FOOT, 12.0)
+
+    def __call__(self, size: float) -> float:
+        return self._scale(log10(size))
+
+
+def _grid(decades: Sequence[float], y: _Decades) -> Iterator[Markup]:
+    for ten in decades:
+        yield rule(_LEFT, y(ten), _WIDE - 8, y(ten), class_="grid")
+        yield words(_LEFT - 8, y(ten) + 4, f"{ten:g} mm", anchor="end")
+
+
+def _bands(stages: Sequence[Stage], origin: float, x: Scale) -> Iterator[Markup]:
+    """Where stages begin, by their numbers."""
+    for number, stage in enumerate(stages, 1):
+        at = x(stage.begin - origin)
+        yield rule(at, 12, at, _HIGH - _FOOT + 6, class_="grid")
+        yield words(at + 3, _HIGH - 8, str(number))
+
+
+def _dot(end: MotionEnd, x: Scale, y: _Decades) -> Markup:
+    size = max(end.off / MILLIMETRE, _DECADES[0])
+    told = f"{end.step.place} {one_line(end.step.text)}: {millimetres(end.off)} mm, {end.why}"
+    circle = dot(x(end.time), y(size), 3.4, class_=_CLASSES[end.why])
+    return to_moment(end.time, element("title", told), circle, aria_label=told, tabindex="-1")
+
+
+# -- what moved goals ------------------------------------------------------------------------------------
+
+
+def _corrections(corrections: Sequence[Correction]) -> Iterator[Markup]:
+    if not corrections:
+        return
+    yield element("h3", "What moved goals")
+    figures = figure_heads("at", "x, mm", "y, mm", "z, mm")
+    yield table(
+        [*figure_heads("line"), *heads("motion"), *figures, *heads("because of")],
+        map(_correction, corrections),
+        label="corrections",
+    )
+
+
+def _correction(correction: Correction) -> list[Markup]:
+    shifts = [figure_cell(millimetres(component)) for component in correction.shift]
+    causes = joined((_cause(cause) for cause in correction.causes), ", ")
+    return [
+        figure_cell(correction.step.place),
+        cell(element("code", one_line(correction.step.text))),
+        figure_cell(to_moment(correction.time, clock(correction.time))),
+        *shifts,
+        element("td", causes if correction.causes else "what the program did", class_="wide"),
+    ]
+
+
+def _cause(cause: Cause) -> Markup:
+    link = to_moment(cause.time, f"line {cause.place}")
+    return joined([element("b", cause.name), f" {cause.by} ", link])
+
 
 _SPIRAL: Final = 220.0
 """Side of a drawing, in its own units."""
@@ -70,131 +203,3 @@ def _spiral(search: Search, told: str) -> Markup:
         high=_SPIRAL,
         label=told,
     )
-
-
-_WIDE: Final = 1160.0
-_HIGH: Final = 250.0
-_LEFT: Final = 56.0
-_FOOT: Final = 26.0
-_CLASSES: Final = {Why.PLANNED: "planned", Why.MOVED: "moved", Why.GUARD: "guarded", Why.CARRIED: "carried"}
-_MEANING: Final = {
-    Why.PLANNED: "ended as planned",
-    Why.MOVED: "its goal had been moved by what was sensed before",
-    Why.GUARD: "a guard ended it",
-    Why.CARRIED: "began off its plan, and went on so",
-}
-_DECADES: Final = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
-"""mm"""
-
-
-def planned_section(
-    ends: Sequence[Ended],
-    corrections: Sequence[Correction],
-    searches: Sequence[Search],
-    stages: Sequence[Stage],
-    origin: float,
-) -> Markup:
-    """The section; `origin`: the cell's clock when the run began, s."""
-    return section(
-        "planned",
-        "Planned and found",
-        *_ends(ends, stages, origin),
-        *_corrections(corrections),
-        *searched(searches),
-    )
-
-
-def _ends(ends: Sequence[Ended], stages: Sequence[Stage], origin: float) -> Iterator[Markup]:
-    if not ends:
-        yield note("No motion of this run came to an end.")
-        return
-    yield note(
-        f"How far from its planned end each of {counted(len(ends), 'motion')} ended, in millimetres, by the arm’s own "
-        "sensors. The plan is made before the arm has seen or felt anything; the working phase moves its goals."
-    )
-    yield element(
-        "div", _chart(ends, stages, origin), class_="chart", tabindex="0", role="region", aria_label="chart"
-    )
-    counts = {why: sum(end.why is why for end in ends) for why in Why}
-    yield element("ul", *(_key(why, counts[why]) for why in Why if counts[why]), class_="key")
-
-
-def _key(why: Why, count: int) -> Markup:
-    mark = element("svg", dot(6, 6, 4, class_=_CLASSES[why]), viewBox="0 0 12 12", aria_hidden="true")
-    return element("li", mark, f" {_MEANING[why]}: {count}")
-
-
-def _chart(ends: Sequence[Ended], stages: Sequence[Stage], origin: float) -> Markup:
-    sizes = [max(end.off / MILLIMETRE, _DECADES[0]) for end in ends]
-    decades = [ten for ten in _DECADES if min(sizes) / 10 < ten < max(sizes) * 10]
-    begin, end = ends[0].time, max(ends[-1].time, ends[0].time + 1)
-    x = Scale(
-        min(begin, *(stage.begin - origin for stage in stages)) if stages else begin, end, _LEFT, _WIDE - 8
-    )
-    y = _Decades(min(decades), max(decades))
-    strokes = [*_grid(decades, y), *_bands(stages, origin, x), *(_dot(each, x, y) for each in ends)]
-    label = f"distance of {counted(len(ends), 'motion end')} from the plan, against time"
-    return drawing(*strokes, wide=_WIDE, high=_HIGH, label=label)
-
-
-class _Decades:
-    """The logarithmic scale of distances, mm."""
-
-    def __init__(self, least: float, most: float) -> None:
-        self._scale = Scale(log10(least), log10(most), _HIGH - _FOOT, 12.0)
-
-    def __call__(self, size: float) -> float:
-        return self._scale(log10(size))
-
-
-def _grid(decades: Sequence[float], y: _Decades) -> Iterator[Markup]:
-    for ten in decades:
-        yield rule(_LEFT, y(ten), _WIDE - 8, y(ten), class_="grid")
-        yield words(_LEFT - 8, y(ten) + 4, f"{ten:g} mm", anchor="end")
-
-
-def _bands(stages: Sequence[Stage], origin: float, x: Scale) -> Iterator[Markup]:
-    """Where stages begin, by their numbers."""
-    for number, stage in enumerate(stages, 1):
-        at = x(stage.begin - origin)
-        yield rule(at, 12, at, _HIGH - _FOOT + 6, class_="grid")
-        yield words(at + 3, _HIGH - 8, str(number))
-
-
-def _dot(end: Ended, x: Scale, y: _Decades) -> Markup:
-    size = max(end.off / MILLIMETRE, _DECADES[0])
-    told = f"{end.step.place} {one_line(end.step.text)}: {millimetres(end.off)} mm, {end.why}"
-    circle = dot(x(end.time), y(size), 3.4, class_=_CLASSES[end.why])
-    return to_moment(end.time, element("title", told), circle, aria_label=told, tabindex="-1")
-
-
-# -- what moved goals ------------------------------------------------------------------------------------
-
-
-def _corrections(corrections: Sequence[Correction]) -> Iterator[Markup]:
-    if not corrections:
-        return
-    yield element("h3", "What moved goals")
-    figures = figure_heads("at", "x, mm", "y, mm", "z, mm")
-    yield table(
-        [*figure_heads("line"), *heads("motion"), *figures, *heads("because of")],
-        map(_correction, corrections),
-        label="corrections",
-    )
-
-
-def _correction(correction: Correction) -> list[Markup]:
-    shifts = [figure_cell(millimetres(component)) for component in correction.shift]
-    causes = joined((_cause(cause) for cause in correction.causes), ", ")
-    return [
-        figure_cell(correction.step.place),
-        cell(element("code", one_line(correction.step.text))),
-        figure_cell(to_moment(correction.time, clock(correction.time))),
-        *shifts,
-        element("td", causes if correction.causes else "what the program did", class_="wide"),
-    ]
-
-
-def _cause(cause: Cause) -> Markup:
-    link = to_moment(cause.time, f"line {cause.place}")
-    return joined([element("b", cause.name), f" {cause.by} ", link])

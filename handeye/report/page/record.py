@@ -22,20 +22,20 @@ from handeye.program.events import ExperimentMade, LineTyped, OperatorAnswered
 from handeye.program.senses import ASSUMPTIONS
 from handeye.report.facts.again import command
 from handeye.report.facts.faults import told_faults
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.results.world_page import QuantityReport, report
 from handeye.tasks import known
 from handeye.trace.sentences import renderer_name
 
 
-def record_section(run: Recorded) -> Markup:
+def record_section(run: RecordedRun) -> Markup:
     """The section."""
     return section(
         "record", "World, versions, and how to do it again", *_again(run), facts(run), *_world(run)
     )
 
 
-def _again(run: Recorded) -> Iterator[Markup]:
+def _again(run: RecordedRun) -> Iterator[Markup]:
     typed = command(run)
     if typed is None:
         yield note(
@@ -49,7 +49,7 @@ def _again(run: Recorded) -> Iterator[Markup]:
         yield note("plan.json is the plan in the folder of the run.")
 
 
-def facts(run: Recorded) -> Markup:
+def facts(run: RecordedRun) -> Markup:
     """What the run hangs on, a line each."""
     head = run.trace.head
     rows: list[tuple[str, Content]] = [*_overrides(run)]
@@ -74,7 +74,7 @@ def joined_code(name: str, digest: str) -> Markup:
     return element("span", f"{name} ", element("code", digest))
 
 
-def _overrides(run: Recorded) -> Iterator[tuple[str, Content]]:
+def _overrides(run: RecordedRun) -> Iterator[tuple[str, Content]]:
     """What in the world is not as it was drawn."""
     world = run.trace.head.world
     for name, meaning in told_faults(run):
@@ -85,7 +85,7 @@ def _overrides(run: Recorded) -> Iterator[tuple[str, Content]]:
         yield "set", f"{name} = {value:g} (SI)"
 
 
-def _world(run: Recorded) -> Iterator[Markup]:
+def _world(run: RecordedRun) -> Iterator[Markup]:
     try:
         quantities = _quantities(run)
     except InvalidInput as fault:
@@ -106,7 +106,7 @@ def _world(run: Recorded) -> Iterator[Markup]:
         yield element("details", summary, listed)
 
 
-def _quantities(run: Recorded) -> tuple[QuantityReport, ...]:
+def _quantities(run: RecordedRun) -> tuple[QuantityReport, ...]:
     """The quantities of its world, those that were set first; raises InvalidInput if they were drawn in another way."""
     task, world = known(run.trace.head.task), run.trace.head.world
     if task is None:

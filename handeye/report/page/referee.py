@@ -6,7 +6,7 @@ from typing import Final
 from handeye.core.markup import Markup, cell, element, figure_cell, figure_heads, heads, note, section, table
 from handeye.core.units import UNITS
 from handeye.report.page.plots import bar, drawing, rule
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.results.result import Check
 
 _WIDE: Final = 160.0
@@ -15,12 +15,12 @@ _FULL: Final = 120.0
 _HIGH: Final = 5.0
 
 
-def referee_section(run: Recorded) -> Markup:
+def referee_section(run: RecordedRun) -> Markup:
     """The section."""
     return section("referee", "What the referee measured", *_content(run))
 
 
-def _content(run: Recorded) -> Iterator[Markup]:
+def _content(run: RecordedRun) -> Iterator[Markup]:
     if run.result is None:
         yield note(
             "Nobody knows: the referee measures the finished work, and the findings stand in the result of a run, "

@@ -19,18 +19,18 @@ from handeye.core.markup import (
 from handeye.program.events import FrictionMeasured
 from handeye.report.page.figures import clock, duration
 from handeye.report.page.plots import bar, drawing
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.tasks import known
 from handeye.tasks.interface import HistoricalTiming
 from handeye.trace.planned import stage_names
 from handeye.trace.stats import Figures, StageFigures, statistics
 
 _WIDE: Final = 300.0
-"""Of the column of bars, in units of the drawing."""
+"""Width of the column of bars, in units of the drawing."""
 _HIGH: Final = 7.0
 
 
-def timing_section(run: Recorded) -> Markup:
+def timing_section(run: RecordedRun) -> Markup:
     """The section."""
     figures = statistics(run.trace.events, {})
     then = _period(run)
@@ -42,14 +42,14 @@ def timing_section(run: Recorded) -> Markup:
     )
 
 
-def _period(run: Recorded) -> HistoricalTiming | None:
+def _period(run: RecordedRun) -> HistoricalTiming | None:
     """The times of its day, if the program is one that was timed then."""
     task = known(run.trace.head.task)
     then = None if task is None else task.period
     return then if then is not None and then.program == run.trace.head.program else None
 
 
-def _beside(run: Recorded, total: Figures, then: HistoricalTiming | None) -> Iterator[Markup]:
+def _beside(run: RecordedRun, total: Figures, then: HistoricalTiming | None) -> Iterator[Markup]:
     times = {} if then is None else then.times
     worked = times["manipulation"] + times["lens"] if times else None
     rows = [
@@ -77,7 +77,7 @@ def _row(
     return [element("th", name, scope="row"), *figures, element("td", drawn, class_="bars")]
 
 
-def _remarks(run: Recorded, then: HistoricalTiming | None) -> Iterator[str]:
+def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
     """What the table leaves out."""
     yield "Minutes and seconds on the cell’s clock."
     friction = sum(event.seconds for event in run.trace.events if isinstance(event, FrictionMeasured))
@@ -100,7 +100,7 @@ def _remarks(run: Recorded, then: HistoricalTiming | None) -> Iterator[str]:
         )
 
 
-def _by_stage(run: Recorded, stages: list[StageFigures]) -> Iterator[Markup]:
+def _by_stage(run: RecordedRun, stages: list[StageFigures]) -> Iterator[Markup]:
     if not stages:
         return
     begins = {stage.name: run.seconds(stage.begin) for stage in reversed(run.trace.stages)}
@@ -130,7 +130,7 @@ def _stage(number: int, stage: StageFigures, begin: float, longest: float) -> li
     ]
 
 
-def _unreached(run: Recorded, stages: list[StageFigures]) -> Iterator[tuple[int, str]]:
+def _unreached(run: RecordedRun, stages: list[StageFigures]) -> Iterator[tuple[int, str]]:
     begun = {stage.stage for stage in stages}
     left = [name for name in stage_names(run.trace) if name not in begun]
     return enumerate(left, len(stages) + 1)

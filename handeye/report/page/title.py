@@ -5,14 +5,14 @@ from typing import Final
 from msgspec import UNSET
 
 from handeye.report.facts.outcome import Outcome
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.tasks import known
 from handeye.tasks.interface import Words
 
 _NEUTRAL: Final = Words(done="The referee found everything right.", product="the work")
 
 
-def title(run: Recorded, outcome: Outcome) -> str:
+def title(run: RecordedRun, outcome: Outcome) -> str:
     """What a run came to, in one sentence."""
     words, apart = _words(run), None if run.result is None else run.result.apart
     line = "" if outcome.step is None else f"line {outcome.step.place}"
@@ -37,6 +37,6 @@ def title(run: Recorded, outcome: Outcome) -> str:
             return f"The trace breaks off{f' at {line}' if line else ''}."
 
 
-def _words(run: Recorded) -> Words:
+def _words(run: RecordedRun) -> Words:
     task = known(run.trace.head.task)
     return _NEUTRAL if task is None else task.words

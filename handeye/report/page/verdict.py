@@ -1,58 +1,56 @@
-"""The head of the page: verdict and figures and, if it failed, why, at which line, and what the senses said."""
+"""The head of the page: what the run came to, and, if it failed, why, at which line, and what the senses said."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from typing import Final
 
-from handeye.core.markup import Markup, element, note
+from handeye.core.markup import Markup, element, joined, note, to_moment
 from handeye.core.plain_text import counted
+from handeye.core.units import INCH
 from handeye.program import events as happened
-from handeye.program.events import StepStarted
+from handeye.program.diagnosis.cause_text import call_sentence
+from handeye.program.events import (
+    CameraBusy,
+    CameraStarted,
+    ErrorRaised,
+    ErrorTested,
+    OperatorCalled,
+    PanicStopped,
+    PictureTaken,
+    StepStarted,
+)
 from handeye.report.facts.faults import told_faults
 from handeye.report.facts.outcome import Outcome
-from handeye.report.facts.told import Told
-from handeye.report.page.failure import where, why
-from handeye.report.page.figures import clock, duration
+from handeye.report.facts.senses import Senses, senses_at
+from handeye.report.facts.told import CaptionedEvent
+from handeye.report.page.figures import clock, duration, exact_clock, millimetres
 from handeye.report.page.photograph import shown
 from handeye.report.page.referee import used
+from handeye.report.page.source import excerpt
 from handeye.report.page.title import title
 from handeye.report.photographs import Photograph
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
+from handeye.results.result import Check
 from handeye.tasks import known
+from handeye.trace.sentences import sentence
 
 
-def in_figures(run: Recorded) -> Iterator[Markup]:
-    """The figures as a list; of what there was none, nothing is said."""
-    told = [(count, what) for count, what in _figures(run) if count]
-    rows = (element("div", element("dd", str(count)), element("dt", what)) for count, what in told)
-    if told:
-        yield element("dl", *rows, class_="in-figures")
-
-
-def _figures(run: Recorded) -> Iterator[tuple[int, str]]:
-    kinds = Counter(type(event) for event in run.trace.events)
-    yield kinds[happened.PictureTaken], "pictures taken"
-    yield kinds[happened.GuardTripped], "motions ended by what the hand felt"
-    yield kinds[happened.Adjusted], "goals moved by what was sensed"
-    yield kinds[happened.SearchAdvanced], "further places tried in searches"
-    yield kinds[happened.ErrorTested], "times the program tested for an error"
-    if run.result is not None and run.result.referee:
-        yield sum(check.ok for check in run.result.referee.values()), "findings of the referee right"
-
-
-def verdict(run: Recorded, outcome: Outcome, told: Sequence[Told], photograph: Photograph) -> Markup:
+def verdict(
+    run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent], photograph: Photograph
+) -> Markup:
     """The head of the page."""
     words = element("div", _name(run), element("h1", title(run, outcome)), *_said(run, outcome, told))
     return element("header", words, shown(photograph), class_="failed" if outcome.failed else None)
 
 
-def _name(run: Recorded) -> Markup:
+def _name(run: RecordedRun) -> Markup:
     """What the page is a report of."""
     head = run.trace.head
     arm = f"the simulated {head.arm} arm carries out " if head.arm else ""
     return element("p", f"Report of a run: {arm}{head.program} in the world of {head.world}", class_="name")
 
 
-def _said(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[Markup]:
+def _said(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
     """What there is to say below the title."""
     yield from why(outcome)
     yield from _broken(run)
@@ -65,7 +63,7 @@ def _said(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[Mar
     yield from _unseen(run)
 
 
-def _unseen(run: Recorded) -> Iterator[Markup]:
+def _unseen(run: RecordedRun) -> Iterator[Markup]:
     """What of the run the page cannot show."""
     if run.begins > 0:
         yield note(
@@ -76,7 +74,7 @@ def _unseen(run: Recorded) -> Iterator[Markup]:
         yield note(f"The trace was cut short: it ends at {clock(run.ends)}.")
 
 
-def _course(run: Recorded) -> Iterator[str]:
+def _course(run: RecordedRun) -> Iterator[str]:
     """How far the run came and how long it took."""
     steps = counted(sum(isinstance(event, StepStarted) for event in run.trace.events), "step")
     stages = counted(len(run.trace.stages), "stage")
@@ -87,7 +85,7 @@ def _course(run: Recorded) -> Iterator[str]:
         yield f" In {then.year} it took {clock(then.times['manipulation'] + then.times['lens'])}."
 
 
-def _judged(run: Recorded, outcome: Outcome) -> Iterator[Markup]:
+def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
     """What the referee said of work that is right."""
     if run.result is None or not run.result.referee or not outcome.good:
         return
@@ -101,10 +99,116 @@ def _judged(run: Recorded, outcome: Outcome) -> Iterator[Markup]:
         yield element("p", f"Caution: {doubt.told}.", class_="doubtful")
 
 
-def _broken(run: Recorded) -> Iterator[Markup]:
+def _broken(run: RecordedRun) -> Iterator[Markup]:
     """What of its world was broken on purpose."""
     for name, meaning in told_faults(run):
         told = element("code", name)
         yield element(
             "p", "Broken on purpose, unknown to the program: ", told, f". {meaning}", class_="broken"
         )
+
+
+def in_figures(run: RecordedRun) -> Iterator[Markup]:
+    """The figures as a list; of what there was none, nothing is said."""
+    told = [(count, what) for count, what in _figures(run) if count]
+    rows = (element("div", element("dd", str(count)), element("dt", what)) for count, what in told)
+    if told:
+        yield element("dl", *rows, class_="in-figures")
+
+
+def _figures(run: RecordedRun) -> Iterator[tuple[int, str]]:
+    kinds = Counter(type(event) for event in run.trace.events)
+    yield kinds[happened.PictureTaken], "pictures taken"
+    yield kinds[happened.GuardTripped], "motions ended by what the hand felt"
+    yield kinds[happened.Adjusted], "goals moved by what was sensed"
+    yield kinds[happened.SearchAdvanced], "further places tried in searches"
+    yield kinds[happened.ErrorTested], "times the program tested for an error"
+    if run.result is not None and run.result.referee:
+        yield sum(check.ok for check in run.result.referee.values()), "findings of the referee right"
+
+
+_UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, CameraStarted, PictureTaken)
+"""Events that are no word of the senses, or the reason itself."""
+_SAID: Final = 4
+"""Last sentences of the senses that are told."""
+
+
+def why(outcome: Outcome) -> Iterator[Markup]:
+    """Why the run failed."""
+    yield from (element("p", reason, class_="reason") for reason in _reasons(outcome))
+
+
+def _reasons(outcome: Outcome) -> Iterator[str]:
+    if outcome.call is not None:
+        yield _called(outcome.call)
+    yield from map(_finding, outcome.wrong)
+    if outcome.kind == "broken off":
+        yield "The file ends in the middle; this page shows what there is of it."
+    if outcome.kind == "panic":
+        yield "A person stopped the run, not the program. The drives are off and the brakes are set."
+
+
+def _called(call: OperatorCalled) -> str:
+    """Why the program called the operator, as a sentence."""
+    reason = call_sentence(call.message, call.error, call.cause)
+    if call.message or not reason:
+        return f"The program calls the operator{f': “{reason}”' if reason else ''}."
+    return f"{_capital(reason)}." if call.error is None else f"Error {call.error}: {reason}."
+
+
+def _finding(check: Check) -> str:
+    """What the referee found wrong, as a sentence."""
+    right = f"right is {check.relation} {check.limit:.3g} {check.unit}"
+    return f"{_capital(check.subject)}: {check.value:.3g} {check.unit}; {right}."
+
+
+def _capital(words: str) -> str:
+    return f"{words[:1].upper()}{words[1:]}"
+
+
+def where(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
+    """How far the run came, the line at which it stands, and what the senses said last."""
+    yield _reached(run, outcome)
+    if outcome.step is not None:
+        yield excerpt(run.program, outcome.step)
+    yield from _senses(run, outcome, told)
+
+
+def _senses(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
+    """What the senses said last."""
+    rows = [(exact_clock(each.time), sentence(each.event)) for each in told if _tells(each, run, outcome)][
+        -_SAID:
+    ]
+    now = senses_at(run, outcome.time)
+    if now is not None:
+        rows.append((exact_clock(outcome.time), _now(now)))
+    if rows:
+        yield element("h2", "What the senses said last")
+        items = (element("li", element("span", time, class_="time"), " ", said) for time, said in rows)
+        yield element("ol", *items, class_="senses")
+
+
+def _tells(each: CaptionedEvent, run: RecordedRun, outcome: Outcome) -> bool:
+    """An event tells what led to the outcome: it is of the same stage, and not the reason itself once more."""
+    begun = max((run.seconds(stage.begin) for stage in run.trace.stages), default=0.0)
+    call = outcome.call
+    reason = isinstance(each.event, ErrorRaised) and call is not None and each.event.number == call.error
+    return begun < each.time <= outcome.time and not (reason or isinstance(each.event, _UNTOLD))
+
+
+def _now(senses: Senses) -> str:
+    fingers = {(False, False): "neither finger touches", (True, True): "both fingers touch"}.get(
+        senses.fingers, f"only finger {1 if senses.fingers[0] else 2} touches"
+    )
+    force = "" if senses.force is None else f", the hand presses with {senses.force:.1f} N"
+    gap = f"{millimetres(senses.gap)} mm ({senses.gap / INCH:.2f} in)"
+    return f"the fingers are {gap} open, {fingers}{force}"
+
+
+def _reached(run: RecordedRun, outcome: Outcome) -> Markup:
+    """How far the run came."""
+    line = "" if outcome.step is None else f"Line {outcome.step.place}, "
+    done = {stage.name for stage in run.trace.stages if stage.status == "done"}
+    at = to_moment(outcome.time, exact_clock(outcome.time))
+    stages = counted(len(run.program.stages), "stage")
+    return element("h2", joined([line, at, f" after it began, {len(done)} of {stages} done"]))

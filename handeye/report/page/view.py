@@ -8,7 +8,7 @@ from handeye.report.page.figures import clock
 from handeye.report.page.photograph import shown
 from handeye.report.page.source import listing
 from handeye.report.photographs import Photograph
-from handeye.report.recorded import Recorded
+from handeye.report.recorded import RecordedRun
 from handeye.trace.stages import Stage
 
 SPEEDS: Final = (1, 2, 4, 8, 16, 64)
@@ -22,7 +22,7 @@ _KEYS: Final = (
 )
 
 
-def view_section(run: Recorded, strip: Sequence[Photograph]) -> Markup:
+def view_section(run: RecordedRun, strip: Sequence[Photograph]) -> Markup:
     """The section."""
     viewer = element(
         "div", _screen(strip), _caption(), _bar(run), _controls(run), _instead(), _keys(), class_="viewer"
@@ -63,7 +63,7 @@ def _caption() -> Markup:
     return element("p", id="caption", class_="caption", hidden=True)
 
 
-def _bar(run: Recorded) -> Markup:
+def _bar(run: RecordedRun) -> Markup:
     """The stages as links, as wide as they are long."""
     links = (_stage(run, number, stage) for number, stage in enumerate(run.trace.stages, 1))
     return element(
@@ -76,7 +76,7 @@ def _bar(run: Recorded) -> Markup:
     )
 
 
-def _stage(run: Recorded, number: int, stage: Stage) -> Markup:
+def _stage(run: RecordedRun, number: int, stage: Stage) -> Markup:
     begin, end = run.seconds(stage.begin), run.seconds(stage.end)
     unseen = end <= run.begins
     told = f"{number} {stage.name}, {clock(begin)} to {clock(end)}, {stage.status}{', not recorded' if unseen else ''}"
@@ -89,7 +89,7 @@ def _stage(run: Recorded, number: int, stage: Stage) -> Markup:
     )
 
 
-def widths(run: Recorded) -> str:
+def widths(run: RecordedRun) -> str:
     """Rules of style that make the stages as wide as they are long."""
     return "".join(
         f"#stages .s{number}{{flex-grow:{100 * max(stage.end - stage.begin, 0.1):.0f}}}"
@@ -97,7 +97,7 @@ def widths(run: Recorded) -> str:
     )
 
 
-def _controls(run: Recorded) -> Markup:
+def _controls(run: RecordedRun) -> Markup:
     play = element(
         "button", "Play", id="play", type="button", aria_keyshortcuts="Space", title="play, pause: space"
     )

@@ -12,12 +12,12 @@ from handeye.core.pose import Array
 GRAIN: Final = 512
 """Points along a side of a grain."""
 QUALITY: Final = 45
-"""Of the WebP picture, 0 to 100."""
+"""Quality of the WebP picture, 0 to 100."""
 _MOST: Final = 128
 _RGB: Final = 1
 """Where a material has its texture: MuJoCo's `mjTEXROLE_RGB`."""
 _SLENDER: Final = 3.0
-"""So many times longer than wide is a piece whose grain goes along it."""
+"""Ratio of length to width above which the grain goes along a piece."""
 
 Row = tuple[float, ...]
 """Red, green, blue as light, 0 to 1; light of its own; how metallic; roughness; number of its grain or -1; axis of the

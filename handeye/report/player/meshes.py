@@ -12,22 +12,6 @@ from handeye.core.pose import Array
 from handeye.report.player.packing import columns, octahedral, quantised, rounded, zigzag
 from handeye.report.player.surfaces import Surface, creased
 
-CELLS: Final = 14
-"""Along the longest side of a body: what lies in one cell becomes one point."""
-
-
-def coarsened(surface: Surface, cell: float) -> Surface:
-    """A surface whose points within a cell (m) of a grid are one, and what is left of its triangles."""
-    places = np.floor((surface.points - surface.points.min(axis=0)) / cell + 0.5)
-    _, number = np.unique(places, axis=0, return_inverse=True)
-    number = number.reshape(-1)
-    count = np.bincount(number)
-    points = np.column_stack([np.bincount(number, column) / count for column in surface.points.T])
-    triangles = number[surface.triangles]
-    a, b, c = triangles.T
-    return creased(points, triangles[(a != b) & (b != c) & (c != a)])
-
-
 FINE: Final = 200
 """Triangles from which on a body has a coarser surface as well."""
 
@@ -134,3 +118,19 @@ def _ball(pieces: Sequence[Piece]) -> list[float]:
     points = _points(pieces)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     return rounded(np.array([*middle, np.linalg.norm(points - middle, axis=1).max()]))
+
+
+CELLS: Final = 14
+"""Along the longest side of a body: what lies in one cell becomes one point."""
+
+
+def coarsened(surface: Surface, cell: float) -> Surface:
+    """A surface whose points within a cell (m) of a grid are one, and what is left of its triangles."""
+    places = np.floor((surface.points - surface.points.min(axis=0)) / cell + 0.5)
+    _, number = np.unique(places, axis=0, return_inverse=True)
+    number = number.reshape(-1)
+    count = np.bincount(number)
+    points = np.column_stack([np.bincount(number, column) / count for column in surface.points.T])
+    triangles = number[surface.triangles]
+    a, b, c = triangles.T
+    return creased(points, triangles[(a != b) & (b != c) & (c != a)])

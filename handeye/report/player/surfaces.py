@@ -12,7 +12,7 @@ from handeye.cell.looks import BOX, CYLINDER, MESH, SPHERE
 from handeye.core.pose import Array
 
 SIDES: Final = 32
-"""Of what stands for a cylinder."""
+"""Sides of the prism that stands for a cylinder."""
 CREASE: Final = np.cos(np.radians(35.0))
 """Cosine of the angle between two faces from which on the edge between them is an edge, and not part of a curve."""
 
@@ -24,7 +24,7 @@ class Surface:
     points: Array
     """Corners, shape (n, 3), m."""
     normals: Array
-    """Of the surface at the corners, shape (n, 3)."""
+    """Normals of the surface at the corners, shape (n, 3)."""
     triangles: NDArray[np.int64]
     """Numbers of corners, shape (m, 3), counterclockwise from outside."""
 
@@ -135,7 +135,7 @@ def _box() -> Surface:
 
 @cache
 def _cylinder() -> Surface:
-    """Of radius 1, from z = -1 to 1."""
+    """A prism of radius 1, from z = -1 to 1."""
     turn = 2 * np.pi * np.arange(SIDES) / SIDES
     ring = np.column_stack([np.cos(turn), np.sin(turn)])
     points = [(x, y, z) for z in (-1.0, 1.0) for x, y in ring] + [(0.0, 0.0, -1.0), (0.0, 0.0, 1.0)]
@@ -149,7 +149,7 @@ def _cylinder() -> Surface:
 
 @cache
 def _ball() -> Surface:
-    """Of radius 1: a box whose faces are divided and blown up."""
+    """A sphere of radius 1: a box whose faces are divided and blown up."""
     grid = np.linspace(-1, 1, 9)
     faces = []
     for axis in range(3):

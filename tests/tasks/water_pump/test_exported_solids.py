@@ -11,7 +11,7 @@ from finished import exhibit, finished, finished_cell, put
 from handeye.cell.solids import SolidScene, Weighed
 from handeye.core.errors import InvalidInput
 from handeye.core.pose import Array, planar
-from handeye.results.exported_solids import ExportedSolids, agrees, checks, exported_solids
+from handeye.results.export import ExportedSolids, agrees, checks, exported_solids
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.exported import exported
 from handeye.tasks.water_pump.referee import limits

@@ -15,7 +15,7 @@ FOLLOW: Final = "follow"  # a view close to the hand's work, stage by stage
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Wanted:
+class VideoRequest:
     """Options of a video; raises BadArgument for impossible ones."""
 
     camera: str = ORBIT  # a camera of the scene, `orbit` or `follow`
