@@ -13,6 +13,7 @@ from conftest import Command
 from cyclopts import App
 
 from handeye.cli import app
+from handeye.core.resources import demo
 from handeye.planfile.plan import VERSION
 
 MISTAKES = {
@@ -309,6 +310,7 @@ def test_commands_that_move_nothing_import_no_simulator_no_eye_and_no_solver(tmp
         "explain label-twice",
         "trials --help",
         "check job.al",
+        f"show {demo()}",
     )
     done = subprocess.run(
         [sys.executable, "-c", QUICK, *lines], cwd=tmp_path, capture_output=True, text=True, check=False

@@ -7,7 +7,7 @@ It is an observer: it writes down what happens and changes nothing.
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import msgspec
 
@@ -26,9 +26,10 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import digest_of, system_of, written
 from handeye.trace.eventlist import Journal
-from handeye.trace.frames import Frames, NoFrames
-from handeye.trace.recorder import PictureSource, Recorder
 from handeye.vision.marks import Mark
+
+if TYPE_CHECKING:
+    from handeye.trace.recorder import Recorder
 
 PLAN: Final = "plan.json"
 EVENTS: Final = "events.jsonl"
@@ -112,8 +113,11 @@ class RunFolder(Observer):
         write_whole(self.path / PLAN, written(start.setup))
         self._first = self.kept.save(start)
 
-    def _recording(self, events: Sequence[AnyEvent]) -> Recorder:
+    def _recording(self, events: Sequence[AnyEvent]) -> "Recorder":
         """A recorder that goes on after these events."""
+        from handeye.trace.frames import Frames, NoFrames
+        from handeye.trace.recorder import PictureSource, Recorder
+
         assert self._runner is not None
         setup, cell = self._runner.setup, self._runner.system.cell
         plan = written(setup)

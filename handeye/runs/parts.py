@@ -4,12 +4,16 @@ Checkpoints and traces cannot hold code, but its name: a run that was begun with
 of that name.
 """
 
-from dataclasses import dataclass
-from typing import Any, Final
+from __future__ import annotations
 
-from handeye.cell.rendering import RendererMaker
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
 from handeye.core.errors import Refused
 from handeye.touch.spiral import SearchPattern
+
+if TYPE_CHECKING:
+    from handeye.cell.rendering import RendererMaker
 
 NEEDED: Final = ("search", "camera")
 """Parts that decide a run; the referee decides nothing of it."""

@@ -4,12 +4,12 @@ Between two steps the cell is put into its own state, which changes nothing but 
 `SimulatedCell.restore`). So every run, stopped or not, goes the same way to the byte.
 """
 
+from __future__ import annotations
+
 import time
 from collections.abc import Callable, Sequence
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-from handeye.cell.simulated import SimulatedCell
-from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.entries import Capability, refusal, require
 from handeye.core.errors import BadArgument, BadFile, PhysicsFailed, Refused
 from handeye.core.mutable_records import copied
@@ -45,6 +45,10 @@ from handeye.runs.systems import listing_of, system_of
 from handeye.tasks import any_task
 from handeye.tasks.interface import AnyTask
 
+if TYPE_CHECKING:
+    from handeye.cell.simulated import SimulatedCell
+    from handeye.cell.snapshot_cell import SnapshotCell
+
 RECENT: Final = 400
 """Steps whose states are kept in memory; of older ones those at the beginning of stages."""
 
@@ -63,7 +67,7 @@ class Runner:
         *,
         halt: Callable[[], bool] = lambda: False,
         viewed: Callable[[int, int], None] = lambda *_: None,
-        observers: Callable[["Runner"], Sequence[Observer]] = lambda _: (),
+        observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
         parts: Parts = OWN,
         calibrate: bool = False,
     ) -> None:

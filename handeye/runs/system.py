@@ -3,6 +3,8 @@
 A system is found by its entry (`handeye/core/entries.py`), and is loaded when a run of it is.
 """
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -12,8 +14,6 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 import msgspec
 import numpy as np
 
-from handeye.cell.simulated import SimulatedCell
-from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.entries import Entry, entry_named, refusal
 from handeye.core.errors import BadFile, Refused
 from handeye.core.record import Record
@@ -33,6 +33,8 @@ from handeye.vision.calibration import Calibration
 from handeye.vision.marks import Mark
 
 if TYPE_CHECKING:
+    from handeye.cell.simulated import SimulatedCell
+    from handeye.cell.snapshot_cell import SnapshotCell
     from handeye.runs.advance import Pause
     from handeye.runs.runner import Runner
 
@@ -389,7 +391,7 @@ class System(ABC):
         """What of a paused run can be shown."""
         return PLAIN
 
-    def choices(self, runner: "Runner") -> Mapping[Choice, str]:
+    def choices(self, runner: Runner) -> Mapping[Choice, str]:
         """The answers to the call of the operator that a run stands at, and what each does."""
         return {
             "proceed": "proceed: continue after the step that called",
@@ -399,11 +401,11 @@ class System(ABC):
 
     # -- the way of a run -----------------------------------------------------------------------------
 
-    def carry_out(self, runner: "Runner", go: Callable[[], "Pause"]) -> "Pause":
+    def carry_out(self, runner: Runner, go: Callable[[], Pause]) -> Pause:
         """Carry out a run from where it stands; `go` lets it run until it pauses."""
         return go()
 
-    def files(self, runner: "Runner", pause: "Pause", result: Any) -> Mapping[str, bytes]:
+    def files(self, runner: Runner, pause: Pause, result: Any) -> Mapping[str, bytes]:
         """Files that a run leaves in its folder beside those of every run, by the names that its entry has.
 
         Args:
