@@ -55,11 +55,7 @@ class RunningPlan(RunningSystem):
     """A run of a plan with the arm of a simulated cell."""
 
     def __init__(self, setup: Setup, around: Surroundings) -> None:
-        """Build the cell.
-
-        Raises:
-            InvalidInput: the plan is for another arm, or the camera cannot work as asked.
-        """
+        """Build the cell; InvalidInput if the plan is for another arm or the camera cannot work as asked."""
         self._setup, self._halt, self._viewed = setup, around.halt, around.viewed
         self._anew, self._kept_until = around.calibrate, 0.0
         self._unkept: str | None = None

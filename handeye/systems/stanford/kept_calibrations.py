@@ -65,11 +65,7 @@ class KeptCalibrations:
             return None
 
     def keep(self, conditions: Conditions, preparation: Preparation) -> None:
-        """Keep a preparation, replacing an earlier one, and remove the oldest files beyond the limit.
-
-        Raises:
-            InvalidInput: the folder cannot be written.
-        """
+        """Keep a preparation, replacing an earlier one, and trim the folder; raises CannotWrite."""
         if self.folder is None:
             return
         try:

@@ -35,11 +35,7 @@ def preparation_of(run: ExecutionContext, cell: SimulatedCell, friction_s: float
 
 
 def take_up(preparation: Preparation, run: ExecutionContext, cell: SimulatedCell) -> None:
-    """Set the state of a cell and a run to that after a preparation.
-
-    Raises:
-        InvalidInput: the preparation is for another cell or arm; nothing is changed.
-    """
+    """Put cell and run in the state after a preparation; InvalidInput, with nothing changed, if it does not fit."""
     state = copied(run.state)
     state.drive, state.lens = preparation.drive, preparation.lens
     state.calibration = preparation.calibration
