@@ -83,8 +83,7 @@ def assembly_trials(
     Exit code 0: no silent failure; 1: every trial broke off; 3: in some world the program said done and the referee
     disagreed; 2: bad input; 130: interrupted.
     """
-    from handeye.trials.plans.assembly import ASSEMBLY
-    from handeye.trials.plans.trial import Trial
+    from handeye.trials.plans.trial import ASSEMBLY, Trial
     from handeye.trials.sweep import cases
 
     if options.tables is not None and options.folder is None:

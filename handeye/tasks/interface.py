@@ -99,6 +99,8 @@ class AnyTask(ABC):
     """The axes along which forces of the hand are given."""
     measures: Measures = INCHES
     """The units in which its runs are shown to people."""
+    holds_from: Mapping[str, int] = MappingProxyType({})
+    """Stages of its own program after which findings must hold before its end, by how their names begin."""
 
     @property
     @abstractmethod

@@ -8,7 +8,7 @@ from handeye.core.errors import BadArgument, NoSuchName
 from handeye.trials.sweep import Sweep
 
 _OURS: Final = {
-    "assembly": "handeye.trials.plans.assembly:ASSEMBLY",
+    "assembly": "handeye.trials.plans.trial:ASSEMBLY",
     "dismantling": "handeye.trials.plans.dismantling:DISMANTLING",
     "faults": "handeye.trials.faults:FAULTS",
     "disturbed": "handeye.trials.disturbing:DISTURBED",

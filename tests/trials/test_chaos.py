@@ -93,7 +93,10 @@ def test_a_schedule_is_shrunk_to_what_it_fails_by() -> None:
 
 def test_a_finding_counts_from_the_stage_on_that_it_must_hold_from() -> None:
     findings = {name: at_most(2.0, 1.0, "mm", "") for name in ("base_yaw", "gasket_height", "rack")}
-    told = [[sentence.partition(":")[0] for sentence in wrong(findings, stage)] for stage in (2, 3, 5, 12)]
+    told = [
+        [sentence.partition(":")[0] for sentence in wrong(findings, stage, 12, task().holds_from)]
+        for stage in (2, 3, 5, 12)
+    ]
     assert told == [[], ["base_yaw"], ["base_yaw", "gasket_height"], ["base_yaw", "gasket_height", "rack"]]
 
 

@@ -12,10 +12,9 @@ from handeye.core.variation import WorldSpec
 from handeye.results.result import Check
 from handeye.trials.figures import figures
 from handeye.trials.folder import BatchFolder
-from handeye.trials.plans.assembly import ASSEMBLY
 from handeye.trials.plans.dismantling import DISMANTLING, DismantlingTrial
 from handeye.trials.plans.row import Row
-from handeye.trials.plans.trial import Trial
+from handeye.trials.plans.trial import ASSEMBLY, Trial
 from handeye.trials.sweep import cases
 
 WORLD = WorldSpec(seed=5)

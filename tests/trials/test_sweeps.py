@@ -19,7 +19,7 @@ from handeye.trials.comparing import paired
 from handeye.trials.figures import figures
 from handeye.trials.folder import head_of, read_batch
 from handeye.trials.kinds import sweep_of
-from handeye.trials.plans.assembly import ASSEMBLY
+from handeye.trials.plans.trial import ASSEMBLY
 from handeye.trials.sweep import carry_out, cases, processes
 
 ENTRY = Entry(

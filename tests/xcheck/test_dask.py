@@ -9,8 +9,7 @@ from short_runs import FEEL, plan_of
 from handeye.core.errors import InvalidInput
 from handeye.core.variation import WorldSpec
 from handeye.trials.dask_engine import dask_workers
-from handeye.trials.plans.assembly import ASSEMBLY
-from handeye.trials.plans.trial import Trial
+from handeye.trials.plans.trial import ASSEMBLY, Trial
 from handeye.trials.sweep import carry_out, cases, processes
 
 pytestmark = pytest.mark.filterwarnings("default")  # those of others

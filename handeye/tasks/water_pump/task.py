@@ -32,6 +32,9 @@ PERIOD: Final = HistoricalTiming(
 """Bolles and Paul, STAN-CS-73-396."""
 
 
+HOLDS_FROM: Final = {
+    "base": 3, "gasket": 5, "top": 7, "screws_depth": 8, "screws_place": 8, "screws_crossed": 8, "pins": 9,
+}  # fmt: skip
 CONTACTS: Final = {
     "grasp": ("WEB",),
     "pin": ("T1", "T2"),
@@ -55,6 +58,7 @@ class WaterPump(Task):
     photographs = ("studio", "pump")
     period = PERIOD
     contacts = CONTACTS
+    holds_from = HOLDS_FROM
 
     @property
     def trials(self) -> Mapping[str, Trial[Any]]:

@@ -1,8 +1,7 @@
 """Invariants that hold after every schedule."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Final
 
 import msgspec
 
@@ -15,21 +14,6 @@ from handeye.runs.snapshot import Snapshot
 from handeye.trace.eventlist import effective, read_events
 from handeye.trace.reading import read_trace
 from handeye.trials.chaos.carrying_out import ScheduleRun
-
-HELD_FROM: Final = {
-    "base": 3,
-    "gasket": 5,
-    "top": 7,
-    "screws_depth": 8,
-    "screws_place": 8,
-    "screws_crossed": 8,
-    "pins": 9,
-}
-"""By the first words of the referee's findings, the stages of the pump's program from whose end on they must hold."""
-
-
-LAST: Final = 12
-"""Number of the last stage, at whose end all must hold."""
 
 
 def on_disk(carried: ScheduleRun) -> Iterator[str]:
@@ -69,18 +53,20 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
         yield f"it ended with {carried.pause.kind}, and without interruptions with {unbroken.pause.kind}"
 
 
-def wrong(findings: Findings, stages: int) -> list[str]:
-    """Findings that fail after a number of stages."""
+def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
+    """Findings that fail although they must hold once a number of stages is done.
+
+    Args:
+        stages: stages of the program, after which all must hold.
+        holds_from: stages after which a finding must hold already, by how its name begins.
+    """
     return [
         f"{name}: {finding.subject} {finding.value:.3g} {finding.unit}"
         for name, finding in findings.items()
-        if not finding.ok and not finding.caution and stages >= _from(name)
+        if not finding.ok
+        and not finding.caution
+        and done >= next((stage for words, stage in holds_from.items() if name.startswith(words)), stages)
     ]
-
-
-def _from(name: str) -> int:
-    """Number of the stage from whose end a finding must hold; by default the last."""
-    return next((stage for words, stage in HELD_FROM.items() if name.startswith(words)), LAST)
 
 
 def _bytes(folder: Path) -> bytes:

@@ -112,11 +112,11 @@ def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
     stages = len(carried.runner.stages)
     number = carried.runner.stages.index(done[-1]) + 1
     if carried.pause.kind == "end":
-        yield from wrong(findings_so_far(carried.runner), stages)
-    elif wrong(findings_so_far(carried.runner), number):
+        yield from wrong(findings_so_far(carried.runner), stages, stages, {})
+    elif wrong(findings_so_far(carried.runner), number, stages, carried.runner.task.holds_from):
         runner = Runner(carried.runner.checkpoint())
         if advance(runner).kind == "end":
-            yield from wrong(findings_so_far(runner), stages)
+            yield from wrong(findings_so_far(runner), stages, stages, {})
 
 
 # -- shrinking ----------------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 
 import hashlib
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -21,7 +21,8 @@ from handeye.tasks import task
 from handeye.trials.assembly import FinishedRun, run_plan
 from handeye.trials.folder import Head, head_of
 from handeye.trials.plans.contacts import contacts, searches
-from handeye.trials.plans.row import Row
+from handeye.trials.plans.distributions import details
+from handeye.trials.plans.row import OUTCOMES, Row
 from handeye.trials.sweep import Case, Ended, Sweep
 
 SIMULATED_LIMIT_S: Final = 3600.0
@@ -129,3 +130,26 @@ class Watch:
         elif time.monotonic() - self.begun > self.wall_s:
             self.ended = "wall limit"
         return self.ended != "ended"
+
+
+def answered(rows: Sequence[Row]) -> int:
+    """Trials in which calls of the operator were answered, however they ended."""
+    return sum(row.result is not None and bool(row.result.interventions) for row in rows)
+
+
+def _summary(rows: Sequence[Row]) -> list[str]:
+    count = answered(rows)
+    return [f"in {count} the operator was called and answered"] if count else []
+
+
+ASSEMBLY: Final = Sweep(
+    kind="assembly",
+    row=Row,
+    outcomes=OUTCOMES,
+    success="assembled",
+    narrated=True,
+    summary=_summary,
+    more=lambda rows: {"answered": answered(rows)},
+    details=details,
+)
+"""Programs carried out and judged."""
