@@ -7,18 +7,17 @@ import numpy as np
 import pytest
 from short_runs import begin, through
 
+import handeye
 from handeye.cell.opengl import context
 from handeye.core.errors import InvalidInput
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
-from handeye.trace.reading import read_trace
-from handeye.trace.trace import Trace
 
 pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def trace(tmp_path_factory: pytest.TempPathFactory) -> Trace:
+def trace(tmp_path_factory: pytest.TempPathFactory) -> handeye.Trace:
     """A run that opens the hand."""
     try:
         context()
@@ -29,10 +28,10 @@ def trace(tmp_path_factory: pytest.TempPathFactory) -> Trace:
     runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
     through(runner).finish()
     folder.close()
-    return read_trace(path / TRACE)
+    return handeye.open(path / TRACE)
 
 
-def test_the_cell_is_seen_and_the_eye_goes_round_it(trace: Trace, tmp_path: Path) -> None:
+def test_the_cell_is_seen_and_the_eye_goes_round_it(trace: handeye.Trace, tmp_path: Path) -> None:
     trace.video(tmp_path / "it.webp", width=64, height=48, seconds=0.5)
     _, animation = cv2.imreadanimation(str(tmp_path / "it.webp"))
     first, *_, middle, _, _ = (frame.astype(int) for frame in animation.frames)
@@ -41,7 +40,7 @@ def test_the_cell_is_seen_and_the_eye_goes_round_it(trace: Trace, tmp_path: Path
 
 
 @pytest.mark.parametrize("name", ["it.webp", "it.webm"])
-def test_the_same_trace_gives_the_same_bytes(trace: Trace, tmp_path: Path, name: str) -> None:
+def test_the_same_trace_gives_the_same_bytes(trace: handeye.Trace, tmp_path: Path, name: str) -> None:
     written = []
     for _ in range(2):
         trace.video(
