@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 SUPPORT = Path(__file__).parent.parent / "support"
 PATHS = os.pathsep.join(map(str, (SUPPORT / "toy_package", SUPPORT)))
 TWO_TASKS = """TASK LEFT
@@ -85,7 +87,6 @@ def test_its_files_are_checked_explained_and_formatted_in_its_own_language(shell
     assert refused == "handeye: two.toy: the counter machine cannot follow a plan of motions\n"
 
 
-@pytest.mark.slow
 def test_a_run_is_shown_verified_and_reported_with_the_event_that_it_adds(
     shell: Shell, run: str, folder: Path
 ) -> None:
@@ -96,14 +97,12 @@ def test_a_run_is_shown_verified_and_reported_with_the_event_that_it_adds(
     assert "register B holds 3" in (folder / run / "report.html").read_text(encoding="utf-8")
 
 
-@pytest.mark.slow
 @pytest.mark.usefixtures("run")
 def test_without_a_cell_a_run_ends_with_its_result(folder: Path) -> None:
     result = json.loads((folder / "run" / "result.json").read_bytes())
     assert (result["completed"], result["assembled"], result["task"]) == (True, None, "counting")
 
 
-@pytest.mark.slow
 def test_what_it_cannot_do_is_refused_by_its_name(shell: Shell, run: str) -> None:
     cannot = "the counter machine cannot"
     undone = shell("dismantle", run, code=2)
@@ -112,7 +111,6 @@ def test_what_it_cannot_do_is_refused_by_its_name(shell: Shell, run: str) -> Non
     assert f"{cannot} make a film of its run" in shell("video", run, code=2)
 
 
-@pytest.mark.slow
 def test_it_is_stepped_at_two_places_in_its_own_words_and_refuses_an_undo(shell: Shell, run: str) -> None:
     said = shell(
         "toy", "two.toy", "--step", "--out", "left", typed="step 3\nundo\nshow tasks\nhelp\nquit\n", code=2
@@ -126,7 +124,6 @@ def test_it_is_stepped_at_two_places_in_its_own_words_and_refuses_an_undo(shell:
     assert "the same" in shell("trace", "verify", "left")
 
 
-@pytest.mark.slow
 def test_a_run_that_was_killed_is_resumed_to_the_events_of_one_that_was_not(
     shell: Shell, folder: Path
 ) -> None:
@@ -154,7 +151,6 @@ def test_a_run_that_was_killed_is_resumed_to_the_events_of_one_that_was_not(
     assert left[-len(whole) + 2 :] == whole[2:]
 
 
-@pytest.mark.slow
 def test_it_is_swept_like_every_system(shell: Shell, folder: Path) -> None:
     said = shell("trials", "counting", "--n", "3", "--jobs", "1", "--out", "batch")
     assert "3 of 3" in said

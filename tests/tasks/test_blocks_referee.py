@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 from handeye.core.pose import Pose, pose
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.judge.finding import Findings, all_right
+from handeye.systems.trig.jobs.jobs import PalletJob
 from handeye.systems.trig.jobs.referee import (
     judge_back,
     judge_dropped,
@@ -17,7 +18,8 @@ from handeye.systems.trig.jobs.referee import (
     judge_placed,
     judge_program,
 )
-from handeye.systems.trig.jobs.world import BlocksWorld
+from handeye.systems.trig.jobs.table import BlockTable
+from handeye.systems.trig.jobs.world import FAULTS, BlocksWorld
 from handeye.systems.trig.language.place import Place
 
 PLACES = (Place(x=-0.05, y=-0.1), Place(x=0.0, y=-0.1))
@@ -116,3 +118,22 @@ def test_errors_of_a_world_are_scaled_switched_off_and_set_without_changing_othe
     assert high.slip(3) == pytest.approx(2 * nominal.slip(3))
     assert wide.slip(3) == pytest.approx(nominal.slip(3) / 0.3)
     assert (sure.slip(3), sure.friction, high.friction) == (0.0, nominal.friction, nominal.friction)
+
+
+def test_what_is_broken_is_in_the_scene_from_the_start_and_nothing_else_is() -> None:
+    def world(*names: str) -> BlocksWorld:
+        return BlocksWorld(WorldSpec(seed=1, faults=tuple(FAULTS.kind(name).usual() for name in names)))
+
+    oiled, weighty, sound = world("platter.slippery"), world("blocks.heavy"), world()
+    assert (oiled.friction, weighty.friction) == (0.05, sound.friction)
+    masses = []
+    for each in (weighty, sound):
+        table = BlockTable(each)
+        table.stack(1, 0.0, 0.0)
+        masses.append(table.bench.model.body("block_1").mass[0])
+    assert masses[0] == pytest.approx(10 * masses[1])
+    hand = {
+        name: PalletJob("", world(*name)).bench.model.actuator("hand").forcerange[1]
+        for name in ((), ("hand.weak",))
+    }
+    assert hand == {(): 30.0, ("hand.weak",): 0.1}

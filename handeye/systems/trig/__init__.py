@@ -7,7 +7,7 @@ ENTRY = Entry(
     title="TRIG",
     help="Teach a program by doing, see it as it grows, run it backwards (MIT, 1982).",
     system="handeye.systems.trig.run.system:TAUGHT",
-    can=("undo", "compare", "levels", "video", "chaos"),
+    can=("undo", "compare", "faults", "levels", "video", "chaos"),
     reasons={
         "python": "`handeye resume` goes on with one",
         "plans": "its programs are taught, and their places are those of the world they are taught in",

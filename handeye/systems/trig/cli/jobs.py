@@ -12,13 +12,15 @@ from rich.status import Status
 from handeye.cli.common import Json, WholeNumber, complain, note, notes, put_json, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.videos import drawing
-from handeye.cli.world_options import ANY_ERRORS, ErrorOptions
+from handeye.cli.world_options import ANY_ERRORS, ErrorOptions, Faults, broken
+from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
 from handeye.core.variation import WorldSpec
 from handeye.program.events import AnyEvent, StepStarted, UndoStarted
 from handeye.runs.observer import Observer
+from handeye.tasks import any_task
 
 if TYPE_CHECKING:
     from handeye.runs.folder import RunFolder
@@ -74,6 +76,7 @@ def palletise(
     blocks: Annotated[WholeNumber, Parameter(help="In the stack, 0 to 20; the pallet takes 15.")] = 20,
     seed: Seed = 0,
     errors: ErrorOptions = ANY_ERRORS,
+    fault: Faults = None,
     json: Json = False,
     kept: KeptOptions = NOTHING,
 ) -> int:
@@ -89,11 +92,16 @@ def palletise(
 
     if not 0 <= blocks <= MOST_BLOCKS:
         raise BadArgument(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
-    return _work("palletise", errors.of("palletise").spec(seed), blocks, kept, json=json)
+    return _work("palletise", _world("palletise", seed, errors, fault), blocks, kept, json=json)
 
 
 def bucket(
-    *, seed: Seed = 0, errors: ErrorOptions = ANY_ERRORS, json: Json = False, kept: KeptOptions = NOTHING
+    *,
+    seed: Seed = 0,
+    errors: ErrorOptions = ANY_ERRORS,
+    fault: Faults = None,
+    json: Json = False,
+    kept: KeptOptions = NOTHING,
 ) -> int:
     """Drop a block into a bucket, and put another one in its place: the paper's first example, with physics.
 
@@ -103,7 +111,14 @@ def bucket(
     Exit code 0: done and right; 1: the arm has stopped before; 3: done, and the referee disagrees; 2: bad input;
     130: interrupted.
     """
-    return _work("bucket", errors.of("bucket").spec(seed), None, kept, json=json)
+    return _work("bucket", _world("bucket", seed, errors, fault), None, kept, json=json)
+
+
+def _world(name: "JobName", seed: int, errors: ErrorOptions, fault: Faults) -> WorldSpec:
+    """The world of a job; raises InvalidInput if another task, or what its table lacks, is asked for."""
+    if errors.task not in (None, name):
+        raise BadArgument(f"this is the task {quoted(name)}; leave --task out")
+    return broken(errors.of(name).spec(seed), fault, any_task(name))
 
 
 def _work(name: "JobName", world: WorldSpec, blocks: int | None, kept: KeptOptions, *, json: bool) -> int:

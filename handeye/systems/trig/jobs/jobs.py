@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Final
 
@@ -20,7 +21,7 @@ from handeye.systems.trig.jobs.referee import judge_program
 from handeye.systems.trig.jobs.table import BlockTable
 from handeye.systems.trig.jobs.task import BUCKET, BUCKET_TASK, PALLET, lay
 from handeye.systems.trig.jobs.witness import ObservedScene, Witness, stands
-from handeye.systems.trig.jobs.world import BlocksWorld
+from handeye.systems.trig.jobs.world import WEAK, BlocksWorld
 from handeye.systems.trig.language.axes_arm import AxesArm
 from handeye.systems.trig.language.script import Script, type_script
 from handeye.systems.trig.language.session import Session
@@ -46,7 +47,9 @@ class _Job(TaughtJob):
     def __init__(self, script: str, world: BlocksWorld) -> None:
         self._script, self._world = script, world
         self._table, self._witness = BlockTable(world), Witness()
-        self.axes = PURBRICK.on_bench(self._table.bench, world.bending)
+        weak = world.fault(WEAK)
+        hand = PURBRICK.hand if weak is None else replace(PURBRICK.hand, force=weak)
+        self.axes = replace(PURBRICK, hand=hand).on_bench(self._table.bench, world.bending)
         self.arm = AxesArm(self.axes, self._table.bench, PURBRICK.limits)
         self.session = Session(arm=self.arm, table=self._table, desk=Script(()), files=False)
 

@@ -12,7 +12,7 @@ from handeye.core.pose import Pose
 from handeye.machines.purbrick import PURBRICK
 from handeye.systems.trig.jobs.benches import SeenTable
 from handeye.systems.trig.jobs.witness import block_poses
-from handeye.systems.trig.jobs.world import ALIGNED, STACKED, TURNED, BlocksWorld
+from handeye.systems.trig.jobs.world import ALIGNED, HEAVY, STACKED, TURNED, BlocksWorld
 
 HEIGHT: Final = 0.012
 """m, of a block; 30 mm along and across, of aluminium: 29 g."""
@@ -33,6 +33,7 @@ class BlockTable(SeenTable):
         self._spec = PURBRICK.scene()
         for geom in (self._spec.geom("platter"), self._spec.find_default("block").geom):
             geom.friction[0] = world.friction
+        self._spec.find_default("block").geom.density *= world.fault(HEAVY) or 1.0
         self.bench = Bench(self._spec.compile())
         key = self.bench.model.joint("z").qposadr[0]
         self.bench.data.qpos[key] = 0.3

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, Literal
 import numpy as np
 
 from handeye.core.errors import Refused
+from handeye.core.faults import Catalogue
 from handeye.core.pose import Array
 from handeye.core.units import MILLIMETRES
 from handeye.core.variation import Variation, WorldSpec
@@ -17,7 +18,7 @@ from handeye.systems.trig.jobs.benches import read_taught_plan
 from handeye.systems.trig.jobs.referee import judge_back, judge_dropped, judge_hand, judge_placed
 from handeye.systems.trig.jobs.table import BlockTable
 from handeye.systems.trig.jobs.witness import SEEN, InitialScene, ObservedScene, stands
-from handeye.systems.trig.jobs.world import VARIATION, BlocksWorld
+from handeye.systems.trig.jobs.world import FAULTS, VARIATION, BlocksWorld
 from handeye.systems.trig.language.hearing import stripped
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.tabletop import MARK, arrange
@@ -47,6 +48,9 @@ class _BlocksTask(AnyTask):
 
     def variation(self, seed: int) -> Variation:
         return VARIATION
+
+    def faults(self, seed: int) -> Catalogue:
+        return FAULTS
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         return BlockTable(BlocksWorld(spec)).bench.model

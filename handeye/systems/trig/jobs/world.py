@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from handeye.core.distributions import Distribution, Noise, Range
+from handeye.core.faults import Catalogue, Expected, FaultKind, Size
 from handeye.core.pose import Array
 from handeye.core.random_streams import random_numbers
 from handeye.core.variation import Quantity, Variation, WorldSpec
@@ -37,6 +38,24 @@ VARIATION: Final = Variation(
     _quantity(TURNS, "rad", Noise(2e-4), 0.1, "Sigma of how far turning potentiometers bend. Chosen."),
 )
 """Quantities of the bench: sigmas of errors, of which each has a stream of its own, and the friction."""
+WEAK, HEAVY, SLIPPERY = "hand.weak", "blocks.heavy", "platter.slippery"
+FAULTS: Final = Catalogue(
+    FaultKind(
+        name=WEAK, meaning="The hand presses with so much force only; 30 N are built in.", when="before",
+        size=Size(unit="N", usual=0.1, limits=(0.001, 30.0)),
+    ),
+    FaultKind(
+        name=HEAVY, meaning="Blocks weigh so many times as much as aluminium.", when="before",
+        size=Size(unit="", usual=10.0, limits=(1.0, 100.0)),
+        expected=Expected(harmless="The hand holds a hundred times the weight of a block."),
+    ),
+    FaultKind(
+        name=SLIPPERY, meaning="Blocks and platter are oiled: their friction is this.", when="before",
+        size=Size(unit="", usual=0.05, limits=(0.01, 0.3)),
+        expected=Expected(harmless="Blocks lie flat where they are put, and are held with all the force of the hand."),
+    ),
+)  # fmt: skip
+"""What can be broken on the bench, from the start of a run on."""
 _WAVE: Final = (*3 * (0.1,), *3 * (1.0,))  # m and rad, period of a potentiometer's error
 _MAX_SIGMAS: Final = 2.0  # larger errors are corrected by people
 
@@ -46,6 +65,11 @@ class BlocksWorld:
     """A world, without errors if it has no specification. Each number has a stream of its own, by name."""
 
     spec: WorldSpec | None = None
+
+    def fault(self, name: str) -> float | None:
+        """Size of a fault, SI; None if the world does not have it."""
+        faults = () if self.spec is None else self.spec.faults
+        return next((fault.value for fault in faults if fault.name == name), None)
 
     def normal(self, name: str, quantity: str) -> float:
         """A normal number by name, its sigma a quantity of the world, clipped at two sigma."""
@@ -64,6 +88,8 @@ class BlocksWorld:
     @property
     def friction(self) -> float:
         """Friction of blocks and platter."""
+        if (slippery := self.fault(SLIPPERY)) is not None:
+            return slippery
         return (
             VARIATION.quantities[FRICTION].nominal
             if self.spec is None

@@ -8,7 +8,6 @@ from typing import Any, Final
 import numpy as np
 
 from handeye.cell.snapshot_cell import SnapshotCell
-from handeye.core.entries import require
 from handeye.core.errors import BadFile, Refused
 from handeye.core.mutable_records import put_back
 from handeye.core.pose import Array
@@ -402,9 +401,9 @@ class TaughtSystem(System):
 
     def check(self, setup: Setup) -> None:
         super().check(setup)
-        if setup.world.faults:
-            require(self.name, "faults")
-        any_task(setup.task).variation(setup.world.seed).check(setup.world)
+        task, world = any_task(setup.task), setup.world
+        task.variation(world.seed).check(world)
+        task.faults(world.seed).check(world.faults)
 
     def executed(self, plan: TaughtPlan, state: TaughtState) -> Sequence[Executed]:
         return state.executed(plan)
