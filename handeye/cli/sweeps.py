@@ -106,8 +106,8 @@ def carry_out_sweep(
     timer = HostTimer()
     rows: dict[tuple[str, int], TrialRow] = {}
     try:
+        options.check()
         if folder is not None:
-            options.check()
             rows = {key: row for key, row in folder.rows.items() if key in wanted}
         with _Progress(sweep, len(wanted), list(rows.values()), timer, json=options.json) as progress:
 
