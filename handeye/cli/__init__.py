@@ -33,7 +33,8 @@ app = App(
 )
 add_commands(app, COMMANDS, __package__)
 for entry in entries().values():
-    add_commands(app, entry.commands)
+    with suppress(KeyError, ValueError):  # a table of somebody else's that is no table breaks no command
+        add_commands(app, entry.commands)
 completion.register(app)
 
 
