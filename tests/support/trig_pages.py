@@ -9,11 +9,9 @@ from collections.abc import Callable
 from typing import Final
 
 from handeye.core.errors import InvalidInput
-from handeye.systems.trig.language.full_display import full_display
-from handeye.systems.trig.language.hearing import hear
+from handeye.systems.trig.language.command_input import Script, hear
+from handeye.systems.trig.language.display import full_display, partial_display
 from handeye.systems.trig.language.no_arm import NoArm
-from handeye.systems.trig.language.partial_display import partial_display
-from handeye.systems.trig.language.script import Script
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.styled import plain
 

@@ -3,12 +3,11 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from handeye.systems.trig.language.hearing import hear
+from handeye.systems.trig.language.command_input import Script, hear, type_script
+from handeye.systems.trig.language.graph import Node
 from handeye.systems.trig.language.no_arm import NoArm
-from handeye.systems.trig.language.node import Node
-from handeye.systems.trig.language.script import Script, type_script
 from handeye.systems.trig.language.session import Session
-from handeye.systems.trig.language.soundness import faults
+from handeye.systems.trig.language.storage import faults
 
 PLANS = Path(__file__).parent.parent.parent / "plans"
 PALLETISE = (PLANS / "palletise.trig").read_text(encoding="utf-8")

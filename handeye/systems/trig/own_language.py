@@ -7,9 +7,8 @@ from handeye.core.errors import InvalidInput
 from handeye.core.source import Source, Span
 from handeye.program.language import OwnLanguage
 from handeye.systems.trig import ENTRY
+from handeye.systems.trig.language.command_input import LineRefused, help
 from handeye.systems.trig.language.command_table import COMMANDS, SYNONYMS
-from handeye.systems.trig.language.hearing import help
-from handeye.systems.trig.language.script import LineRefused
 from handeye.systems.trig.language.storage import ENDING, decoded
 from handeye.systems.trig.run.plan import typed
 

@@ -7,9 +7,8 @@ from handeye.core.diagnostics import quoted
 from handeye.core.errors import NoSuchName, Refused
 from handeye.core.notebook import frame, page
 from handeye.systems.trig.jobs.benches import ArmName, SeenTable, new_session
-from handeye.systems.trig.language.full_display import full_display
-from handeye.systems.trig.language.partial_display import partial_display
-from handeye.systems.trig.language.script import Script, type_script
+from handeye.systems.trig.language.command_input import Script, type_script
+from handeye.systems.trig.language.display import full_display, partial_display
 from handeye.systems.trig.language.styled import plain
 
 _WIDE: Final = 100

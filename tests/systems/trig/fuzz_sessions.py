@@ -16,18 +16,16 @@ from pathlib import Path
 from typing import Final
 
 from handeye.core.errors import HandeyeError, InvalidInput
+from handeye.systems.trig.language.arguments import Kind
+from handeye.systems.trig.language.command_input import hear
 from handeye.systems.trig.language.command_table import COMMANDS, TrigCommand
 from handeye.systems.trig.language.desk import Button, Cancelled, Desk, Jog
-from handeye.systems.trig.language.full_display import full_display
-from handeye.systems.trig.language.given import Kind
-from handeye.systems.trig.language.hearing import hear
+from handeye.systems.trig.language.display import full_display, partial_display
 from handeye.systems.trig.language.no_arm import NoArm
-from handeye.systems.trig.language.partial_display import partial_display
-from handeye.systems.trig.language.position import is_named
+from handeye.systems.trig.language.place import is_named
 from handeye.systems.trig.language.running import Interpreter
 from handeye.systems.trig.language.session import Session
-from handeye.systems.trig.language.soundness import faults
-from handeye.systems.trig.language.storage import decoded, encoded
+from handeye.systems.trig.language.storage import decoded, encoded, faults
 from handeye.systems.trig.language.styled import plain
 
 LINES: Final = 35

@@ -17,7 +17,7 @@ from trig_sessions import PLANS
 from handeye.cli.panic_button import PanicButton
 from handeye.systems.trig.jobs import referee
 from handeye.systems.trig.language.axes_arm import AxesArm
-from handeye.systems.trig.language.obstacles import Resisted
+from handeye.systems.trig.language.trig_arm import Resisted
 from handeye.systems.trig.run import job as taught_job
 from handeye.systems.trig.run import job_folder, job_video
 from handeye.systems.trig.run.pallet_trials import broken_off_after

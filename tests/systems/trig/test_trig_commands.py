@@ -5,11 +5,10 @@ from trig_sessions import BUCKET, Typist
 
 from handeye.core.errors import InvalidInput
 from handeye.core.units import OUNCE_FORCE
+from handeye.systems.trig.language.command_input import Script, hear
 from handeye.systems.trig.language.command_table import COMMANDS, TABLE, TrigCommand
-from handeye.systems.trig.language.hearing import hear
-from handeye.systems.trig.language.node import NONE, TOP
+from handeye.systems.trig.language.graph import NONE, TOP
 from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.language.script import Script
 
 GUARDED = "MG DOWN\nZ 10 RECORD\n2\n(0 0 1)\n"
 

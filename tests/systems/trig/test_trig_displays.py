@@ -5,12 +5,10 @@ from itertools import pairwise
 import pytest
 from trig_sessions import BUCKET, PALLETISE, Typist, straight
 
-from handeye.systems.trig.language.full_display import full_display
+from handeye.systems.trig.language.display import full_display, partial_display
+from handeye.systems.trig.language.graph import NORMAL
 from handeye.systems.trig.language.layout import layout
-from handeye.systems.trig.language.node import NORMAL
-from handeye.systems.trig.language.partial_display import partial_display
-from handeye.systems.trig.language.styled import plain
-from handeye.systems.trig.language.symbols import ASCII, UNICODE, symbols_for
+from handeye.systems.trig.language.styled import ASCII, UNICODE, plain, symbols_for
 
 FIGURE_10 = """\
    ***  CENTER

@@ -4,9 +4,8 @@ import pytest
 from trig_sessions import PALLETISE, Typist, straight
 
 from handeye.core.errors import InvalidInput
-from handeye.systems.trig.language.node import GUARDED, NONE, NORMAL
-from handeye.systems.trig.language.soundness import faults
-from handeye.systems.trig.language.storage import encoded
+from handeye.systems.trig.language.graph import GUARDED, NONE, NORMAL
+from handeye.systems.trig.language.storage import encoded, faults
 
 FORK = """M UP
 Z 100 RECORD

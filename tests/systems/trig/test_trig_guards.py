@@ -10,7 +10,8 @@ from handeye.core.pose import Array
 from handeye.machines.purbrick import PURBRICK
 from handeye.ports.axes import AxesReading
 from handeye.systems.trig.language.axes_arm import AxesArm
-from handeye.systems.trig.language.obstacles import (
+from handeye.systems.trig.language.place import Place
+from handeye.systems.trig.language.trig_arm import (
     HoldOff,
     LeftBehind,
     Missed,
@@ -18,8 +19,7 @@ from handeye.systems.trig.language.obstacles import (
     Resisted,
     Unsupported,
 )
-from handeye.systems.trig.language.obstacles import told_obstacle as told
-from handeye.systems.trig.language.place import Place
+from handeye.systems.trig.language.trig_arm import told_obstacle as told
 from handeye.touch.hold import as_before
 
 AT_A_BLOCK = "* STACK 2 X 100 Y 0\nM OVER\nX 100 Z 60 RECORD\nMG ON\nZ 2 RECORD\n2\n(0 0 1)\nGOPOS OVER\n"

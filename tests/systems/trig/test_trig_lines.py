@@ -8,8 +8,8 @@ from conftest import Command
 
 from handeye.cli.panic_button import PanicButton
 from handeye.systems.trig.cli import lines as trig_lines
+from handeye.systems.trig.language.command_input import Script
 from handeye.systems.trig.language.no_arm import NoArm
-from handeye.systems.trig.language.script import Script
 from handeye.systems.trig.language.session import Session
 
 

@@ -7,7 +7,7 @@ from handeye.core.errors import InvalidInput
 from handeye.core.record import Vector3
 from handeye.systems.trig.language.no_arm import NoArm
 from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.language.teachable import Arrival, Halted
+from handeye.systems.trig.language.trig_arm import Arrival, Halted
 
 FIGURE_22 = "M A\nX 1 RECORD\nM B\nY 1 RECORD\nCN LOC1\nM D\nY 2 RECORD\nCN D\n"
 INNER_FIRST = FIGURE_22 + "LOOP LOC1 2\nM F\nY 3 RECORD\nLOOP LOC1 3\n"

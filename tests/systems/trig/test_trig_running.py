@@ -4,7 +4,7 @@ import pytest
 from trig_sessions import BUCKET, PALLETISE, Typist, typed
 
 from handeye.core.errors import InvalidInput
-from handeye.systems.trig.language.hearing import hear
+from handeye.systems.trig.language.command_input import hear
 from handeye.systems.trig.language.no_arm import NoArm
 from handeye.systems.trig.language.running import Interpreter, RunResult
 from handeye.systems.trig.language.session import Session

@@ -33,8 +33,8 @@ from handeye.runs.undo_orders import to_be_undone
 from handeye.runs.verify import difference
 from handeye.systems.trig.jobs.benches import JobName, TaughtPlan, open_job
 from handeye.systems.trig.language.axes_arm import ArmMemory, AxesArm
-from handeye.systems.trig.language.obstacles import Resisted
 from handeye.systems.trig.language.place import Place
+from handeye.systems.trig.language.trig_arm import Resisted
 from handeye.systems.trig.run import plan as plans
 from handeye.systems.trig.run.job import account, carried_out
 from handeye.systems.trig.run.plan import listing

@@ -11,9 +11,8 @@ from trig_sessions import PALLETISE, typed
 
 from handeye.systems.trig.cli.screen import Screen
 from handeye.systems.trig.cli.windows import _drawn
-from handeye.systems.trig.language.hearing import hear
+from handeye.systems.trig.language.command_input import Script, hear
 from handeye.systems.trig.language.no_arm import NoArm
-from handeye.systems.trig.language.script import Script
 from handeye.systems.trig.language.session import Session
 
 pytestmark = pytest.mark.slow

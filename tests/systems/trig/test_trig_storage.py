@@ -9,8 +9,7 @@ import pytest
 from trig_sessions import PALLETISE, Typist
 
 from handeye.core.errors import InvalidInput
-from handeye.systems.trig.language.full_display import full_display
-from handeye.systems.trig.language.partial_display import partial_display
+from handeye.systems.trig.language.display import full_display, partial_display
 from handeye.systems.trig.language.program import TrigProgram
 from handeye.systems.trig.language.storage import decoded, encoded
 from handeye.systems.trig.language.styled import plain

@@ -11,8 +11,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.trig.jobs.bench import purbrick
 from handeye.systems.trig.jobs.benches import TaughtPlan
-from handeye.systems.trig.language.hearing import hear
-from handeye.systems.trig.language.script import Script
+from handeye.systems.trig.language.command_input import Script, hear
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.run.job import setup_of_job
 

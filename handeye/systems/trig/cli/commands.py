@@ -66,7 +66,7 @@ def run(
     2: bad input; 130: interrupted.
     """
     from handeye.systems.trig.cli.sessions import opened, watched
-    from handeye.systems.trig.language.cursor_commands import told_run
+    from handeye.systems.trig.language.program_commands import told_run
     from handeye.systems.trig.language.reports import report
 
     with PanicButton() as panic:
@@ -103,10 +103,8 @@ def show(
     Exit code 0: shown; 2: bad input.
     """
     from handeye.systems.trig.cli.sessions import opened
-    from handeye.systems.trig.language.full_display import full_display
-    from handeye.systems.trig.language.partial_display import partial_display
-    from handeye.systems.trig.language.styled import plain
-    from handeye.systems.trig.language.symbols import symbols_for
+    from handeye.systems.trig.language.display import full_display, partial_display
+    from handeye.systems.trig.language.styled import plain, symbols_for
 
     if width and not 20 <= width <= 1000:
         raise BadArgument(f"a display is 20 to 1000 characters wide, not {width}")
@@ -126,8 +124,7 @@ def at_terminal() -> bool:
 
 def _piped(session: "Session", halted: Callable[[], bool]) -> int:
     """Carry out lines of standard input; a refused one is reported, and the next is read."""
-    from handeye.systems.trig.language.hearing import hear
-    from handeye.systems.trig.language.script import Script
+    from handeye.systems.trig.language.command_input import Script, hear
 
     code = 0
     session.desk = script = Script(iter(sys.stdin.readline, ""), say, halted)

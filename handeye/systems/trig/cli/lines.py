@@ -8,16 +8,13 @@ from handeye.cli.common import say, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.core.errors import InvalidInput
+from handeye.systems.trig.language.command_input import hear, stripped
 from handeye.systems.trig.language.command_table import COMMANDS
 from handeye.systems.trig.language.desk import Button, Cancelled, Desk, buttons
-from handeye.systems.trig.language.full_display import full_display
-from handeye.systems.trig.language.hearing import hear, stripped
-from handeye.systems.trig.language.partial_display import partial_display
-from handeye.systems.trig.language.place import told_place
-from handeye.systems.trig.language.position import is_named
+from handeye.systems.trig.language.display import full_display, partial_display
+from handeye.systems.trig.language.place import is_named, told_place
 from handeye.systems.trig.language.session import Session
-from handeye.systems.trig.language.styled import plain
-from handeye.systems.trig.language.symbols import symbols_for
+from handeye.systems.trig.language.styled import plain, symbols_for
 
 PROMPT = ">"
 BOX_PROMPT = "teach box (X 30, Z BY -5, RECORD, KILL)> "

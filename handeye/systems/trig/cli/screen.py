@@ -19,8 +19,8 @@ from handeye.core.errors import InvalidInput
 from handeye.core.plain_text import folded
 from handeye.systems.trig.cli.keys import STEPS, bindings
 from handeye.systems.trig.cli.windows import Picture, application, pictured
+from handeye.systems.trig.language.command_input import hear
 from handeye.systems.trig.language.desk import Button, Cancelled, Desk, Jog
-from handeye.systems.trig.language.hearing import hear
 from handeye.systems.trig.language.place import SIZES
 from handeye.systems.trig.language.session import Session
 

@@ -13,11 +13,11 @@ from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted, printable
 from handeye.core.source import read_source
 from handeye.systems.trig.jobs.benches import ArmName, new_session
+from handeye.systems.trig.language.command_input import Script, type_script
 from handeye.systems.trig.language.desk import Desk
-from handeye.systems.trig.language.script import Script, type_script
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.storage import ENDING, read_program
-from handeye.systems.trig.language.teachable import Halted
+from handeye.systems.trig.language.trig_arm import Halted
 
 _REFRESH_S: Final = 0.1
 """Least time between updates of the progress line."""

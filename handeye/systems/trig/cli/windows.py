@@ -19,13 +19,10 @@ from prompt_toolkit.widgets import TextArea
 from handeye.core.plain_text import counted, printable
 from handeye.systems.trig.cli.keys import BOX_HELP, BUSY_HELP, LINE_HELP, PAGE_HELP, STEPS
 from handeye.systems.trig.language.command_table import COMMANDS
-from handeye.systems.trig.language.full_display import full_display
-from handeye.systems.trig.language.partial_display import partial_display
-from handeye.systems.trig.language.place import told_place
-from handeye.systems.trig.language.position import is_named
+from handeye.systems.trig.language.display import full_display, partial_display
+from handeye.systems.trig.language.place import is_named, told_place
 from handeye.systems.trig.language.session import Session
-from handeye.systems.trig.language.styled import Line
-from handeye.systems.trig.language.symbols import symbols_for
+from handeye.systems.trig.language.styled import Line, symbols_for
 
 if TYPE_CHECKING:
     from handeye.systems.trig.cli.screen import Screen

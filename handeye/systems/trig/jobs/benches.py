@@ -7,7 +7,7 @@ import msgspec
 
 from handeye.core.errors import BadFile
 from handeye.core.record import Record
-from handeye.systems.trig.language.tabletop import Tabletop
+from handeye.systems.trig.language.desk import Tabletop
 
 if TYPE_CHECKING:
     from handeye.cell.bench import Bench
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from handeye.ports.axes import Axes
     from handeye.systems.trig.language.axes_arm import AxesArm
     from handeye.systems.trig.language.session import Session
-    from handeye.systems.trig.language.teachable import Halted, TrigArm
+    from handeye.systems.trig.language.trig_arm import Halted, TrigArm
     from handeye.tasks.interface import AnyTask
 
 ArmName = Literal["none", "purbrick"]
@@ -52,8 +52,8 @@ class BlockPose(Record, frozen=True, kw_only=True):
 
 def new_session(arm: ArmName) -> "Session":
     """A new TRIG session with an imaginary or simulated arm."""
+    from handeye.systems.trig.language.command_input import Script
     from handeye.systems.trig.language.no_arm import NoArm
-    from handeye.systems.trig.language.script import Script
     from handeye.systems.trig.language.session import Session
 
     if arm == "none":

@@ -23,9 +23,9 @@ from handeye.systems.trig.jobs.task import BUCKET, BUCKET_TASK, PALLET, lay
 from handeye.systems.trig.jobs.witness import ObservedScene, Witness, stands
 from handeye.systems.trig.jobs.world import WEAK, BlocksWorld
 from handeye.systems.trig.language.axes_arm import AxesArm
-from handeye.systems.trig.language.script import Script, type_script
+from handeye.systems.trig.language.command_input import Script, type_script
 from handeye.systems.trig.language.session import Session
-from handeye.systems.trig.language.teachable import Halted
+from handeye.systems.trig.language.trig_arm import Halted
 
 _LAST_STACK: Final = re.compile(r"\* STACK 20 (X \S+ Y \S+)")
 """The stack for a run; the one before it is for teaching."""

@@ -19,9 +19,9 @@ from handeye.systems.trig.jobs.referee import judge_back, judge_dropped, judge_h
 from handeye.systems.trig.jobs.table import BlockTable
 from handeye.systems.trig.jobs.witness import SEEN, InitialScene, ObservedScene, stands
 from handeye.systems.trig.jobs.world import FAULTS, VARIATION, BlocksWorld
-from handeye.systems.trig.language.hearing import stripped
+from handeye.systems.trig.language.command_input import stripped
+from handeye.systems.trig.language.desk import MARK, arrange
 from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.language.tabletop import MARK, arrange
 from handeye.tasks.interface import AnyTask, Words
 
 if TYPE_CHECKING:

@@ -11,12 +11,18 @@ from handeye.core.record import Record, Vector3
 from handeye.machines.arm_machine import HandlingLimits
 from handeye.ports.axes import Axes
 from handeye.ports.clock import Clock
-from handeye.systems.trig.language.obstacles import LeftBehind, Obstacle, Resisted, Unsupported
 from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.language.teachable import Arrival, Halted, TrigArm
+from handeye.systems.trig.language.trig_arm import (
+    Arrival,
+    Halted,
+    LeftBehind,
+    Obstacle,
+    Resisted,
+    TrigArm,
+    Unsupported,
+)
 
-APPROACH: Final = 5e-3
-"""m of vertical approach when setting down: a slanted path would push over a stack."""
+APPROACH: Final = 5e-3  # m of vertical approach when setting down: a slanted path would push over a stack
 DEEPER: Final = 2e-3
 """m below that place within which there must be support. Places are taught to .3 mm, so an object may have dropped by
 two or three of these, and be grasped that much higher.

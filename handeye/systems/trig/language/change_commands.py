@@ -1,9 +1,8 @@
 """Commands that change or delete steps."""
 
 from handeye.core.errors import BadArgument, Refused
-from handeye.systems.trig.language.deletion import delete_below, delete_step, prune
-from handeye.systems.trig.language.given import Arguments, read_branch
-from handeye.systems.trig.language.node import NONE, TOP, Node
+from handeye.systems.trig.language.arguments import Arguments, read_branch
+from handeye.systems.trig.language.graph import NONE, TOP, Node, delete_below, delete_step, prune
 from handeye.systems.trig.language.program import TrigProgram
 from handeye.systems.trig.language.session import Session
 

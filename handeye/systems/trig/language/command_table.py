@@ -7,12 +7,10 @@ from typing import Final
 from handeye.systems.trig.language import (
     arm_commands,
     change_commands,
-    cursor_commands,
-    file_commands,
-    position_commands,
+    program_commands,
     step_commands,
 )
-from handeye.systems.trig.language.given import Arguments, Kind
+from handeye.systems.trig.language.arguments import Arguments, Kind
 from handeye.systems.trig.language.session import Session
 
 
@@ -29,7 +27,6 @@ class TrigCommand:
 
     @property
     def word(self) -> str:
-        """Its word."""
         return self.usage.partition(" ")[0]
 
 
@@ -121,49 +118,47 @@ TABLE: Final = (
     ),
     TrigCommand(usage="FLUSH", group=CHANGES, act=change_commands.flush, help="erase the program"),
     TrigCommand(
-        usage="HERE POS", group=POSITIONS, takes=("position",), needs=1, act=position_commands.here,
+        usage="HERE POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here,
         help="name the place where the arm is",
     ),
     TrigCommand(
-        usage="SA POS", group=POSITIONS, takes=("position",), needs=1, act=position_commands.here, help="the same"
+        usage="SA POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here, help="the same"
     ),
     TrigCommand(
-        usage="SR POS", group=POSITIONS, takes=("position",), needs=1, act=position_commands.here_relative,
+        usage="SR POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here_relative,
         help="name the way there from where the last step took the arm",
     ),
     TrigCommand(
-        usage="CALPOS", group=POSITIONS, act=position_commands.begin_way, help="remember where the arm is, for ENDCAL"
+        usage="CALPOS", group=POSITIONS, act=arm_commands.begin_way, help="remember where the arm is, for ENDCAL"
     ),
     TrigCommand(
-        usage="ENDCAL POS", group=POSITIONS, takes=("position",), needs=1, act=position_commands.end_way,
+        usage="ENDCAL POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.end_way,
         help="name the way from there to where the arm is",
     ),
     TrigCommand(
-        usage="N [COUNT]", group=CURSOR, takes=("count",), act=cursor_commands.next_step, help="go down so many steps"
+        usage="N [COUNT]", group=CURSOR, takes=("count",), act=program_commands.next_step, help="go down so many steps"
     ),
     TrigCommand(
-        usage="P [COUNT]", group=CURSOR, takes=("count",), act=cursor_commands.previous_step,
+        usage="P [COUNT]", group=CURSOR, takes=("count",), act=program_commands.previous_step,
         help="go up so many steps, by those that were active last",
     ),
     TrigCommand(
-        usage="GOTO STEP", group=CURSOR, takes=("step",), needs=1, act=cursor_commands.goto, help="go to a named step"
+        usage="GOTO STEP", group=CURSOR, takes=("step",), needs=1, act=program_commands.goto, help="go to a named step"
     ),
     TrigCommand(
-        usage="RUN [COUNT]", group=RUNS, takes=("count",), act=cursor_commands.run,
+        usage="RUN [COUNT]", group=RUNS, takes=("count",), act=program_commands.run,
         help="run the program from the top, or so many steps from the active one; with a minus, backwards",
     ),
-    TrigCommand(usage="W [FILE]", group=RUNS, takes=("file",), act=file_commands.write, help="write the program"),
+    TrigCommand(usage="W [FILE]", group=RUNS, takes=("file",), act=program_commands.write, help="write the program"),
     TrigCommand(
-        usage="R FILE", group=RUNS, takes=("file",), needs=1, act=file_commands.read,
+        usage="R FILE", group=RUNS, takes=("file",), needs=1, act=program_commands.read,
         help="read a program in the place of this one",
     ),
     TrigCommand(
-        usage="EX FILE", group=RUNS, takes=("file",), needs=1, act=file_commands.leave_written,
+        usage="EX FILE", group=RUNS, takes=("file",), needs=1, act=program_commands.leave_written,
         help="write it, and leave",
     ),
-    TrigCommand(usage="Q", group=RUNS, act=file_commands.leave, help="leave, and write nothing"),
-)  # fmt: skip
-"""The 37 commands of the paper's appendix."""
+    TrigCommand(usage="Q", group=RUNS, act=program_commands.leave, help="leave, and write nothing"),
+)  # fmt: skip  # the 37 commands of the paper's appendix
 COMMANDS: Final = {command.word: command for command in TABLE}
-SYNONYMS: Final = {"LINK": "L"}
-"""The paper's text uses this name for a command of its appendix."""
+SYNONYMS: Final = {"LINK": "L"}  # the paper's text uses this name for a command of its appendix

@@ -1,4 +1,4 @@
-"""The teacher's desk: keyboard, screen, and the arm's teach box."""
+"""The teacher's desk: keyboard, screen, teach box, and the table with objects that a user arranges."""
 
 import re
 from abc import ABC, abstractmethod
@@ -9,6 +9,7 @@ from typing import Final, Literal, TypeVar
 
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, InvalidInput
+from handeye.core.units import MILLIMETRE
 from handeye.systems.trig.language.place import AXES, SIZES
 
 Read = TypeVar("Read")
@@ -100,7 +101,6 @@ def buttons(line: str) -> list[Button]:
 
 
 def _jog(word: str, words: deque[str]) -> Jog:
-    """The jog of one axis."""
     if word not in AXES:
         raise BadArgument(
             f"{quoted(word)} is nothing on the teach box; write `X -30`, `Z BY 12`, `RECORD` or `KILL`"
@@ -112,3 +112,53 @@ def _jog(word: str, words: deque[str]) -> Jog:
         raise BadArgument(f"{word} moves where? `{word} 30` is a place, `{word} BY 30` a way")
     axis = AXES.index(word)
     return Jog(axis, number(words.popleft()) * SIZES[axis], by)
+
+
+MARK: Final = "*"  # first character of lines about the table
+MAX_STACK: Final = 25  # blocks
+TABLE_RADIUS_MM: Final = 200.0
+_HELP: Final = "write `* STACK 20 X 150 Y 0`, `* BUCKET X 140 Y 0`, or `* CLEAR`"
+
+
+class Tabletop(ABC):
+    """The objects in front of an arm."""
+
+    @property
+    @abstractmethod
+    def count(self) -> int:
+        """Number of blocks."""
+
+    @abstractmethod
+    def stack(self, count: int, x: float, y: float) -> None:
+        """Stack blocks at a place (m)."""
+
+    @abstractmethod
+    def bucket(self, x: float, y: float) -> None:
+        """Put a bucket at a place (m)."""
+
+    @abstractmethod
+    def clear(self) -> None:
+        """Remove everything."""
+
+
+def arrange(table: Tabletop, line: str) -> str:
+    """Carry out a line about the table; returns its content in words. Raises BadArgument."""
+    words = line.removeprefix(MARK).upper().split()
+    match words:
+        case ["STACK", count, "X", x, "Y", y] if count.isdecimal() and 0 < int(count[:9]) <= MAX_STACK:
+            table.stack(int(count), _at(x), _at(y))
+        case ["STACK", count, "X", _, "Y", _]:
+            raise BadArgument(f"a stack has 1 to {MAX_STACK} blocks, not {quoted(count)}")
+        case ["BUCKET", "X", x, "Y", y]:
+            table.bucket(_at(x), _at(y))
+        case ["CLEAR"]:
+            table.clear()
+        case _:
+            raise BadArgument(f"{quoted(' '.join(words))} cannot be done with a table; {_HELP}")
+    return f"blocks on the table: {table.count}"
+
+
+def _at(word: str) -> float:
+    if abs(number(word)) > TABLE_RADIUS_MM:
+        raise BadArgument(f"a table ends {TABLE_RADIUS_MM:g} mm from its middle, before {quoted(word)}")
+    return number(word) * MILLIMETRE

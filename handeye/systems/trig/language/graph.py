@@ -1,13 +1,65 @@
-"""The graph of a program's steps, each with one or two sons and any number of fathers.
+"""The graph of a program's steps, each with one or two sons and any number of fathers; its loops and deletions.
 
 Of the edges to a step one is its own, by which it is drawn; the others are links. The own edges form a tree from the
-top that contains every step.
+top that contains every step. A loop has a partner (bloop) above its target step, so that it can be reversed too. Where
+several loops return to one step, the nearest loop below it owns the nearest bloop above it, whichever was made first.
 """
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Final, Literal, get_args
 
-from handeye.systems.trig.language.node import NONE, TOP, Node, NodeType
+from handeye.core.errors import Refused
+from handeye.core.record import Vector3
+
+NodeType = Literal["top", "none", "normal", "guarded", "grasp", "ungrasp", "savpos", "loop", "bloop"]
+TYPES: Final[tuple[NodeType, ...]] = get_args(NodeType)
+TOP: Final = 0  # id of the node above the first step
+NONE: Final = -1  # son of a branch that ends
+NORMAL: Final = 0  # branch of a completed move, and the only one of other steps
+GUARDED: Final = 1  # branch of a move stopped by a force
+UNNAMED: Final = "***"  # shown for a step without a name
+TOP_NAME: Final = "**TOP**"
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Node:
+    """One step. Its edges are changed by the graph only."""
+
+    id: int
+    type: NodeType
+    name: str | None = None
+    position: str | None = None
+    negate: bool = False  # opposite of its relative position
+    threshold: float | None = None  # N; a greater weighted force stops a guarded move
+    vector: Vector3 | None = None  # weights of the finger force along the arm's X, Y and Z
+    partner: int = NONE  # bloop of a loop, loop of a bloop
+    wanted: int = 0  # rounds of a loop
+    count: int = 0  # rounds done
+    sons: list[int] = field(default_factory=lambda: [NONE])  # one per branch
+    links: set[int] = field(default_factory=set)  # branches to a step drawn elsewhere
+    fathers: list[int] = field(default_factory=list)
+    last_father: int = NONE  # the last active one, in a run or in editing
+    comment: str | None = None
+    unread: Mapping[str, object] = field(default_factory=dict)  # file fields unknown to this version
+
+    @property
+    def shown(self) -> bool:
+        """True if it is visible: neither a bloop nor an end."""
+        return self.type not in ("top", "none", "bloop")
+
+    @property
+    def moves(self) -> bool:
+        """True if it moves the arm."""
+        return self.type in ("normal", "guarded")
+
+    @property
+    def recent_father(self) -> int:
+        """The last active father, else the newest one."""
+        if self.last_father in self.fathers:
+            return self.last_father
+        return self.fathers[-1] if self.fathers else NONE
 
 
 class Graph:
@@ -125,3 +177,118 @@ class Graph:
         for branch in range(len(self[id].sons)):
             self.attach(id, branch, NONE)
         del self.nodes[id]
+
+
+def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int) -> Node:
+    """Insert a loop below a node, and its bloop above its target; raises Refused if that is not above."""
+    if after not in graph.distances(target):
+        raise Refused(
+            f"{graph[target].name} does not stand above the active step, and a loop goes back: `L` leads on to it"
+        )
+    loop, bloop = graph.new("loop"), graph.new("bloop")
+    loop.partner, bloop.partner, loop.wanted = bloop.id, loop.id, wanted
+    graph.insert(after, branch, loop)
+    graph.insert_above(_innermost(graph, target, loop), bloop)
+    return loop
+
+
+def _innermost(graph: Graph, target: int, loop: Node) -> int:
+    """The node above which a loop's bloop belongs: a bloop of a nearer loop, or the target."""
+    below = graph.distances(target)
+    place, bloops = target, _bloops_above(graph, target)
+    for bloop in bloops:
+        if below.get(graph[bloop].partner, -1) > below[loop.id]:
+            break
+        place = bloop
+    return place
+
+
+def _bloops_above(graph: Graph, target: int) -> list[int]:
+    """Bloops above a step, from below."""
+    found, id, top = [], target, graph.entry(target)
+    while id != top:
+        id = graph[id].fathers[0]
+        found.append(id)
+    return found
+
+
+def delete_step(graph: Graph, id: int, keep: int = NORMAL) -> None:
+    """Delete one step: fathers adopt the son on branch `keep`; what hangs on the other branch goes too."""
+    _take_out(graph, id, keep)
+    prune(graph)
+
+
+def delete_below(graph: Graph, id: int) -> None:
+    """Delete a step, and every node reachable only through it."""
+    for father, branch in graph.edges_into(id):
+        graph.attach(father, branch, NONE)
+    graph.drop(id)
+    prune(graph)
+
+
+def prune(graph: Graph) -> None:
+    """Drop unreachable nodes and loops cut from their bloops, then restore the tree."""
+    while True:
+        _drop_unreached(graph)
+        broken = next((node for node in graph.nodes.values() if _is_cut(graph, node)), None)
+        if broken is None:
+            break
+        _take_out(graph, broken.id, NORMAL)
+    _mend_tree(graph)
+
+
+def _take_out(graph: Graph, id: int, keep: int) -> None:
+    node = graph[id]
+    son = NONE if node.sons[keep] == id else node.sons[keep]
+    for father, branch in graph.edges_into(id):
+        link = branch in graph[father].links or keep in node.links
+        graph.attach(father, branch, son, link=link)
+    graph.drop(id)
+
+
+def _drop_unreached(graph: Graph) -> None:
+    reached = graph.distances(TOP)
+    lost = [id for id in graph.nodes if id not in reached]
+    for id in lost:
+        graph.drop(id)
+
+
+def _is_cut(graph: Graph, node: Node) -> bool:
+    """True if a loop or bloop has lost its partner, or no path leads from the bloop to the loop."""
+    if node.type not in ("loop", "bloop"):
+        return False
+    if node.partner not in graph:
+        return True
+    return node.type == "bloop" and node.partner not in graph.distances(node.id)
+
+
+def _mend_tree(graph: Graph) -> None:
+    """Give every node exactly one edge that is no link: its old one where that is still connected to the top."""
+    placed = {TOP}
+    _follow(graph, TOP, placed)
+    while len(placed) < len(graph.nodes):
+        father, branch = next(
+            (id, branch)
+            for id in graph.order()
+            for branch, son in enumerate(graph[id].sons)
+            if son != NONE and son not in placed
+        )
+        graph[father].links.discard(branch)
+        son = graph[father].sons[branch]
+        placed.add(son)
+        _follow(graph, son, placed)
+
+
+def _follow(graph: Graph, start: int, placed: set[int]) -> None:
+    """Place nodes below a node along own edges; an edge to a placed node becomes a link."""
+    waiting = [start]
+    while waiting:
+        node = graph[waiting.pop()]
+        for branch, son in enumerate(node.sons):
+            if son == NONE or branch in node.links:
+                continue
+            if son in placed:
+                node.links.add(branch)
+            else:
+                placed.add(son)
+                waiting.append(son)

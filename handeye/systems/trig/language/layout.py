@@ -6,8 +6,7 @@ column farther right, a row below. Columns never cross: the chains of later guar
 
 from dataclasses import dataclass, field
 
-from handeye.systems.trig.language.graph import Graph
-from handeye.systems.trig.language.node import GUARDED, NONE, NORMAL, TOP, Node
+from handeye.systems.trig.language.graph import GUARDED, NONE, NORMAL, TOP, Graph, Node
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from handeye.core.record import Vector3
+from handeye.systems.trig.language.desk import Tabletop
 from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.language.tabletop import Tabletop
-from handeye.systems.trig.language.teachable import Arrival, Halted, TrigArm
+from handeye.systems.trig.language.trig_arm import Arrival, Halted, TrigArm
 
 TRAVEL: Final = (*2 * ((-0.2, 0.2),), (0.0, 0.3), *3 * ((-math.radians(170), math.radians(170)),))
 """m and rad: the Purbrick arm's, which the paper does not give."""

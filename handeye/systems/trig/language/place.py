@@ -1,14 +1,17 @@
-"""Places of the hand as six components along and about the arm's axes."""
+"""Places of the hand as six components along and about the arm's axes, and positions: places that programs name."""
 
 import math
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import Final, NamedTuple, Self
 
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadArgument
 from handeye.core.units import DEGREE, MILLIMETRE
 
 AXES: Final = ("X", "Y", "Z", "ROLL", "PITCH", "YAW")
-SIZES: Final = (*3 * (MILLIMETRE,), *3 * (DEGREE,))
-"""SI value of each component's unit."""
+SIZES: Final = (*3 * (MILLIMETRE,), *3 * (DEGREE,))  # SI value of each component's unit
 UNITS: Final = (*3 * ("mm",), *3 * ("deg",))
 DECIMALS: Final = 6  # of a millimetre or degree, in files
 
@@ -63,3 +66,41 @@ def told_place(place: Place) -> str:
     """A place in words; angles only where not 0."""
     told = [f"{axis} {value:.4g}" for axis, value in zip(AXES, place.measures(), strict=True)]
     return " ".join(told[:3] + [word for word, angle in zip(told[3:], place[3:], strict=True) if angle])
+
+
+LONGEST: Final = 40  # characters of a name
+NAME: Final = re.compile(r"[A-Z][A-Z0-9_-]*", re.ASCII)
+_UNNAMED: Final = "_"  # prefix of positions without a name
+
+
+@dataclass(slots=True, kw_only=True)
+class Position:
+    """An absolute place, or a relative offset from wherever the arm is."""
+
+    relative: bool
+    init: Place  # as defined; a run from the top starts with it
+    data: Place  # present value, which SAVPOS changes
+    unread: Mapping[str, object] = field(default_factory=dict)  # file fields unknown to this version
+
+
+Positions = dict[str, Position]  # by name; those of single steps by names that cannot be typed
+
+
+def name_of(word: str) -> str:
+    """A name in capitals; raises BadArgument."""
+    if len(word) > LONGEST:
+        raise BadArgument(f"{quoted(word)} has {len(word)} characters; a name has {LONGEST} at most")
+    if not NAME.fullmatch(word.upper()) or not word.isascii():
+        raise BadArgument(f"{quoted(word)} is not a name: a letter, then letters, digits, `-` and `_`")
+    return word.upper()
+
+
+def is_named(name: str) -> bool:
+    """True if the name was given by a user."""
+    return not name.startswith(_UNNAMED)
+
+
+def free_name(positions: Positions) -> str:
+    """A name for an unnamed position."""
+    number = 1 + max((int(name[1:]) for name in positions if not is_named(name)), default=0)
+    return f"{_UNNAMED}{number}"

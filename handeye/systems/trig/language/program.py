@@ -5,10 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple
 
-from handeye.systems.trig.language.graph import Graph
-from handeye.systems.trig.language.node import NONE, TOP, Node
-from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.language.position import Positions
+from handeye.systems.trig.language.graph import NONE, TOP, Graph, Node
+from handeye.systems.trig.language.place import Place, Positions
 
 REMEMBERED: Final = 100_000
 """Steps that can be reversed, loop partners included: a night of palletising; older ones are forgotten."""
@@ -47,8 +45,7 @@ class TrigProgram:
     trail: deque[RecordedStep] = field(default_factory=lambda: deque(maxlen=REMEMBERED))
     """Executed steps that are not reversed, in order: all steps' position stacks in one."""
     forgotten: bool = False  # earlier steps were dropped
-    taken: int | None = None
-    """The branch taken by the active step since the cursor is there."""
+    taken: int | None = None  # the branch taken by the active step since the cursor is there
     cut: HaltedMove | None = None
     paused: int = NONE  # the step before which a run was halted
     ended_at: Place | None = None  # end of the last step

@@ -4,11 +4,10 @@ from collections.abc import Sequence
 
 from handeye.core.record import Record
 from handeye.systems.trig.language.no_arm import NoArm
-from handeye.systems.trig.language.obstacles import Obstacle
-from handeye.systems.trig.language.place import Measures, Place
-from handeye.systems.trig.language.position import is_named
+from handeye.systems.trig.language.place import Measures, Place, is_named
 from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.trig_arm import Obstacle
 
 
 class RunLeg(Record, frozen=True, kw_only=True):

@@ -6,15 +6,13 @@ from pathlib import Path
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import InvalidInput, NoSuchName, Refused
 from handeye.core.record import Vector3
-from handeye.systems.trig.language.desk import Cancelled, Desk, yes
-from handeye.systems.trig.language.given import read_branch, read_threshold, read_vector
-from handeye.systems.trig.language.node import TOP, TOP_NAME, Node
-from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.language.position import Position, is_named
+from handeye.systems.trig.language.arguments import read_branch, read_threshold, read_vector
+from handeye.systems.trig.language.desk import Cancelled, Desk, Tabletop, yes
+from handeye.systems.trig.language.graph import TOP, TOP_NAME, Node
+from handeye.systems.trig.language.place import Place, Position, is_named
 from handeye.systems.trig.language.program import TrigProgram
 from handeye.systems.trig.language.running import Interpreter
-from handeye.systems.trig.language.tabletop import Tabletop
-from handeye.systems.trig.language.teachable import TrigArm
+from handeye.systems.trig.language.trig_arm import TrigArm
 
 
 class Killed(Refused):
@@ -35,8 +33,7 @@ class Session:
     origin: Place | None = None  # the arm's place at the last CALPOS
     file: Path | None = None  # read or written last
     over: bool = False
-    files: bool = True
-    """Whether files may be read and written; not by a script of others."""
+    files: bool = True  # may be read and written; not by the script of a job
 
     @property
     def runner(self) -> Interpreter:

@@ -4,12 +4,9 @@ from collections.abc import Callable
 from typing import Literal
 
 from handeye.core.errors import BadArgument, Refused
-from handeye.systems.trig.language.deletion import prune
-from handeye.systems.trig.language.given import Arguments
-from handeye.systems.trig.language.loops import insert_loop
-from handeye.systems.trig.language.node import NONE, TOP, Node
-from handeye.systems.trig.language.place import told_place
-from handeye.systems.trig.language.position import Position, free_name
+from handeye.systems.trig.language.arguments import Arguments
+from handeye.systems.trig.language.graph import NONE, TOP, Node, insert_loop, prune
+from handeye.systems.trig.language.place import Position, free_name, told_place
 from handeye.systems.trig.language.program import RecordedStep
 from handeye.systems.trig.language.session import Session
 

@@ -14,7 +14,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.trig.jobs.benches import BlockPose, JobName, TaughtPlan, job_script
-from handeye.systems.trig.language.cursor_commands import told_run
+from handeye.systems.trig.language.program_commands import told_run
 from handeye.systems.trig.language.reports import RunLeg
 from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.run.system import TAUGHT, RunningJob, plan_of

@@ -10,8 +10,7 @@ from handeye.report.page.document import MARK, head, resource
 from handeye.report.page.plots import Scale, dot, drawing, rule, words
 from handeye.report.page.referee import findings_table
 from handeye.systems.trig.jobs.benches import BlockPose
-from handeye.systems.trig.language.full_display import full_display
-from handeye.systems.trig.language.partial_display import partial_display
+from handeye.systems.trig.language.display import full_display, partial_display
 from handeye.systems.trig.language.program import TrigProgram
 from handeye.systems.trig.language.styled import Line, plain
 from handeye.systems.trig.run.job import JobReport, Outcome

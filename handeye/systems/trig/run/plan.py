@@ -10,13 +10,12 @@ import msgspec
 from handeye.core.errors import BadFile, InvalidInput, Refused
 from handeye.program.operation import Device
 from handeye.systems.trig.jobs.benches import TaughtPlan, new_session, read_taught_plan
-from handeye.systems.trig.language.graph import Graph
+from handeye.systems.trig.language.command_input import Script, type_script
+from handeye.systems.trig.language.display import loop_words, step_words
+from handeye.systems.trig.language.graph import NONE, Graph, Node
 from handeye.systems.trig.language.layout import Cell
-from handeye.systems.trig.language.node import NONE, Node
 from handeye.systems.trig.language.program import TrigProgram
-from handeye.systems.trig.language.script import Script, type_script
-from handeye.systems.trig.language.step_words import loop_words, step_words
-from handeye.systems.trig.language.symbols import ASCII
+from handeye.systems.trig.language.styled import ASCII
 
 PATIENCE: Final = 100_000
 """Halt checks of an imaginary arm before a program run during teaching counts as endless."""

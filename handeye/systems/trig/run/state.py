@@ -10,10 +10,10 @@ from handeye.execution.undo.done import Undoing
 from handeye.program.system_state import SystemState
 from handeye.systems.trig.jobs.benches import TaughtPlan
 from handeye.systems.trig.language.axes_arm import ArmMemory
-from handeye.systems.trig.language.node import NONE, TOP
-from handeye.systems.trig.language.obstacles import Obstacle
+from handeye.systems.trig.language.graph import NONE, TOP
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.program import RecordedStep, TrigProgram
+from handeye.systems.trig.language.trig_arm import Obstacle
 from handeye.systems.trig.run.plan import listing
 
 _MAX_MEASURE: Final = 1000.0  # m and rad

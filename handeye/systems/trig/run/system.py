@@ -47,11 +47,10 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, RunningSystem, Settable, StepperWords, Surroundings, System
 from handeye.systems.trig.jobs.benches import JobName, TaughtJob, TaughtPlan, job_script, open_job
-from handeye.systems.trig.language.node import NONE, TOP
-from handeye.systems.trig.language.obstacles import told_obstacle
-from handeye.systems.trig.language.place import AXES
-from handeye.systems.trig.language.position import is_named
-from handeye.systems.trig.language.script import Script
+from handeye.systems.trig.language.command_input import Script
+from handeye.systems.trig.language.graph import NONE, TOP
+from handeye.systems.trig.language.place import AXES, is_named
+from handeye.systems.trig.language.trig_arm import told_obstacle
 from handeye.systems.trig.run.plan import TaughtStep, decode, encode, imagined, listing, text_now
 from handeye.systems.trig.run.state import Executed, TaughtState, Turn
 from handeye.tasks import any_task

@@ -1,6 +1,7 @@
 """Arguments of a command, read by their kinds."""
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final, Literal
 
@@ -9,8 +10,8 @@ from handeye.core.errors import BadArgument
 from handeye.core.record import Vector3
 from handeye.core.units import OUNCE_FORCE
 from handeye.systems.trig.language.desk import number
-from handeye.systems.trig.language.node import GUARDED, NORMAL, TOP_NAME
-from handeye.systems.trig.language.position import name_of
+from handeye.systems.trig.language.graph import GUARDED, NORMAL, TOP_NAME
+from handeye.systems.trig.language.place import name_of
 
 Kind = Literal["position", "signed", "step", "branch", "count", "threshold", "vector", "file"]
 BRANCHES: Final = {"N": NORMAL, "NORMAL": NORMAL, "G": GUARDED, "GUARDED": GUARDED}
@@ -32,14 +33,8 @@ class Arguments:
     file: str | None = None
 
 
-def read_given(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Arguments:
-    """Read the arguments of a command; raises BadArgument.
-
-    Args:
-        usage: the command and its arguments, for messages.
-        takes: kinds of its arguments in order.
-        needs: number of required ones.
-    """
+def read_arguments(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Arguments:
+    """Read arguments of these kinds, of which the first `needs` are required; raises BadArgument, citing `usage`."""
     given = Arguments()
     words = [rest] if takes and takes[0] in ("file", "vector") and rest else rest.split()
     if len(words) < needs:
@@ -47,7 +42,10 @@ def read_given(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Ar
     if len(words) > len(takes):
         raise BadArgument(f"`{usage}` has no use for {quoted(words[len(takes)])}")
     for kind, word in zip(takes, words, strict=False):
-        _READ[kind](given, word)
+        if kind == "signed":
+            given.negate, word = word.startswith("-"), word.removeprefix("-")
+        field, read = _READERS[kind]
+        setattr(given, field, read(word))
     return given
 
 
@@ -78,54 +76,33 @@ def read_vector(text: str) -> Vector3:
     return x, y, z
 
 
-def _position(given: Arguments, word: str) -> None:
+def _position(word: str) -> str:
     if word.startswith("-"):
         raise BadArgument(f"a minus has no meaning here: give {quoted(word[1:])} without it")
-    given.position = name_of(word)
+    return name_of(word)
 
 
-def _signed(given: Arguments, word: str) -> None:
-    given.negate = word.startswith("-")
-    given.position = name_of(word[1:] if given.negate else word)
+def _step(word: str) -> str:
+    return TOP_NAME if word.upper() == TOP_NAME else name_of(word)
 
 
-def _step(given: Arguments, word: str) -> None:
-    given.step = TOP_NAME if word.upper() == TOP_NAME else name_of(word)
-
-
-def _branch(given: Arguments, word: str) -> None:
-    given.branch = read_branch(word)
-
-
-def _count(given: Arguments, word: str) -> None:
+def _count(word: str) -> int:
     if not re.fullmatch(r"[+-]?\d+", word, re.ASCII):
         raise BadArgument(f"{quoted(word)} is not a whole number")
     if len(word) > 10 or abs(int(word)) > MAX_COUNT:
         raise BadArgument(f"{quoted(word)} is more than {MAX_COUNT}")
-    given.count = int(word)
+    return int(word)
 
 
-def _threshold(given: Arguments, word: str) -> None:
-    given.threshold = read_threshold(word)
-
-
-def _vector(given: Arguments, word: str) -> None:
-    given.vector = read_vector(word)
-
-
-def _file(given: Arguments, word: str) -> None:
-    given.file = word
-
-
-_READ: Final = {
-    "position": _position,
-    "signed": _signed,
-    "step": _step,
-    "branch": _branch,
-    "count": _count,
-    "threshold": _threshold,
-    "vector": _vector,
-    "file": _file,
+_READERS: Final[dict[Kind, tuple[str, Callable[[str], object]]]] = {
+    "position": ("position", _position),
+    "signed": ("position", name_of),
+    "step": ("step", _step),
+    "branch": ("branch", read_branch),
+    "count": ("count", _count),
+    "threshold": ("threshold", read_threshold),
+    "vector": ("vector", read_vector),
+    "file": ("file", str),
 }
 _NOUNS: Final[dict[Kind, str]] = {
     "position": "the name of a position",

@@ -1,12 +1,16 @@
-"""Commands that move the cursor, and that run the program."""
+"""Commands that move the cursor, run the program, read and write files, and end the session."""
+
+from pathlib import Path
 
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.plain_text import counted
-from handeye.systems.trig.language.given import Arguments
-from handeye.systems.trig.language.node import NONE, TOP
-from handeye.systems.trig.language.obstacles import told_obstacle
+from handeye.systems.trig.language.arguments import Arguments
+from handeye.systems.trig.language.change_commands import ask_if_unsaved
+from handeye.systems.trig.language.graph import NONE, TOP
 from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.storage import read_program, trig_file, write_program
+from handeye.systems.trig.language.trig_arm import told_obstacle
 
 _MAX_DISTANCE = 100_000  # steps of the cursor
 
@@ -88,3 +92,40 @@ def _distance(given: Arguments) -> int:
     if not 0 < count <= _MAX_DISTANCE:
         raise BadArgument(f"N and P go 1 to {_MAX_DISTANCE} steps; N goes down, P goes up")
     return count
+
+
+def write(session: Session, given: Arguments) -> None:
+    """W: write the program to a file; by default to the last one."""
+    _check_files(session)
+    file = session.file if given.file is None else trig_file(Path(given.file))
+    if file is None:
+        raise Refused("no file has been read or written yet; W takes a name")
+    write_program(file, session.program)
+    session.file, session.program.changed = file, False
+    session.desk.tell(f"written to {file}")
+
+
+def read(session: Session, given: Arguments) -> None:
+    """R: replace the present program by one from a file."""
+    _check_files(session)
+    file = trig_file(Path(given.file or ""))
+    program = read_program(file)
+    ask_if_unsaved(session, f"Read {file} in its place")
+    session.program, session.file, session.origin = program, file, None
+
+
+def leave_written(session: Session, given: Arguments) -> None:
+    """EX: write the program, then leave."""
+    write(session, given)
+    session.over = True
+
+
+def leave(session: Session, given: Arguments) -> None:
+    """Q: leave without saving."""
+    session.over = True
+
+
+def _check_files(session: Session) -> None:
+    """Raise Refused if this session may not touch files."""
+    if not session.files:
+        raise Refused("the script of a job reads and writes no files")

@@ -1,0 +1,156 @@
+"""Typed lines: carried out as commands or refused in a sentence, from a terminal or a script.
+
+The lines of a script are those of a terminal: commands, with or without the prompt; after a command the buttons of
+the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to its questions, with or without the question.
+Remarks begin with `;`.
+"""
+
+from collections import deque
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import Final
+
+from handeye.core.diagnostics import nearest, quoted
+from handeye.core.errors import BadArgument, BadFile, InvalidInput, NoSuchName
+from handeye.core.units import MILLIMETRE
+from handeye.systems.trig.language.arguments import read_arguments
+from handeye.systems.trig.language.command_table import COMMANDS, SYNONYMS, TABLE, TrigCommand
+from handeye.systems.trig.language.desk import ENDS, MARK, Button, Cancelled, Desk, Jog, arrange, buttons
+from handeye.systems.trig.language.place import AXES, SIZES
+from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.trig_arm import Halted
+
+WITHDRAWN: Final = "cancelled"
+TABLE_HELP: Final = (
+    "To lay the table, as somebody beside it:",
+    "  * STACK 20 X 150 Y 0  put blocks on each other at a place, in mm",
+    "  * BUCKET X 140 Y 0    put a bucket there",
+    "  * CLEAR               take everything away",
+)
+
+
+def hear(session: Session, line: str) -> None:
+    """Carry out a line; a wrong or cancelled one leaves the program unchanged."""
+    word, _, rest = stripped(line).partition(" ")
+    if not word:
+        return
+    if word.startswith(MARK):
+        session.desk.tell(arrange(session.table, f"{word} {rest}"))
+        return
+    if word.upper() in ("HELP", "?"):
+        session.desk.tell(help(rest.strip()))
+        return
+    command = command_of(word)
+    try:
+        command.act(session, read_arguments(command.usage, command.takes, command.needs, rest.strip()))
+    except Cancelled:
+        session.desk.tell(WITHDRAWN)
+    session.desk.refresh()
+
+
+def stripped(line: str) -> str:
+    """The command part of a line, without the paper's prompt and remarks."""
+    return " ".join(line.partition(";")[0].split()).removeprefix(">").lstrip()
+
+
+def command_of(word: str) -> TrigCommand:
+    """The command of a word, in any case; raises NoSuchName."""
+    upper = word.upper()
+    command = COMMANDS.get(SYNONYMS.get(upper, upper))
+    if command is not None:
+        return command
+    if upper in (*AXES, *ENDS):
+        raise BadArgument(f"{upper} is on the teach box, which is heard while M or FREE waits for it")
+    near = nearest(upper, [*COMMANDS, *SYNONYMS], max(1, len(upper) // 3)) if len(upper) > 1 else None
+    raise NoSuchName(
+        f"there is no command {quoted(word)}; " + (f"did you mean {near}?" if near else "HELP lists them")
+    )
+
+
+def help(word: str) -> str:
+    """Help on all commands, or on one."""
+    if word:
+        command = command_of(word)
+        return f"{command.usage}: {command.help}"
+    lines: list[str] = []
+    width = max(len(command.usage) for command in TABLE)
+    for group in dict.fromkeys(command.group for command in TABLE):
+        rows = [f"  {each.usage:{width}}  {each.help}" for each in TABLE if each.group == group]
+        lines += [*([""] if lines else []), f"To {group}:", *rows]
+    return "\n".join([*lines, "", *TABLE_HELP])
+
+
+class Script(Desk):
+    """A desk that reads from a text."""
+
+    def __init__(
+        self,
+        lines: Iterable[str],
+        tell: Callable[[str], None] = lambda _: None,
+        halted: Halted = lambda: False,
+        slip: Callable[[int], float] = lambda _: 0.0,
+    ) -> None:
+        """`slip` is the error (m) of a teach box move of X, Y or Z, by the number of such moves before."""
+        self._lines, self._halted = enumerate(lines, 1), halted
+        self._told, self._slip, self._jogs = tell, slip, 0
+        self._pressed = deque[Button]()
+        self.number = 0  # number of the line read last, from 1
+
+    def next_line(self) -> str | None:
+        """The next line that is not empty, or None."""
+        for number, line in self._lines:
+            self.number = number
+            if text := stripped(line):
+                return text
+        return None
+
+    def answer(self, question: str) -> str:
+        line = self.next_line()
+        if line is None:
+            raise Cancelled
+        return line.removeprefix(question.strip()).strip()
+
+    def press(self) -> Button:
+        while not self._pressed:
+            line = self.next_line()
+            if line is None:
+                raise Cancelled
+            self._pressed.extend(buttons(line))
+        return self._slipped(self._pressed.popleft())
+
+    def _slipped(self, button: Button) -> Button:
+        """A button with the user's error added."""
+        if not isinstance(button, Jog) or SIZES[button.axis] != MILLIMETRE:
+            return button
+        self._jogs += 1
+        return replace(button, amount=button.amount + self._slip(self._jogs - 1))
+
+    def tell(self, sentence: str) -> None:
+        self._told(sentence)
+
+    def halted(self) -> bool:
+        return self._halted()
+
+    def wrong(self, error: InvalidInput) -> None:
+        self._pressed.clear()
+        raise error
+
+
+class LineRefused(BadFile):
+    """A line of a script cannot be carried out."""
+
+    def __init__(self, name: str, number: int, why: str) -> None:
+        super().__init__(f"{name}, line {number}: {why}")
+        self.number, self.why = number, why
+
+
+def type_script(session: Session, script: Script, name: str) -> int:
+    """Carry out the lines of a script until it leaves; returns the number of commands. `name` is for messages."""
+    count = 0
+    while not session.over and (line := script.next_line()) is not None:
+        try:
+            hear(session, line)
+        except InvalidInput as error:
+            raise LineRefused(name, script.number, str(error)) from None
+        count += not line.startswith("*")
+    return count

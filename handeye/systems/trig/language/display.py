@@ -1,0 +1,193 @@
+"""Partial display: the steps around the active one, a row each, in as much detail as fits."""
+
+from dataclasses import dataclass
+from typing import Final
+
+from handeye.systems.trig.language.graph import NONE, TOP, TOP_NAME, UNNAMED, Graph, Node, NodeType
+from handeye.systems.trig.language.layout import Cell, Elbow, Layout, layout
+from handeye.systems.trig.language.place import Positions, is_named
+from handeye.systems.trig.language.program import TrigProgram
+from handeye.systems.trig.language.styled import UNICODE, Line, Style, Symbols, fitted, plain
+
+SIGNS: Final[dict[NodeType, str]] = {
+    "top": "*", "normal": "o", "guarded": "<", "grasp": "c", "ungrasp": "u", "savpos": "=", "loop": "@"
+}  # fmt: skip
+LINK: Final = "^"
+_STYLES: Final[dict[str, Style]] = {"c": "hand", "u": "hand", "<": "guarded", "@": "loop", LINK: "link"}
+
+_Grid = dict[tuple[int, int], tuple[Style, str]]  # by row and column
+
+
+def full_display(program: TrigProgram, width: int, height: int, symbols: Symbols = UNICODE) -> list[Line]:
+    """Draw the program, or as much of it around the active step as fits."""
+    if program.first == NONE:
+        return [[("active", "[ ]")]]
+    drawn = layout(program.graph, top=program.cursor == TOP)
+    grid: _Grid = {}
+    for cell in drawn.cells:
+        _put_step(grid, cell, symbols)
+    for elbow in drawn.elbows:
+        _put_elbow(grid, elbow, symbols)
+    active = next((c for c in drawn.cells if c.node.id == program.cursor and not c.link), None)
+    if active is not None:
+        _put_brackets(grid, active.column, 2 * active.row)
+    row, column = (0, 0) if active is None else (active.column, 2 * active.row)
+    wide, high = 2 * drawn.rows, drawn.columns
+    left = max(-1, min(column - width // 2, wide - width + 1)) if wide >= width else -1
+    top = max(0, min(row - height // 2, high - height))
+    return [_line(grid, top + below, left, width, symbols) for below in range(min(height, max(high, 1)))]
+
+
+def _put_step(grid: _Grid, cell: Cell, symbols: Symbols) -> None:
+    sign = LINK if cell.link else SIGNS[cell.node.type]
+    grid[cell.column, 2 * cell.row] = (_STYLES.get(sign, "position"), sign)
+    if cell.branch != "g" and cell.row > 0:
+        grid[cell.column, 2 * cell.row - 1] = ("line", symbols.line)
+
+
+def _put_elbow(grid: _Grid, elbow: Elbow, symbols: Symbols) -> None:
+    x = 2 * elbow.row + 1
+    grid[elbow.start, x] = ("line", symbols.tee)
+    for row in range(elbow.start + 1, elbow.end):
+        grid[row, x] = ("line", symbols.stem)
+    grid[elbow.end, x] = ("line", symbols.turn)
+
+
+def _put_brackets(grid: _Grid, row: int, column: int) -> None:
+    grid[row, column - 1] = ("active", "[")
+    grid[row, column] = ("active", grid[row, column][1])
+    grid[row, column + 1] = ("active", "]")
+
+
+def _line(grid: _Grid, row: int, left: int, width: int, symbols: Symbols) -> Line:
+    """One line of the picture, with a sign where it continues beyond its ends."""
+    last = max((x for y, x in grid if y == row), default=-2)
+    line = [grid.get((row, x), ("", " ")) for x in range(left, min(last, left + width - 1) + 1)]
+    if line and left > -1 and any((row, x) in grid for x in range(left)):
+        line[0] = ("line", symbols.more)
+    if line and last >= left + width:
+        line[-1] = ("line", symbols.more)
+    return line
+
+
+NO_POSITION: Final = "- -"  # for a position without a name
+GUARD: Final = " G"  # after the position of a guarded step
+MAX_NAME_CHARS: Final = 16  # characters of a name before it is cut
+_STEP_STYLES: Final = {"guarded": "guarded", "normal": "position", "savpos": "position"}
+
+
+def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols) -> tuple[str, str, Style]:
+    """Name and action of a step, or one text for both, with its style."""
+    node = cell.node
+    if cell.link:
+        return f"[{_cut(node.name or UNNAMED, symbols)}]", "", "link"
+    if node.type == "top":
+        return TOP_NAME.lower(), "", "name"
+    if node.type == "loop":
+        return f"{loop_words(graph, node, symbols)} ({node.count})", "", "loop"
+    name = _cut(node.name or UNNAMED, symbols)
+    return name, _deed(node, positions, symbols), _STEP_STYLES.get(node.type, "hand")
+
+
+def loop_words(graph: Graph, node: Node, symbols: Symbols) -> str:
+    """A loop as typed: target step and count."""
+    target = graph.target(node)
+    name = UNNAMED if target is None else target.name or UNNAMED
+    return f"LOOP {_cut(name, symbols)} {node.wanted}"
+
+
+def _deed(node: Node, positions: Positions, symbols: Symbols) -> str:
+    """The action of a step."""
+    if node.position is None:
+        return f"({node.type})"
+    name = _cut(node.position, symbols) if is_named(node.position) else NO_POSITION
+    saves = "=" if node.type == "savpos" else ""
+    minus = "-" if node.negate else ""
+    sign = "#" if positions[node.position].relative else ""
+    guard = GUARD if node.type == "guarded" else ""
+    return f"{saves}{minus}{sign}{name}{guard}"
+
+
+def _cut(name: str, symbols: Symbols) -> str:
+    return name if len(name) <= MAX_NAME_CHARS else name[: MAX_NAME_CHARS - 1] + symbols.more
+
+
+_MIN_COLUMN: Final = 18  # characters
+_GAP: Final = 2  # characters between columns
+_MARKER: Final = 3  # characters before a name: cursor and branch
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Pane:
+    """The part of a program that is shown; widths in characters, cells by row and column, elbows by row."""
+
+    program: TrigProgram
+    symbols: Symbols
+    name: int
+    column: int
+    cells: dict[tuple[int, int], Cell]
+    elbows: dict[int, Elbow]
+
+
+def partial_display(program: TrigProgram, width: int, height: int, symbols: Symbols = UNICODE) -> list[Line]:
+    """Draw as many steps as fit, the active one among them with one above it."""
+    if program.first == NONE:
+        return [[("active", symbols.cursor)]]
+    drawn = layout(program.graph, top=program.cursor == TOP)
+    pane = _pane(program, drawn, width, symbols)
+    active = next(cell for cell in drawn.cells if cell.node.id == program.cursor and not cell.link)
+    shown = max(1, (width + _GAP) // (pane.column + _GAP))
+    first = _scrolled(active.row, drawn.rows, height, above=height // 3)
+    left = _scrolled(active.column, drawn.columns, shown, above=shown - 1)
+    rows = range(first, min(first + height, drawn.rows))
+    return [fitted(_row(pane, row, range(left, left + shown)), width) for row in rows]
+
+
+def _scrolled(active: int, count: int, room: int, above: int) -> int:
+    """The first row shown, so that the active one is visible, with some above it."""
+    return max(0, min(active - above, count - room))
+
+
+def _pane(program: TrigProgram, drawn: Layout, width: int, symbols: Symbols) -> _Pane:
+    words = [step_words(program.graph, program.positions, cell, symbols) for cell in drawn.cells]
+    name = max([len(UNNAMED), *(len(name) for name, deed, _ in words if deed)])
+    widths = (name + _GAP + len(deed) if deed else len(text) for text, deed, _ in words)
+    return _Pane(
+        program=program,
+        symbols=symbols,
+        name=name,
+        column=min(width, max(_MIN_COLUMN, *(_MARKER + width for width in widths))),
+        cells={(cell.row, cell.column): cell for cell in drawn.cells},
+        elbows={elbow.row: elbow for elbow in drawn.elbows},
+    )
+
+
+def _row(pane: _Pane, row: int, columns: range) -> Line:
+    """One row of the display."""
+    line: Line = []
+    for column in columns:
+        cell = pane.cells.get((row, column))
+        pieces = [] if cell is None else _pieces(pane, cell)
+        room = pane.column + _GAP - len(plain([pieces]))
+        line += [*pieces, _filled(room, column, pane.elbows.get(row), pane.symbols)]
+    return line
+
+
+def _filled(room: int, column: int, elbow: Elbow | None, symbols: Symbols) -> tuple[Style, str]:
+    """What follows a step: blanks, or the line to the right."""
+    if elbow is None or not elbow.start <= column <= elbow.end:
+        return "", " " * room
+    if column == elbow.end:
+        return "line", (symbols.line * _MARKER + symbols.corner).ljust(room)
+    return "line", " " + symbols.line * (room - 1)
+
+
+def _pieces(pane: _Pane, cell: Cell) -> Line:
+    """A step with its cursor or branch mark."""
+    name, deed, style = step_words(pane.program.graph, pane.program.positions, cell, pane.symbols)
+    text = f"{name:{pane.name}}  " if deed else ""
+    if cell.node.id == pane.program.cursor and not cell.link:
+        line = [("active", f"{pane.symbols.cursor}{cell.branch:1} {text}{deed or name}")]
+    else:
+        line = [("branch", f" {cell.branch:1} "), ("name", text), (style, deed or name)]
+    return fitted(line, pane.column)
