@@ -12,7 +12,7 @@ from handeye.al import AL, compile_text
 from handeye.core.source import Source
 from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
-from handeye.planning.scripts import plan_source
+from handeye.planning.planner import plan_source
 from handeye.program.taught import Taught, load_taught
 from handeye.runs.folder import CHECKPOINTS, TRACE
 from handeye.runs.runner import Runner

@@ -17,7 +17,7 @@ from msgspec.structs import replace
 from benchmarks.keystrokes import typed
 from handeye.al import AL, compile_text
 from handeye.core.source import Source, read_source
-from handeye.planning.scripts import plan_source
+from handeye.planning.planner import plan_source
 from handeye.program.program import Position
 from handeye.program.taught import Taught, load_taught
 from handeye.runs.scripts import default_script

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.program.events import AnyEvent
 from handeye.runs.advance import advance
 from handeye.runs.folder import TRACE, RunFolder, open_new

@@ -6,8 +6,7 @@ from typing import Any, Final, TypeVar
 
 import numpy as np
 
-from handeye.cell.rendering import RendererMaker
-from handeye.cell.replaced_camera import CameraMaker, ReplacedCamera
+from handeye.cell.rendering import CameraMaker, RendererMaker, ReplacedCamera
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.results.judging import Limits, Referee, checked_findings, checked_limits

@@ -8,16 +8,15 @@ import numpy as np
 
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel, constants
-from handeye.cell.converter import Converters
 from handeye.cell.device_errors import ArmErrors
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.signal_lines import SOUND, SignalLines
+from handeye.cell.signal_lines import SOUND, Converters, SignalLines
 from handeye.cell.sleep import allow, wake
 from handeye.cell.state import figures, finite
 from handeye.core.errors import BadArgument
 from handeye.core.pose import Array
 from handeye.core.record import Record
-from handeye.ports.arm import ArmPort, ArmReading
+from handeye.ports.workcell import ArmPort, ArmReading
 
 _LATE: Final = 1e-6
 """Share of a period lost to rounding."""

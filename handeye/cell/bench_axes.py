@@ -11,9 +11,8 @@ from handeye.cell.sleep import allow, wake
 from handeye.core.errors import BadArgument, BadFile, NoSuchName, Refused
 from handeye.core.pose import Array
 from handeye.core.record import Record
-from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel
+from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel, Outputs
 from handeye.ports.clock import whole_steps
-from handeye.ports.outputs import Outputs
 
 Sense = Callable[[mujoco.MjModel, mujoco.MjData], Sequence[float] | Array]
 """Reads the components of a channel off a scene."""

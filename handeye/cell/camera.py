@@ -9,13 +9,14 @@ import numpy as np
 
 from handeye.cell.device_errors import CameraErrors
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.opengl import OpenGlRenderer
 from handeye.cell.raster import HALF
-from handeye.cell.raycasting import cast
-from handeye.cell.rendering import SceneRenderer
+from handeye.cell.raycasting import RayRenderer, cast
+from handeye.cell.rendering import RendererMaker, SceneRenderer
 from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.state import check_noise, finite, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
-from handeye.core.errors import Refused
+from handeye.core.errors import InvalidInput, NoSuchName, Refused
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.core.units import DEGREE
@@ -188,3 +189,22 @@ def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
             )
         ),
     )
+
+
+def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:
+    """A renderer: `gl`, `ray`, or `auto`: OpenGL where it works, rays elsewhere; or one made by the given function.
+
+    Raises InvalidInput if there is no such `kind`, or OpenGL is asked for and does not work here.
+    """
+    if not isinstance(kind, str):
+        return kind(model)
+    if kind == "ray":
+        return RayRenderer(model)
+    if kind == "gl":
+        return OpenGlRenderer(model)
+    if kind != "auto":
+        raise NoSuchName(f"no renderer `{kind}`; choose `auto`, `gl` or `ray`")
+    try:
+        return OpenGlRenderer(model)
+    except InvalidInput:
+        return RayRenderer(model)

@@ -1,19 +1,20 @@
-"""A simulated hand: one motor for both fingers under position control, a potentiometer, two switches."""
+"""A simulated hand with a motor for both fingers, a potentiometer and two switches; its lamp; its screwdriver."""
 
+from collections.abc import Sequence
 from typing import Final
 
 import mujoco
 import numpy as np
 
 from handeye.arm.hand import HandModel
-from handeye.cell.converter import converted
+from handeye.cell.arm import Watchdog
 from handeye.cell.device_errors import HandErrors
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.signal_lines import SOUND, SignalLines
+from handeye.cell.signal_lines import SOUND, SignalLines, converted
 from handeye.cell.sleep import wake
 from handeye.cell.state import finite
 from handeye.core.record import Record
-from handeye.ports.hand import HandPort, HandReading
+from handeye.ports.workcell import HandPort, HandReading, LampPort, ScrewdriverPort
 
 _GIVE: Final = 0.004  # m by which the fingers must be held up to press with all the force allowed. Chosen.
 _LAG: Final = 0.03  # s, time constant of the finger servo. Assembly study: 60 N s/m over 2000 N/m.
@@ -142,3 +143,115 @@ class SimulatedHand(Mechanism[HandState], HandPort):
     def restore(self, state: HandState) -> None:
         self._reading = HandReading(gap=state.gap, touch=state.touch)
         self._set_point, self._command = state.set_point, state.command
+
+
+class LampState(Record, frozen=True, kw_only=True):
+    """State of a lamp."""
+
+    lit: bool
+
+
+class SimulatedLamp(Mechanism[LampState], LampPort):
+    """A lamp that is a material of the MuJoCo model."""
+
+    kind = LampState
+    changes = ("mat_rgba", "mat_emission")
+
+    _LIT: Final = ((1.0, 0.96, 0.85, 1.0), 1.0)
+
+    def __init__(self, model: mujoco.MjModel, material: str, lines: SignalLines = SOUND) -> None:
+        """A lamp that is off; its line is `lamp`."""
+        self.name = material
+        self._lines = lines
+        self._model = model
+        self._material = model.material(material).id
+        self._dark = (tuple(model.mat_rgba[self._material]), 0.0)
+        self._lit = False
+
+    def switch(self, lit: bool) -> None:
+        self._lit = lit
+
+    def before(self, seconds: float) -> None:
+        rgba, emission = self._LIT if self._lines.carried("lamp", float(self._lit)) else self._dark
+        self._model.mat_rgba[self._material] = rgba
+        self._model.mat_emission[self._material] = emission
+
+    def state(self) -> LampState:
+        return LampState(lit=self._lit)
+
+    def restore(self, state: LampState) -> None:
+        self._lit = state.lit
+
+
+class ScrewdriverState(Record, frozen=True, kw_only=True):
+    """State of a screwdriver: reading and commanded speed."""
+
+    torque: float
+    command: float
+    """rad/s"""
+    magnet: bool = True
+    """The magnet of the bit is on."""
+
+
+class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
+    """Its torque is that of actuators of the model; what its speed does is a matter of the task's threads."""
+
+    name = "screwdriver"
+    kind = ScrewdriverState
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        motors: Sequence[str],
+        *,
+        torque_noise: float,
+        noise: np.random.Generator,
+        watchdog: Watchdog,
+        lines: SignalLines = SOUND,
+    ) -> None:
+        """A screwdriver that is off; `torque_noise` is a sigma, N m.
+
+        The torques of its `motors`, counter-clockwise about the spindle, add up to its own. The watchdog of the arm
+        that carries it cuts it, too. Its lines: `screwdriver.current`, by which its torque is read,
+        and `screwdriver.motor`.
+        """
+        self._data, self._watchdog, self._lines = data, watchdog, lines
+        self._motors = [model.actuator(name).id for name in motors]
+        self._torque_noise, self._noise = torque_noise, noise
+        self._command = self._torque = 0.0
+        self.magnet = True
+        """The magnet of the bit is to be on; what it attracts is a matter of the task's threads."""
+
+    @property
+    def speed(self) -> float:
+        """The speed its motor is to turn with now, rad/s, positive drives a screw in."""
+        return 0.0 if self._watchdog.tripped else self._lines.carried("screwdriver.motor", self._command)
+
+    def torque(self) -> float:
+        return self._torque
+
+    def drive(self, speed: float) -> None:
+        finite([speed], "the speed of the screwdriver")
+        self._command = speed
+
+    def attract(self, on: bool) -> None:
+        self.magnet = on
+
+    def before(self, seconds: float) -> None:
+        if self._watchdog.tripped:
+            self._command = 0.0
+
+    def after(self) -> None:
+        true = -float(sum(self._data.actuator_force[motor] for motor in self._motors))
+        told = float(true + self._torque_noise * self._noise.standard_normal())
+        self._torque = self._lines.carried("screwdriver.current", told)
+
+    def state(self) -> ScrewdriverState:
+        return ScrewdriverState(torque=self._torque, command=self._command, magnet=self.magnet)
+
+    def check(self, state: ScrewdriverState) -> None:
+        finite([state.torque, state.command], "the screwdriver")
+
+    def restore(self, state: ScrewdriverState) -> None:
+        self._torque, self._command, self.magnet = state.torque, state.command, state.magnet

@@ -7,12 +7,15 @@ gives the same values every time. Neither changes the state.
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Final
+from copy import copy
+from typing import Final, Protocol
 
 import mujoco
 import numpy as np
+from numpy.typing import ArrayLike
 
 from handeye.cell.vidicon import Luminance
+from handeye.core.errors import BadArgument, InvalidInput
 from handeye.core.pose import Array
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.vision.camera_model import View
@@ -43,3 +46,52 @@ def averaged(fine: Array | Luminance) -> Luminance:
     """The mean of the samples of every point."""
     lines = fine.reshape(ROWS, FINE, COLUMNS * FINE).sum(axis=1)
     return np.asarray(lines.reshape(ROWS, COLUMNS, FINE).sum(axis=2) / FINE**2, dtype=np.float32)
+
+
+_SHOWN: Final = 60
+"""Characters of what is no picture: it may be long."""
+
+
+class PictureMaker(Protocol):
+    """Works out how much light falls on the target of the television camera."""
+
+    def render(self, data: mujoco.MjData, view: View, /) -> ArrayLike:
+        """Light on the target, shape (256, 333), 1 for a white surface in full light; `data` is a copy of the scene."""
+
+
+CameraMaker = Callable[[mujoco.MjModel], PictureMaker]
+"""Makes a maker of pictures for a scene: a class will do."""
+
+
+class ReplacedCamera(SceneRenderer):
+    """A user's maker of pictures; it sees copies, so that nothing it does changes the run."""
+
+    def __init__(self, name: str, camera: CameraMaker, model: mujoco.MjModel) -> None:
+        """A maker for a scene by the code of a name; raises InvalidInput if it makes no object with `render`."""
+        self.identity = Renderer(method="replaced", platform=name)
+        self._scene = copy(model)
+        self._maker = camera(self._scene)
+        if not callable(getattr(self._maker, "render", None)):
+            raise BadArgument(
+                f"the camera `{self.identity.platform}` must give an object that has `render`, not {self._maker!r}"
+            )
+        self._model, self._data = model, mujoco.MjData(self._scene)
+
+    def render(self, data: mujoco.MjData, view: View) -> Luminance:
+        mujoco.mj_copyData(self._data, self._model, data)
+        given = self._maker.render(self._data, view)
+        try:
+            light = np.asarray(given, dtype=np.float32)
+        except (TypeError, ValueError):
+            raise self._no_picture(repr(given)) from None
+        if light.shape != (ROWS, COLUMNS):
+            raise self._no_picture(f"of shape {light.shape}")
+        if not np.isfinite(light).all():
+            raise self._no_picture("with some that are not finite")
+        return light
+
+    def _no_picture(self, what: str) -> InvalidInput:
+        name = self.identity.platform
+        return BadArgument(
+            f"the camera `{name}` must give a picture of {ROWS} by {COLUMNS} finite numbers, not {what[:_SHOWN]}"
+        )

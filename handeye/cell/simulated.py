@@ -9,11 +9,9 @@ import numpy as np
 
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.camera import SimulatedCamera
-from handeye.cell.hand import SimulatedHand
-from handeye.cell.lamp import SimulatedLamp
+from handeye.cell.hand import SimulatedHand, SimulatedLamp, SimulatedScrewdriver
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.physics_stepper import PhysicsStepper, check_physics
-from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.sleep import asleep
 from handeye.cell.snapshot_cell import SnapshotCell

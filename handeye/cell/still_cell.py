@@ -3,10 +3,9 @@
 import mujoco
 import numpy as np
 
-from handeye.cell.camera import SimulatedCamera, true_camera
+from handeye.cell.camera import SimulatedCamera, make_renderer, true_camera
 from handeye.cell.device_errors import CameraErrors
 from handeye.cell.keyframe import body_pose
-from handeye.cell.renderers import make_renderer
 from handeye.core.pose import Array, Pose
 from handeye.vision.camera_model import CameraModel
 

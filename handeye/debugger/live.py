@@ -10,7 +10,7 @@ from handeye.core.plain_text import one_line
 from handeye.debugger.formatting import told_row
 from handeye.debugger.reply import UnderWay
 from handeye.debugger.step_summary import StepSummary, step_summaries
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.program.events import AnyEvent, StepStarted
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner

@@ -8,7 +8,7 @@ from typing import Final
 
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.runs.observer import Observer
 
 FREE: Final = "free"  # as fast as it goes

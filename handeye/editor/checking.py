@@ -3,7 +3,7 @@
 from handeye.al import AL
 from handeye.arm.model import ArmModel
 from handeye.core.diagnostics import Diagnostic
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 from handeye.program.program import Program
 from handeye.tasks import task
 

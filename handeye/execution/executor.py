@@ -8,15 +8,16 @@ from msgspec.structs import replace
 
 from handeye.arm.kinematics import forward
 from handeye.core import errors
+from handeye.core.errors import Refused
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.flow_actions import DECISIONS, FLOW_ACTIONS
 from handeye.execution.hand_actions import HAND_ACTIONS
 from handeye.execution.motion_actions import MOTION_ACTIONS
-from handeye.execution.state import ExecutionState, Fault, vector
-from handeye.execution.undo.done import Undoing
+from handeye.execution.state import ExecutionState, Fault, Undoing, vector
 from handeye.execution.undo.memory import before, noted
 from handeye.execution.undo.undoing import end, order, undo_last
 from handeye.execution.vision_actions import VISION_ACTIONS
+from handeye.ports.workcell import Workcell
 from handeye.program.diagnosis.causes import Cause, Looping
 from handeye.program.events import (
     Choice,
@@ -30,8 +31,22 @@ from handeye.program.events import (
     StepStarted,
     UndoOrdered,
 )
-from handeye.program.operation import Operation
-from handeye.program.program import Step
+from handeye.program.operation import Device, Operation
+from handeye.program.program import Program, Step
+
+_CALLED: Final[dict[Device, str]] = {"camera": "television camera"}
+"""Names of devices for people."""
+
+
+def check_devices(program: Program, cell: Workcell) -> None:
+    """Raise Refused if a step needs a device that the cell lacks."""
+    devices = {"hand": cell.hand, "screwdriver": cell.screwdriver, "camera": cell.camera}
+    for step in program.steps:
+        needed = step.needs
+        if needed is not None and devices[needed] is None:
+            called = _CALLED.get(needed, needed)
+            raise Refused(f"line {step.place} needs a {called}, which this cell does not have")
+
 
 IDLE_LIMIT: Final = 10_000
 """Steps without time passing after which the program counts as looping."""

@@ -20,7 +20,7 @@ from handeye.arm.weighing import PLAUSIBLE, mass_factors
 from handeye.core.errors import FrictionUnknown
 from handeye.core.pose import Array
 from handeye.execution.drive import ArmDrive
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.ports.workcell import Workcell
 from handeye.program.diagnosis.cause_text import cause_sentence

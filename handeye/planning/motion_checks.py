@@ -10,17 +10,39 @@ from handeye.arm.dynamics import gravity
 from handeye.arm.friction import MARGIN, faint, felt_friction
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel, constants
+from handeye.core.codes import CODES
 from handeye.core.obb import Box, depths, lowest
 from handeye.core.pose import Array, Pose, inverse, planar
 from handeye.core.record import Vector3
 from handeye.core.units import INCH
-from handeye.planning.findings import FindingList
 from handeye.planning.grasp_state import GraspState
-from handeye.program.diagnosis.plan_findings import RunsInto, TooFaint, TooHeavy, TooWeak
+from handeye.program.diagnosis.plan_findings import PlanFinding, RunsInto, TooFaint, TooHeavy, TooWeak
 from handeye.program.flow_operations import Load
 from handeye.program.guards import Exerted, Guards
 from handeye.program.motion_operations import Change
 from handeye.program.program import Program, Step
+
+
+@dataclass(slots=True)
+class FindingList:
+    """Findings in text order, one for each code and position."""
+
+    findings: list[PlanFinding] = field(default_factory=list)
+    _reported: set[tuple[str, str]] = field(default_factory=set)
+
+    def add(self, finding: PlanFinding) -> None:
+        """Add a finding, unless its position has one of that code."""
+        if finding.position is not None:
+            if (finding.code, finding.position) in self._reported:
+                return
+            self._reported.add((finding.code, finding.position))
+        self.findings.append(finding)
+
+    @property
+    def is_fatal(self) -> bool:
+        """True if there is no plan."""
+        return any(CODES[finding.code].severity == "error" for finding in self.findings)
+
 
 OVERLAP: Final = 0.1 * INCH
 """Overlap of boxes that is tolerated, m.

@@ -15,16 +15,19 @@ from handeye.arm.ik import IKResult, solve
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
+from handeye.core.diagnostics import Diagnostic
 from handeye.core.pose import Array
+from handeye.core.source import Source
 from handeye.planfile.plan import Joints, Plan, PlannedMotion
-from handeye.planning.findings import FindingList
-from handeye.planning.motion_checks import Checks, Demand, to_press, to_stop
+from handeye.planning.motion_checks import Checks, Demand, FindingList, to_press, to_stop
 from handeye.planning.motions import Unreachable, change_samples, move_trajectory, turn_samples
 from handeye.program.diagnosis.plan_findings import GoalBelowTable, NoConfiguration, PlanFinding
 from handeye.program.flow_operations import Here
+from handeye.program.language import Language
 from handeye.program.motion_operations import Change, Move, Turn
 from handeye.program.operation import Operation
 from handeye.program.program import Program, Step
+from handeye.program.taught import Taught
 from handeye.program.world_model import WorldModel
 
 SPEED = 0.40
@@ -192,3 +195,37 @@ _PLANNED: Final[dict[type[Operation], Callable[[_Walk, int, Step, Any], None]]] 
 
 def _joints(q: Array) -> Joints:
     return tuple(float(x) for x in q)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannedScript:
+    """The plan of a text, and its diagnostics."""
+
+    source: Source
+    plan: Plan | None
+    diagnostics: list[Diagnostic]
+
+
+def plan_source(
+    source: Source,
+    taught: Taught,
+    arm: ArmModel,
+    language: Language,
+    *,
+    task: str,
+    start: Array | None = None,
+) -> PlannedScript:
+    """Compile and plan a text; `task` and `start` are as for `make_plan`."""
+    program, diagnostics = language.compile(source, taught)
+    if program is None:
+        return PlannedScript(source=source, plan=None, diagnostics=diagnostics)
+    plan, problems = plan_program(program, arm, language, task=task, start=start)
+    return PlannedScript(source=source, plan=plan, diagnostics=[*diagnostics, *problems])
+
+
+def plan_program(
+    program: Program, arm: ArmModel, language: Language, *, task: str = "", start: Array | None = None
+) -> tuple[Plan | None, list[Diagnostic]]:
+    """The plan of a program, with diagnostics in the words of its language; `task` is needed for the plan only."""
+    plan, findings = make_plan(program, arm, task=task, start=start)
+    return plan, language.phrase(program, arm, findings)

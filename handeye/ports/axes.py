@@ -1,4 +1,4 @@
-"""Machines whose servos are closed outside the computer, which names goals and watches channels."""
+"""Machines whose servos are closed outside the computer, which names goals, watches channels and sets outputs."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -101,3 +101,19 @@ class Axes(ABC):
         Raises InvalidInput if it has no such channel, or it is not latched.
         """
         raise NoSuchName(f"{self.name} has no latched channel {channel}")
+
+
+class Outputs(ABC):
+    """Outputs of a machine, each with a name."""
+
+    @property
+    @abstractmethod
+    def names(self) -> tuple[str, ...]:
+        """Their names, in order."""
+
+    @abstractmethod
+    def set(self, name: str, value: float) -> None:
+        """Set an output: a switch to 0 or 1, anything else in SI units.
+
+        Raises InvalidInput if there is no such output, or the value is not a finite number.
+        """

@@ -1,5 +1,6 @@
-"""The devices of a cell as one value, and all of their readings as one record."""
+"""The devices of a cell as the working phase knows them, and all of their readings as one record."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -7,13 +8,97 @@ import numpy as np
 from msgspec.structs import replace
 
 from handeye.core.pose import Array
-from handeye.ports.arm import ArmPort
 from handeye.ports.axes import Axes, Channel
 from handeye.ports.camera import TvCamera
 from handeye.ports.clock import Clock
-from handeye.ports.hand import HandPort
-from handeye.ports.lamp import LampPort
-from handeye.ports.screwdriver import ScrewdriverPort
+
+
+class ScrewdriverPort(ABC):
+    """The motor of a screwdriver.
+
+    The watchdog of the arm that carries it cuts it, too: it stands still until the program has set the brakes of the
+    arm and then a speed anew.
+    """
+
+    @abstractmethod
+    def torque(self) -> float:
+        """Torque of the motor by its current, N m, positive when it drives a screw in; the same until time passes."""
+
+    @abstractmethod
+    def drive(self, speed: float) -> None:
+        """Set the speed of the spindle, rad/s, positive drives a right-hand screw in; 0 is off.
+
+        Raises InvalidInput if it is not a finite number.
+        """
+
+    @abstractmethod
+    def attract(self, on: bool) -> None:
+        """Switch the magnet of the bit, which is on at first."""
+
+
+class LampPort(ABC):
+    """A lamp."""
+
+    @abstractmethod
+    def switch(self, lit: bool) -> None:
+        """Switch it on or off."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HandReading:
+    """Readings of a hand."""
+
+    gap: float
+    """Opening between the finger tips by the hand's potentiometer, m."""
+    touch: tuple[bool, bool]
+    """The microswitch inside each finger: (finger on the +y side of the hand frame, finger on the -y side)."""
+
+
+class HandPort(ABC):
+    """Motor and sensors of a hand."""
+
+    @abstractmethod
+    def read(self) -> HandReading:
+        """Readings of the present moment. Reading twice without letting time pass gives the same values."""
+
+    @abstractmethod
+    def drive(self, gap: float, grip: float) -> None:
+        """Set where the fingers are to go (gap, m) and the most force each may press with (grip, N).
+
+        Raises InvalidInput if one of them is not a finite number.
+        """
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArmReading:
+    """Readings of an arm of n joints."""
+
+    q: Array
+    """Joint positions by the potentiometers, shape (n,), rad or m, calibration error included."""
+    qd: Array
+    """Joint rates by the tachometers, shape (n,)."""
+    braked: bool
+    """Brakes set, drives off."""
+
+
+class ArmPort(ABC):
+    """Motors, brakes and sensors of an arm.
+
+    A watchdog guards it: an arm that is not driven anew before the clock has advanced by a servo period has its
+    drives cut and its brakes set, and stays so until the program sets the brakes itself. Where the clock advances by
+    more than that at once, they are cut from the beginning. The hand is not cut: it keeps hold of what it has.
+    """
+
+    @abstractmethod
+    def read(self) -> ArmReading:
+        """Readings of the present moment. Reading twice without letting time pass gives the same values."""
+
+    @abstractmethod
+    def drive(self, torque: Array | None) -> None:
+        """Put out joint torques, shape (n,), N m or N, held for a servo period; None: drives off, brakes set.
+
+        Raises InvalidInput if there are more or fewer torques than joints, or one is not a finite number.
+        """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

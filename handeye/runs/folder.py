@@ -15,7 +15,7 @@ from handeye.core.diagnostics import quoted
 from handeye.core.entries import entries
 from handeye.core.errors import BadFile, CannotWrite, InvalidInput
 from handeye.core.files import read_whole, write_whole
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.ports.camera import Picture
 from handeye.program.events import AnyEvent, RunFinished
 from handeye.runs.checkpoint_store import CheckpointStore

@@ -1,6 +1,6 @@
 """Observers of a run. None can change it."""
 
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.program.events import AnyEvent
 from handeye.runs.snapshot import Checkpoint
 

@@ -16,10 +16,9 @@ from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
 from handeye.execution.context import ExecutionContext
 from handeye.execution.scheduler import Deadlock
-from handeye.execution.servo import Halted
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import Halted, ServoPeriod
+from handeye.execution.state import Undoing
 from handeye.execution.stopwatch import Stopwatch
-from handeye.execution.undo.done import Undoing
 from handeye.program.events import (
     AnyEvent,
     AskedBy,

@@ -18,7 +18,7 @@ from handeye.program.taught import Taught, load_taught
 from handeye.tasks.interface import Task
 
 if TYPE_CHECKING:
-    from handeye.planning.scripts import PlannedScript
+    from handeye.planning.planner import PlannedScript
 
 LANGUAGES: Final = {".al": AL}
 """Languages of scripts by the endings of their files; a file with another ending is taken for the first."""
@@ -114,6 +114,6 @@ def plan_text(text: str, known: Taught, work: Task) -> "PlannedScript":
 
 def planned(source: Source, known: Taught, work: Task, language: Language) -> "PlannedScript":
     """The plan of a source for the arm of a task."""
-    from handeye.planning.scripts import plan_source  # not before something is planned: it takes a while
+    from handeye.planning.planner import plan_source  # not before something is planned: it takes a while
 
     return plan_source(source, in_cell(known, work), work.arm, language, task=work.name)

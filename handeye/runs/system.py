@@ -18,10 +18,9 @@ from handeye.core.entries import Entry, entry_named, refusal
 from handeye.core.errors import BadFile, Refused
 from handeye.core.record import Record
 from handeye.execution.context import ExecutionContext
-from handeye.execution.servo_period import ServoPeriod
-from handeye.execution.state import Shot
+from handeye.execution.servo import ServoPeriod
+from handeye.execution.state import Shot, Undoing
 from handeye.execution.stopwatch import Stopwatch
-from handeye.execution.undo.done import Undoing
 from handeye.judge.finding import Findings
 from handeye.ports.axes import Channel
 from handeye.program.events import AnyEvent, Choice

@@ -8,7 +8,7 @@ from handeye.core.diagnostics import quoted
 from handeye.core.entries import require
 from handeye.core.errors import Refused
 from handeye.core.mutable_records import copied
-from handeye.execution.undo.done import Undoing
+from handeye.execution.state import Undoing
 from handeye.program.events import AnyEvent, StepFinished, StepStarted, UndoEnded, UndoOrdered
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint

@@ -13,7 +13,7 @@ from handeye.core.source import Source
 from handeye.debugger.formatting import shown_lines, summary_lines
 from handeye.debugger.step_summary import StepSummary, step_summaries
 from handeye.debugger.view_records import Shown
-from handeye.planning.scripts import PlannedScript
+from handeye.planning.planner import PlannedScript
 from handeye.results.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.teaching.workplace import Workplace

@@ -11,7 +11,7 @@ from handeye.arm.model import ArmModel
 from handeye.core.diagnostics import Diagnostic
 from handeye.core.pose import Array
 from handeye.core.source import Source
-from handeye.planning.scripts import PlannedScript, plan_source
+from handeye.planning.planner import PlannedScript, plan_source
 from handeye.program.taught import Taught
 
 TYPED: Final = "typed"

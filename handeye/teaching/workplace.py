@@ -15,7 +15,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest
-from handeye.planning.scripts import PlannedScript
+from handeye.planning.planner import PlannedScript
 from handeye.program.events import Choice, RunStarted, beginning
 from handeye.program.taught import Taught
 from handeye.runs.advance import Pause, advance

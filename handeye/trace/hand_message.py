@@ -8,7 +8,7 @@ from msgspec import UNSET, UnsetType
 
 from handeye.core.pose import Array
 from handeye.core.record import Record
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard
 

@@ -8,7 +8,7 @@ from google.protobuf.message import DecodeError
 
 from handeye.core.errors import CannotWrite
 from handeye.core.files import read_whole
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.ports.camera import Picture
 from handeye.program.events import (
     Event,

@@ -7,7 +7,7 @@ import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
 from handeye.core.units import INCHES
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.ports.camera import Picture
 from handeye.program.event_reading import EventReader
 from handeye.program.events import Event, PictureTaken, RunStarted, StageFinished, StepStarted

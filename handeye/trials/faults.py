@@ -11,7 +11,7 @@ from handeye.core.faults import Catalogue, Expected, Fault, FaultKind
 from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.planfile.plan import Plan
 from handeye.program.events import AnyEvent, StageStarted, StepStarted
 from handeye.results.result import Result

@@ -21,9 +21,9 @@ from handeye.core.resources import plans
 from handeye.core.source import Source, read_source
 from handeye.core.units import INCH, MILLIMETRE
 from handeye.core.variation import Overrides, WorldSpec
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.planfile.plan import Plan
-from handeye.planning.scripts import plan_source
+from handeye.planning.planner import plan_source
 from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import SearchAdvanced
 from handeye.runs.advance import advance

@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 
 from handeye.core.pose import Array
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.program import events as happened
 from handeye.program.events import AnyEvent, PictureTaken, beginning
 from handeye.report.facts.seen import Finding, SeenPicture

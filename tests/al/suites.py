@@ -26,7 +26,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.inspection.inspection import inspection, inspection_text
 from handeye.planfile.plan import Plan
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 from handeye.program.events import AnyEvent
 from handeye.program.program import Program
 from handeye.program.taught import Taught, load_taught

@@ -15,7 +15,7 @@ from handeye.al import AL, compile_text
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.resources import plans
 from handeye.core.source import read_source
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 from handeye.program.taught import Taught, load_taught
 
 HERE = Path(__file__).parent / "broken"

@@ -18,7 +18,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.core.diagnostics import has_errors, render
 from handeye.core.errors import InvalidInput
 from handeye.core.source import Source, read_source
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 from handeye.program.taught import load_taught
 
 PUMP_TAUGHT = load_taught(ROOT / "plans" / "water_pump.toml")

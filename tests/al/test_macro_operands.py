@@ -9,7 +9,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.core.diagnostics import LIMIT, Diagnostic, quoted
 from handeye.core.source import Source
 from handeye.editor.samples import SAMPLE
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 
 TEXT = """\
 DEFINE FETCH S G OUT

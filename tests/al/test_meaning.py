@@ -7,7 +7,7 @@ from handeye.al import AL, compile_text, sewn_of
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.source import Source
 from handeye.editor.samples import SAMPLE
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 
 
 def codes(text: str) -> list[str]:

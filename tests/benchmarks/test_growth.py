@@ -10,7 +10,7 @@ from benchmarks.growth import Growth
 from benchmarks.growth_costs import cells, script, statements
 from handeye.al import AL
 from handeye.core.source import Source
-from handeye.planning.scripts import plan_source
+from handeye.planning.planner import plan_source
 from handeye.program.taught import load_taught
 from handeye.runs.scripts import default_script
 from handeye.tasks import task

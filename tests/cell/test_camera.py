@@ -7,8 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from handeye.cell.camera import REFOCUS, SLEW, SimulatedCamera, true_camera
-from handeye.cell.renderers import make_renderer
+from handeye.cell.camera import REFOCUS, SLEW, SimulatedCamera, make_renderer, true_camera
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.core.errors import InvalidInput

@@ -4,8 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from handeye.cell.clock_hands import drawn_poses
-from handeye.cell.posed import posed
+from handeye.cell.posed import drawn_poses, posed
 
 SCENE = """
 <mujoco>

@@ -16,8 +16,8 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.core.errors import InvalidInput, PhysicsFailed
 from handeye.core.pose import Array
 from handeye.core.variation import WorldSpec
-from handeye.ports.arm import ArmPort
 from handeye.ports.clock import Clock
+from handeye.ports.workcell import ArmPort
 from handeye.tasks.stanford_cell.dimensions import PARK
 
 PERIOD = CARTESIAN.servo.period

@@ -5,7 +5,7 @@ import pytest
 from driving import Drive, tick
 from released_arm import arm_alone
 
-from handeye.cell.converter import Converters, converted
+from handeye.cell.signal_lines import Converters, converted
 from handeye.core.units import INCH
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.tasks.stanford_cell.arm import ARM

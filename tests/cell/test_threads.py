@@ -11,7 +11,7 @@ from thread_bench import HEAD, LENGTH, MOUTH, SPEED, STOP, Outcome, ThreadBench,
 from handeye.cell.arm import Watchdog
 from handeye.cell.bench import Bench
 from handeye.cell.bench_axes import BenchAxes, BenchOutputs
-from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.hand import SimulatedScrewdriver
 from handeye.cell.threads import ThreadFigures, Threads
 from handeye.core.units import JIFFY
 from handeye.ports.axes import AxisSpec, Channel

@@ -11,8 +11,7 @@ from handeye.arm.samples import Samples
 from handeye.core.units import INCH
 from handeye.execution.compliance import Course
 from handeye.execution.drive import ArmDrive
-from handeye.execution.servo import Halted
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import Halted, ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.program.guards import Force, GuardKind
 from handeye.tasks.stanford_cell.dimensions import PARK

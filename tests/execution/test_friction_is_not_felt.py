@@ -10,7 +10,7 @@ from handeye.arm.samples import Samples
 from handeye.core.pose import Array
 from handeye.core.units import INCH, OUNCE_FORCE
 from handeye.execution.drive import ArmDrive
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.program.guards import Force
 from handeye.tasks.water_pump.world.pump_world import PumpWorld

@@ -16,9 +16,8 @@ from handeye.core import errors
 from handeye.core.errors import ERRORS
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH, OUNCE_INCH
-from handeye.ports.arm import ArmReading
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.ports.hand import HandReading
+from handeye.ports.workcell import ArmReading, HandReading
 
 DOWN = "STOP [0 0 -12]\nCHANGE [0 0 -1] .5"
 

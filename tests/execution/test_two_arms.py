@@ -18,9 +18,8 @@ from handeye.core.units import INCH, JIFFY
 from handeye.execution.scheduler import run
 from handeye.execution.servo_loop import REACHED, ServoLoop
 from handeye.execution.state import DriveState
-from handeye.ports.arm import ArmPort
 from handeye.ports.clock import Clock
-from handeye.ports.workcell import Workcell
+from handeye.ports.workcell import ArmPort, Workcell
 from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 

@@ -11,8 +11,7 @@ from short_runs import begin
 
 from handeye.core.errors import InvalidInput
 from handeye.core.packed import encoded
-from handeye.execution.undo.resistance import ALLOWED, Resistance, allowed
-from handeye.execution.undo.standing import FALLEN
+from handeye.execution.undo.retracing import ALLOWED, FALLEN, Resistance, allowed
 from handeye.program.diagnosis.causes import HoldOff, MetEarly, UndoResisted, UndoUnknown
 from handeye.program.events import OperatorCalled, StageUndone, UndoEnded, UndoFinished, UndoStarted
 from handeye.program.guards import GuardKind

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from handeye.execution.undo.resistance import EarlyContact
+from handeye.execution.undo.retracing import EarlyContact
 from handeye.program.diagnosis.causes import MetEarly
 from handeye.touch.guards import Reading
 from handeye.touch.hold import OFF_MIDDLE

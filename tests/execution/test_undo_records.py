@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
-from handeye.execution.undo.done import ExecutedStep
+from handeye.execution.state import ExecutedStep
 from handeye.execution.undo.loops import loop_entry, touch_entry
 from handeye.execution.undo.retracing import retracing
 from handeye.execution.undo.way import GRAIN, RecordedPath, Track, packed, unpacked

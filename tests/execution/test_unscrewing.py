@@ -9,15 +9,14 @@ from pump_bench import LAID, MACROS, Bench, bench, stacked
 
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
-from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.hand import SimulatedScrewdriver
 from handeye.cell.state import CellState
 from handeye.cell.threads import holes_of
 from handeye.core.mutable_records import copied
 from handeye.core.pose import translated
 from handeye.core.units import INCH, OUNCE_INCH
-from handeye.execution.state import ExecutionState
-from handeye.execution.undo.done import Undoing
-from handeye.execution.undo.resistance import Resistance
+from handeye.execution.state import ExecutionState, Undoing
+from handeye.execution.undo.retracing import Resistance
 from handeye.execution.undo.way import RecordedPath, packed, unpacked
 from handeye.program.diagnosis.causes import ScrewFast, ScrewLost, UndoResisted
 from handeye.program.guards import GuardKind

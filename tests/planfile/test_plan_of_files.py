@@ -14,7 +14,7 @@ from handeye.inspection.flow import flow, flow_dot
 from handeye.inspection.inspection import inspection, inspection_text
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 from handeye.program.taught import Taught
 
 SCRIPT = "        REQUIRE lib/look.al\n        MOVE    T\n        RESTORE D\n"

@@ -5,7 +5,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.core.diagnostics import Diagnostic
 from handeye.core.source import Source
 from handeye.core.units import DEGREE, INCH
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 from handeye.program.program import Fixture, Held, Position
 from handeye.program.taught import Taught
 

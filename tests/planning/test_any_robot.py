@@ -16,7 +16,7 @@ from handeye.core.units import INCH
 from handeye.inspection.difference import difference
 from handeye.inspection.difference_text import difference_text
 from handeye.planfile.plan import Plan
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 from handeye.program.taught import Taught
 from handeye.tasks import task
 

@@ -11,8 +11,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.core.diagnostics import Diagnostic, Label
 from handeye.core.source import Source, Span
 from handeye.core.units import INCH, OUNCE_FORCE
-from handeye.planning.planner import make_plan
-from handeye.planning.scripts import plan_source
+from handeye.planning.planner import make_plan, plan_source
 from handeye.program.diagnosis.plan_findings import (
     GoalBelowTable,
     NoConfiguration,

@@ -12,7 +12,7 @@ from handeye.core.pose import hand
 from handeye.core.source import Source
 from handeye.core.units import INCH
 from handeye.planfile.plan import Plan
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 from handeye.program.motion_operations import Change
 from handeye.program.taught import Taught
 

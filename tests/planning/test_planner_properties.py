@@ -9,7 +9,7 @@ from handeye.al import AL, compile_text
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.diagnostics import has_errors
 from handeye.core.source import Source
-from handeye.planning.scripts import plan_program
+from handeye.planning.planner import plan_program
 
 inches = st.floats(-60, 60).map(lambda x: f"{x:.3f}")
 angles = st.sampled_from(["-180", "-90", "0", "30", "90", "135"])

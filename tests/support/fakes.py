@@ -10,14 +10,18 @@ from handeye.arm.dynamics import bias, mass_matrix
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import Array
-from handeye.ports.arm import ArmPort, ArmReading
 from handeye.ports.axes import Axes, AxesReading, AxisSpec
 from handeye.ports.camera import COLUMNS, ROWS, Picture, Renderer, TvCamera
 from handeye.ports.clock import Clock, whole_steps
-from handeye.ports.hand import HandPort, HandReading
-from handeye.ports.lamp import LampPort
-from handeye.ports.screwdriver import ScrewdriverPort
-from handeye.ports.workcell import Workcell
+from handeye.ports.workcell import (
+    ArmPort,
+    ArmReading,
+    HandPort,
+    HandReading,
+    LampPort,
+    ScrewdriverPort,
+    Workcell,
+)
 
 STEP = 1 / 960  # s, of the fake clock
 STIFFNESS = 20e3  # N/m of whatever the hand meets

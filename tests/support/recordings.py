@@ -15,7 +15,7 @@ from handeye.core.pose import Array
 from handeye.core.source import Source
 from handeye.core.units import JIFFY
 from handeye.core.variation import WorldSpec
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import encode, plan_digest
 from handeye.planning.planner import make_plan

@@ -13,7 +13,7 @@ from handeye.cell.device_errors import ArmErrors
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.pose import Array, hand
 from handeye.execution.drive import ArmDrive
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.execution.state import DriveState
 
 TOP = 0.1

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.arm import Watchdog
-from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.hand import SimulatedScrewdriver
 from handeye.cell.threads import Thread, ThreadFigures, Threads
 from handeye.core.pose import Pose, pose
 from handeye.core.units import JIFFY

@@ -15,7 +15,7 @@ from handeye.core.entries import Entry, register
 from handeye.core.mutable_records import put_back
 from handeye.core.variation import Variation, WorldSpec
 from handeye.execution.scheduler import Task, run
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.judge.finding import Findings
 from handeye.planfile.store import written_digest
 from handeye.ports.axes import AxisSpec, Channel

@@ -9,7 +9,7 @@ import pytest
 from recordings import HISTORY, Recording, record
 
 from handeye.core.errors import InvalidInput
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.ports.workcell import Sensed
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard

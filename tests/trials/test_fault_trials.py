@@ -13,7 +13,7 @@ from results import result
 from handeye.core.errors import InvalidInput
 from handeye.core.faults import Catalogue, Expected, Fault, FaultKind
 from handeye.core.variation import WorldSpec
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.program.events import StageStarted, StepStarted
 from handeye.results.pauses import pause_sentence
 from handeye.results.result import Result

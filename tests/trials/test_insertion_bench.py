@@ -13,7 +13,7 @@ from handeye.core.random_streams import random_numbers
 from handeye.core.resources import plans
 from handeye.core.source import Source
 from handeye.planfile.plan import Plan
-from handeye.planning.scripts import plan_source
+from handeye.planning.planner import plan_source
 from handeye.runs.runner import Runner
 from handeye.runs.scripts import taught_beside
 from handeye.systems.stanford import executor_run as programs

@@ -5,7 +5,7 @@ import pytest
 from short_runs import begin
 from toy_system import begin_toy
 
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.ports.workcell import Sensed
 from handeye.program.events import ErrorRaised
 from handeye.report.facts.seen import SeenPicture

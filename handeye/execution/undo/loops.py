@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 
 from handeye.core.pose import Array
-from handeye.execution.undo.done import ExecutedStep
+from handeye.execution.state import ExecutedStep
 from handeye.program.guards import GuardKind
 
 SAME_GAP: Final = 5e-4  # m, of an unchanged hold

@@ -13,8 +13,7 @@ from handeye.core.errors import InvalidInput
 from handeye.core.mutable_records import MutableRecord, put_back
 from handeye.core.packed import decoded, encoded
 from handeye.execution.context import ExecutionContext
-from handeye.execution.state import ExecutionState, check_fits
-from handeye.execution.undo.done import ExecutedStep
+from handeye.execution.state import ExecutedStep, ExecutionState, check_fits
 from handeye.execution.undo.way import packed
 
 REMEMBERED: Final = (

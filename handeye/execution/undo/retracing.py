@@ -1,5 +1,11 @@
-"""Set-points of the path back: a step's path from end to beginning, with gentle ends."""
+"""The path back of a step, from end to beginning, and the guards that stop it.
 
+Force that is felt in any direction since the reversal began stops it, and contact of closing fingers. These close on
+the middle of the hand. An object beside it is met by one finger first, while the gap is still too wide. Closed on, it
+would be pushed to the middle, or push the arm, and the final gap would look right.
+"""
+
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
@@ -9,8 +15,63 @@ from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
 from handeye.core.pose import Array
+from handeye.core.units import INCH
+from handeye.execution.context import ExecutionContext
+from handeye.execution.state import ExecutedStep
 from handeye.execution.undo.way import RecordedPath
 from handeye.planning.motions import GUARDED_SPEED
+from handeye.program.diagnosis.causes import MetEarly
+from handeye.program.guards import GuardKind
+from handeye.touch.guards import ActiveGuard, Reading, Trip
+from handeye.touch.hold import too_early
+
+ALLOWED: Final = 20.0
+"""N. Measured: lifting a top off the pins is felt as 11 at most, with a screw left in it as 36 and then 108."""
+SHARE: Final = 1.5  # of the force that the step itself met
+
+
+def allowed(met: float) -> float:
+    """Force that a reversal may meet, N, given what the step itself met."""
+    return max(ALLOWED, SHARE * met)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Resistance:
+    """Trips when the hand feels more than `limit`, N."""
+
+    limit: float
+
+    def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
+        return (ActiveGuard(guard=GuardKind.FORCE, limit=self.limit),)
+
+    def check(self, reading: Reading) -> Trip | None:
+        felt = float(np.linalg.norm(reading.force))
+        return Trip(guard=GuardKind.FORCE, value=felt, limit=self.limit) if felt > self.limit else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EarlyContact:
+    """Trips when a finger touches too early."""
+
+    gap: Callable[[], float]  # present gap, m
+    kept: float  # gap when the step was executed, m
+    holding: bool  # something was held then
+
+    def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
+        return (ActiveGuard(guard=GuardKind.TOUCH, limit=3.0),)
+
+    def check(self, reading: Reading) -> Trip | None:
+        if not any(reading.touch) or not too_early(self.gap(), self.kept):
+            return None
+        first, second = reading.touch
+        return Trip(guard=GuardKind.TOUCH, value=float(first + 2 * second), limit=3.0)
+
+    def cause(self, trip: Trip) -> MetEarly:
+        """The cause for a trip, while the fingers stand where it stopped them."""
+        closed = int(trip.value)
+        fingers = bool(closed & 1), bool(closed & 2)
+        return MetEarly(fingers=fingers, gap=round(self.gap(), 6), kept=self.kept, holding=self.holding)
+
 
 RAMP: Final = 8
 """Servo periods of acceleration and braking. Chosen: what stopped on a force ended at full speed."""
@@ -60,3 +121,38 @@ def _clock(periods: float) -> Array:
     rate = np.concatenate([rise, np.ones(int(np.ceil(periods))), rise[::-1]])
     gone = np.cumsum(rate)
     return np.append(0.0, gone * (periods / gone[-1]))
+
+
+FALLEN: Final = 0.31 * INCH
+"""m that it may have fallen. By the pump's gasket: fingers reach .25 in through it (`[gasket_stand]`), and it is .06 in
+thick; fallen much farther, they would not hold it again. Measured: 6.0 and 6.7 mm, seeds 8128 and 8124; 8.05, held all
+the same, in 8724, which this stops: the arm's height is not exact.
+"""
+
+
+def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedStep], bool]) -> bool:
+    """True if resistance shows that it stands: the path leads to its grasp, and the hand is nearly there.
+
+    `grasps`: whether a step takes hold, or holds more firmly.
+    """
+    if not run.state.grasping or not _grasped_before(run, grasps):
+        return False
+    ahead = forward(run.arm, run.drive.state.q)[:3, 3] - forward(run.arm, way.q[0])[:3, 3]
+    return float(np.linalg.norm(ahead)) <= FALLEN
+
+
+def where_the_hand_is(run: ExecutionContext, way: RecordedPath) -> RecordedPath:
+    """The path of a grasp, shifted to where the arm is now, which may be above."""
+    return RecordedPath(q=way.q + (run.drive.state.q - way.q[-1]), gap=way.gap)
+
+
+def _grasped_before(run: ExecutionContext, grasps: Callable[[ExecutedStep], bool]) -> bool:
+    """True if only the fingers moved between the grasp and the last step."""
+    for done in reversed(run.state.done[:-1]):
+        if not done.way:
+            continue
+        if not grasps(done):
+            return False
+        if not done.grasping:
+            return True
+    return False

@@ -13,13 +13,17 @@ from handeye.core.errors import Refused
 from handeye.core.pose import Array
 from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_loop import Outcome
-from handeye.execution.state import ExecutionState, vector
-from handeye.execution.undo.done import ExecutedStep, Undoing
+from handeye.execution.state import ExecutedStep, ExecutionState, Undoing, vector
 from handeye.execution.undo.loops import loop_entry, touch_entry, without_rounds
 from handeye.execution.undo.memory import Memory, recalled, remember
-from handeye.execution.undo.resistance import EarlyContact, Resistance, allowed
-from handeye.execution.undo.retracing import retracing
-from handeye.execution.undo.standing import stands, where_the_hand_is
+from handeye.execution.undo.retracing import (
+    EarlyContact,
+    Resistance,
+    allowed,
+    retracing,
+    stands,
+    where_the_hand_is,
+)
 from handeye.execution.undo.unscrewing import LOWER, lower, taken_by, unscrew
 from handeye.execution.undo.way import RecordedPath, packed, unpacked
 from handeye.planning.motions import Unreachable, directions, move_trajectory

@@ -11,8 +11,8 @@ from handeye.core.pose import Array
 from handeye.execution.compliance import Course
 from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_loop import Outcome
-from handeye.execution.undo.done import ExecutedStep
-from handeye.execution.undo.resistance import Resistance, allowed
+from handeye.execution.state import ExecutedStep
+from handeye.execution.undo.retracing import Resistance, allowed
 from handeye.execution.undo.way import RecordedPath
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard, FirstOf, Reading, Trip

@@ -35,7 +35,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.cell.clock_hands import drawn_poses
+from handeye.cell.posed import drawn_poses
 from handeye.report.player import scene, tracks
 from handeye.trace.messages import Poses
 from handeye.trace.trace import Trace

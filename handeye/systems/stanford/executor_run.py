@@ -24,11 +24,9 @@ from handeye.core.units import DEGREE, INCH
 from handeye.core.versions import versions
 from handeye.execution.camera_calibration import calibrate_camera
 from handeye.execution.context import ExecutionContext
-from handeye.execution.devices import check_devices
-from handeye.execution.executor import Executor
+from handeye.execution.executor import Executor, check_devices
 from handeye.execution.friction_measurement import measure_joints
-from handeye.execution.state import ExecutionState, Shot, VisionResult
-from handeye.execution.undo.done import ExecutedStep, Undoing
+from handeye.execution.state import ExecutedStep, ExecutionState, Shot, Undoing, VisionResult
 from handeye.execution.undo.undoing import order
 from handeye.execution.vision_actions import just_found
 from handeye.planfile.plan import Plan

@@ -4,12 +4,9 @@ import mujoco
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
-from handeye.cell.camera import SimulatedCamera
-from handeye.cell.hand import SimulatedHand
-from handeye.cell.lamp import SimulatedLamp
-from handeye.cell.renderers import make_renderer
+from handeye.cell.camera import SimulatedCamera, make_renderer
+from handeye.cell.hand import SimulatedHand, SimulatedLamp, SimulatedScrewdriver
 from handeye.cell.rendering import RendererMaker
-from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.signal_lines import SignalLines
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.threads import THREAD_FRICTION, ThreadFigures, Threads

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Final
 
 from handeye.core.files import write_whole
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.program.events import OperatorAnswered, OperatorCalled
 from handeye.results.outcome import outcome
 from handeye.results.result import to_json

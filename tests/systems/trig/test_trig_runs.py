@@ -15,7 +15,7 @@ from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.stepper import Stepper
 from handeye.execution.servo import Halted
-from handeye.execution.undo.done import Undoing
+from handeye.execution.state import Undoing
 from handeye.judge.finding import all_right
 from handeye.program.events import Choice, OperatorCalled, StepFinished, StepStarted
 from handeye.results.judging import findings

@@ -22,7 +22,7 @@ from handeye.core.pose import Array, Pose, hand
 from handeye.core.units import DEGREE, INCH
 from handeye.execution.compliance import Course
 from handeye.execution.drive import ArmDrive
-from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.servo import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import PARK

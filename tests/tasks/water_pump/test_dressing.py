@@ -8,10 +8,10 @@ import pytest
 from finished import finished_cell
 from manifold3d import Manifold, Mesh
 
+from handeye.cell.camera import make_renderer
 from handeye.cell.looks import LATENT, PLAIN, SCENERY, SEEN
 from handeye.cell.photograph import SHOWN
 from handeye.cell.posed import as_it_stands
-from handeye.cell.renderers import make_renderer
 from handeye.cell.vidicon import Luminance
 from handeye.core.errors import InvalidInput
 from handeye.core.pose import Array

@@ -6,7 +6,7 @@ import msgspec
 
 from handeye.core.errors import BadFile, Refused
 from handeye.core.record import Record
-from handeye.execution.undo.done import Undoing
+from handeye.execution.state import Undoing
 from handeye.program.system_state import SystemState
 from handeye.systems.trig.jobs.benches import TaughtPlan
 from handeye.systems.trig.language.axes_arm import ArmMemory

@@ -14,9 +14,8 @@ from handeye.core.pose import Array
 from handeye.core.record import Vector3
 from handeye.core.units import MILLIMETRE
 from handeye.core.versions import versions
-from handeye.execution.servo import Halted
-from handeye.execution.servo_period import ServoPeriod
-from handeye.execution.undo.done import Undoing
+from handeye.execution.servo import Halted, ServoPeriod
+from handeye.execution.state import Undoing
 from handeye.judge.finding import Findings
 from handeye.machines.purbrick import PURBRICK
 from handeye.planfile.store import written_digest

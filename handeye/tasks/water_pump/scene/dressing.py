@@ -11,8 +11,8 @@ import mujoco
 import numpy as np
 from manifold3d import Manifold  # type: ignore[import-not-found]  # stubs, but no marker
 
-from handeye.cell.clock_hands import TURNS
 from handeye.cell.looks import BOX, PLAIN, SEEN
+from handeye.cell.posed import TURNS
 from handeye.core.pose import Array
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import dimensions
