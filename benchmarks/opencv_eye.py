@@ -13,7 +13,7 @@ from handeye.program.program import Part
 from handeye.vision.blob import BoundingBox
 from handeye.vision.camera_model import View
 from handeye.vision.characteriser import Blob
-from handeye.vision.holes import Candidate, classify
+from handeye.vision.hole_search import Candidate, classify
 
 LEVEL: Final = 17
 """Grey of one of the picture's 16 levels."""

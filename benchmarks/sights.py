@@ -10,7 +10,7 @@ from handeye.program.program import Part
 from handeye.tasks.water_pump.trials.still_pump import StillPump, base_poses, look, pump_base, put_base
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.vision.camera_model import View
-from handeye.vision.holes import hole_places
+from handeye.vision.hole_search import hole_places
 
 WORLD_POSES: Final = 4
 """Of one world, and of one light."""

@@ -17,12 +17,14 @@ from handeye.vision.base import (
     GeneralLocation,
     SpecificLocation,
     close_box,
+    fitting,
     locate_general,
     locate_specific,
+    silhouettes,
+    window,
 )
 from handeye.vision.blob import BoundingBox
-from handeye.vision.holes import hole_places
-from handeye.vision.outline import fitting, silhouettes, window
+from handeye.vision.hole_search import hole_places
 
 OPENCV: Final = f"OpenCV {cv2.__version__}"
 _way = partial(Way.measured, unit="points")

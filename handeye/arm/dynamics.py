@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from handeye.arm.chain import centripetal, chain, cross, point_jacobian, tool_jacobian
+from handeye.arm.kinematics import centripetal, chain, cross, point_jacobian, tool_jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
 

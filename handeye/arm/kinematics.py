@@ -1,10 +1,108 @@
-"""Forward kinematics and the Jacobian, of any chain."""
+"""The chain of frames of an arm: forward kinematics, Jacobians, and accelerations of points along it.
+
+For any arm without common-normal offsets (a = 0 in every row), of revolute and prismatic joints. Vectorised over
+leading dimensions, so that a whole motion costs little more than one set-point.
+"""
 
 import numpy as np
+from numpy.typing import NDArray
 
-from handeye.arm.chain import centripetal, chain, tool_jacobian
-from handeye.arm.model import ArmModel
+from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array, Pose
+
+
+def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
+    """DH frames 0 (base) to n (tool) in the world at `q`, shape (..., n), rad and m.
+
+    Returns rotations (..., n + 1, 3, 3) and origins (..., n + 1, 3).
+    """
+    k = constants(arm)
+    q = np.asarray(q, dtype=np.float64)
+    step = np.zeros((*q.shape, 4, 4))
+    step[..., :3, :3] = link_rotations(np.where(k.prismatic, k.theta, q), k.cos_alpha, k.sin_alpha)
+    step[..., 2, 3], step[..., 3, 3] = np.where(k.prismatic, q, k.d), 1.0
+    frames = [np.broadcast_to(arm.X_WB, (*q.shape[:-1], 4, 4))]
+    for i in range(len(arm.joints)):
+        frames.append(frames[-1] @ step[..., i, :, :])
+    X = np.stack(frames, axis=-3)
+    return X[..., :3, :3], X[..., :3, 3]
+
+
+def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
+    """Rotations by joint angles about z, then by alpha about x; shape (...) to (..., 3, 3)."""
+    c, s = np.cos(angle), np.sin(angle)
+    step = np.zeros((*angle.shape, 3, 3))
+    step[..., 0, 0], step[..., 0, 1], step[..., 0, 2] = c, -s * cos_alpha, s * sin_alpha
+    step[..., 1, 0], step[..., 1, 1], step[..., 1, 2] = s, c * cos_alpha, -c * sin_alpha
+    step[..., 2, 1], step[..., 2, 2] = sin_alpha, cos_alpha
+    return step
+
+
+def point_jacobian(arm: ArmModel, R: Array, p: Array, points: Array) -> tuple[Array, Array]:
+    """Jacobians of points on the hand side of all joints.
+
+    Args:
+        R, p: the chain.
+        points: shape (..., m, 3), world.
+    Returns:
+        velocity of each point per joint rate, (..., m, n, 3); angular velocity per joint rate, (..., n, 3).
+    """
+    prismatic = constants(arm).prismatic[:, None]
+    axes = R[..., :-1, :, 2]
+    lever = points[..., :, None, :] - p[..., None, :-1, :]
+    linear = np.where(prismatic, axes[..., None, :, :], cross(axes[..., None, :, :], lever))
+    return linear, np.where(prismatic, 0.0, axes)
+
+
+def tool_jacobian(arm: ArmModel, R: Array, p: Array) -> Array:
+    """Jacobian of the tool frame, the last of the chain: linear rows, then angular, shape (..., 6, n)."""
+    linear, angular = point_jacobian(arm, R, p, p[..., -1:, :])
+    return np.concatenate(
+        [np.swapaxes(linear[..., 0, :, :], -1, -2), np.swapaxes(angular, -1, -2)], axis=-2
+    )  # fmt: skip
+
+
+def centripetal(
+    arm: ArmModel, R: Array, p: Array, points: Array, links: NDArray[np.int_], qd: Array
+) -> tuple[Array, Array]:
+    """Accelerations of points and of their links at joint rates `qd`, without joint accelerations.
+
+    Args:
+        points: (..., m, 3), point k fixed in link `links[k]` (from 0).
+    Returns:
+        linear, (..., m, 3), and angular, (..., m, 3).
+    """
+    k = constants(arm)
+    prismatic = k.prismatic[:, None]
+    axes = R[..., :-1, :, 2]
+    turning = np.where(prismatic, 0.0, axes) * qd[..., None]
+    after = np.cumsum(turning, axis=-2)  # angular velocity of each link
+    before = after - turning
+    swing = cross(before, axes)  # rate of change of each joint axis
+    carried = k.carried[links][:, :, None]  # joints that move link k
+
+    linear, _ = point_jacobian(arm, R, p, points)
+    origins, _ = point_jacobian(arm, R, p, p[..., :-1, :])
+    v_point = ((linear * carried) * qd[..., None, :, None]).sum(axis=-2)
+    v_origin = ((origins * np.tri(len(k.d), k=-1)[:, :, None]) * qd[..., None, :, None]).sum(axis=-2)
+    lever = points[..., :, None, :] - p[..., None, :-1, :]
+    rate = v_point[..., :, None, :] - v_origin[..., None, :, :]
+    # a revolute joint's column is axis x lever, and both change; a prismatic one's is the axis alone
+    column = np.where(
+        prismatic,
+        swing[..., None, :, :],
+        cross(swing[..., None, :, :], lever) + cross(axes[..., None, :, :], rate),
+    )
+    column = (column * carried) * qd[..., None, :, None]
+    spin = np.where(prismatic, 0.0, swing * qd[..., None])
+    return column.sum(axis=-2), np.cumsum(spin, axis=-2)[..., links, :]
+
+
+def cross(a: Array, b: Array) -> Array:
+    """Cross product over the last axis; several times faster than `numpy.cross` on small arrays."""
+    ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
+    bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
 
 
 def forward(arm: ArmModel, q: Array) -> Pose:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from handeye.arm.ik import IKResult
-from handeye.arm.ik.choice import SLACK, beyond
+from handeye.arm.ik.result import SLACK, beyond
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.core.pose import Array, Pose

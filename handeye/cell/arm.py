@@ -10,8 +10,8 @@ from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.cell.device_errors import ArmErrors
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.physics_stepper import allow, wake
 from handeye.cell.signal_lines import SOUND, Converters, SignalLines
-from handeye.cell.sleep import allow, wake
 from handeye.cell.state import figures, finite
 from handeye.core.errors import BadArgument
 from handeye.core.pose import Array

@@ -8,8 +8,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.physics_stepper import check_physics
-from handeye.cell.sleep import asleep
+from handeye.cell.physics_stepper import asleep, check_physics
 from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.errors import BadFile, NoSuchName
 from handeye.core.record import Record

@@ -7,7 +7,7 @@ import numpy as np
 
 from handeye.cell.bench import Bench
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.sleep import allow, wake
+from handeye.cell.physics_stepper import allow, wake
 from handeye.core.errors import BadArgument, BadFile, NoSuchName, Refused
 from handeye.core.pose import Array
 from handeye.core.record import Record

@@ -6,12 +6,12 @@ from typing import Final
 import mujoco
 import numpy as np
 
-from handeye.arm.hand import HandModel
+from handeye.arm.model import HandModel
 from handeye.cell.arm import Watchdog
 from handeye.cell.device_errors import HandErrors
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.physics_stepper import wake
 from handeye.cell.signal_lines import SOUND, SignalLines, converted
-from handeye.cell.sleep import wake
 from handeye.cell.state import finite
 from handeye.core.record import Record
 from handeye.ports.workcell import HandPort, HandReading, LampPort, ScrewdriverPort

@@ -11,9 +11,8 @@ from handeye.cell.arm import SimulatedArm
 from handeye.cell.camera import SimulatedCamera
 from handeye.cell.hand import SimulatedHand, SimulatedLamp, SimulatedScrewdriver
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.physics_stepper import PhysicsStepper, check_physics
+from handeye.cell.physics_stepper import PhysicsStepper, asleep, check_physics
 from handeye.cell.signal_lines import SOUND, SignalLines
-from handeye.cell.sleep import asleep
 from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.record import Vector3
 from handeye.ports.camera import Renderer

@@ -25,8 +25,8 @@ import numpy as np
 
 from handeye.cell.carriers import Carriers
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.physics_stepper import wake
 from handeye.cell.signal_lines import SOUND, SignalLines
-from handeye.cell.sleep import wake
 from handeye.cell.state import finite
 from handeye.cell.truth import Truth
 from handeye.core.pose import Array, Pose, pose, translated

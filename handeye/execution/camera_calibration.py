@@ -19,15 +19,14 @@ from handeye.core.errors import CalibrationFailed
 from handeye.core.pose import hand
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
-from handeye.execution.calibration_look import CalibrationLook
 from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState
 from handeye.ports.camera import DIGITISE, TvCamera
 from handeye.ports.workcell import Workcell
 from handeye.program.diagnosis.cause_text import error_sentence
-from handeye.vision.calibration import Calibration, Sighting, calibrate
+from handeye.vision.alignment import find_spot
+from handeye.vision.calibration import Calibration, CalibrationLook, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
-from handeye.vision.lamp import find_spot
 from handeye.vision.live import repeated
 
 MIN_SIGHTINGS: Final = 8  # for each lens

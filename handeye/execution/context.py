@@ -1,6 +1,7 @@
 """The context of a working phase: plan, arm, cell, and the state that operations share."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,7 +11,6 @@ from handeye.core.mutable_records import put_back
 from handeye.core.pose import Array
 from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState, ExecutionState, Fault, check_fits
-from handeye.execution.stopwatch import Stopwatch
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.ports.workcell import Workcell
 from handeye.program.events import AnyEvent
@@ -19,6 +19,23 @@ from handeye.program.senses import Sense
 from handeye.program.world_model import WorldModel
 from handeye.touch.spiral import SearchPattern, spiral
 from handeye.vision.camera_model import CameraModel
+
+
+@dataclass(slots=True)
+class Stopwatch:
+    """Adds up seconds while running, by a given clock; without one it stays at zero."""
+
+    clock: Callable[[], float] = lambda: 0.0
+    seconds: float = 0.0
+
+    @contextmanager
+    def running(self) -> Iterator[None]:
+        """Run while entered."""
+        begun = self.clock()
+        try:
+            yield
+        finally:
+            self.seconds += self.clock() - begun
 
 
 @dataclass(slots=True, kw_only=True)

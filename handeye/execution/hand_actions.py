@@ -22,8 +22,7 @@ from handeye.program.diagnosis.causes import (
 from handeye.program.motion_operations import Center, Close, Open
 from handeye.program.operation import Operation
 from handeye.touch.centring import Centring
-from handeye.touch.hold import at_least, at_most, least_gap
-from handeye.touch.senses import FREE_OPENING, GAP_ERROR, followed, stood_still
+from handeye.touch.senses import FREE_OPENING, GAP_ERROR, at_least, at_most, followed, least_gap, stood_still
 
 _SHUT: Final = -0.02
 """Gap set-point, m, beyond any closed gap: the fingers press with full force."""

@@ -27,8 +27,7 @@ from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.calibration import Calibration
 from handeye.vision.camera_model import View
 from handeye.vision.gasket import GasketInspection
-from handeye.vision.grasp_line import GraspLine
-from handeye.vision.marks import Mark, marks
+from handeye.vision.marks import GraspLine, Mark, marks
 from handeye.vision.part_match import PartMatch
 
 

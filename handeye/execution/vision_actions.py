@@ -25,9 +25,8 @@ from handeye.program.vision_operations import Aim, Comparison, General, Inspect,
 from handeye.vision.base import Failure, locate_general, locate_specific
 from handeye.vision.camera_model import CameraModel, View
 from handeye.vision.gasket import inspect as inspect_gasket
-from handeye.vision.grasp_line import GraspLine, grasp_line
 from handeye.vision.live import blank, repeated
-from handeye.vision.marks import Mark
+from handeye.vision.marks import GraspLine, Mark, grasp_line
 
 
 def _tv(run: ExecutionContext) -> TvCamera:

@@ -4,9 +4,8 @@ from html import escape
 from typing import Final
 
 from handeye.core.plain_text import counted
-from handeye.inspection.columns import NOTE, ROW, WIDTH
 from handeye.inspection.flow import Flow, FlowEdge
-from handeye.inspection.layout import Layout, Point, Route, StepBox, layout
+from handeye.inspection.layout import NOTE, ROW, WIDTH, Layout, Point, Route, StepBox, layout
 
 COLOURS: Final = {
     "motion": ("#dbe9f6", "#3b75af"),

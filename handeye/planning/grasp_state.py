@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from handeye.arm.hand import HandModel
+from handeye.arm.model import HandModel
 from handeye.core.obb import Box
 from handeye.core.record import Record
 from handeye.program.motion_operations import Center, Close, Move, Open

@@ -14,11 +14,10 @@ from handeye.core.entries import Capability, refusal, require
 from handeye.core.errors import BadArgument, BadFile, PhysicsFailed, Refused
 from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
-from handeye.execution.context import ExecutionContext
+from handeye.execution.context import ExecutionContext, Stopwatch
 from handeye.execution.scheduler import Deadlock
 from handeye.execution.servo import Halted, ServoPeriod
 from handeye.execution.state import Undoing
-from handeye.execution.stopwatch import Stopwatch
 from handeye.program.events import (
     AnyEvent,
     AskedBy,

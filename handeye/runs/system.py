@@ -17,10 +17,9 @@ import numpy as np
 from handeye.core.entries import Entry, entry_named, refusal
 from handeye.core.errors import BadFile, Refused
 from handeye.core.record import Record
-from handeye.execution.context import ExecutionContext
+from handeye.execution.context import ExecutionContext, Stopwatch
 from handeye.execution.servo import ServoPeriod
 from handeye.execution.state import Shot, Undoing
-from handeye.execution.stopwatch import Stopwatch
 from handeye.judge.finding import Findings
 from handeye.ports.axes import Channel
 from handeye.program.events import AnyEvent, Choice

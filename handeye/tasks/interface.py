@@ -24,11 +24,11 @@ if TYPE_CHECKING:  # a plan is made and checked without a simulator, and soon
     from handeye.cell.truth import Truth
     from handeye.core.pose import Array
     from handeye.core.variation import Variation, WorldSpec
-    from handeye.execution.calibration_look import CalibrationLook
     from handeye.judge.finding import Findings
     from handeye.planfile.plan import Plan
     from handeye.program.program import Fixture
     from handeye.tasks.trial import Trial
+    from handeye.vision.calibration import CalibrationLook
     from handeye.vision.camera_model import CameraModel
 
 

@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from handeye.arm.ik import IKResult
-from handeye.arm.jog import jog
-from handeye.arm.line import pivot
+from handeye.arm.line import jog, pivot
 from handeye.arm.samples import Samples
 from handeye.cell.simulated import pushed
 from handeye.core.diagnostics import quoted

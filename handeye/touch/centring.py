@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from handeye.core.errors import NOTHING_HELD
-from handeye.touch.hold import least_gap
+from handeye.touch.senses import least_gap
 
 OVERDRIVE: Final = 0.005  # m driven beyond the opening before the fingers count as stalled; placeholder
 

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from handeye.core.pose import Array
-from handeye.vision.beam import beams
-from handeye.vision.edge import BRIGHTER, SPAN
+from handeye.vision.beam import BRIGHTER, SPAN, beams
 from handeye.vision.scan import MARGIN, Scan
 
 COARSE: Final = 4  # the first beams are this many times farther apart: enough for blobs of the wanted size

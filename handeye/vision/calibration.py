@@ -13,8 +13,22 @@ import numpy as np
 
 from handeye.core.errors import BadArgument
 from handeye.core.pose import Array
+from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
 from handeye.vision.camera_model import CameraModel, View
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CalibrationLook:
+    """A camera setting, and the places the lamp is shown at; W, m."""
+
+    lens: float  # focal length, m
+    at: Vector3  # aim
+    sharp: Vector3
+    """Point in focus, shared by neighbouring looks, since refocusing takes three times as long as aiming."""
+    places: tuple[Vector3, ...]
+    hand_angle: float  # angle O of the hand, pointing down, rad
+
 
 PLACE_PRIOR: Final = 0.5 * INCH  # sigma, of the mount and of the lens offsets
 TURN_PRIOR: Final = 2 * DEGREE  # sigma, of pan, tilt and roll

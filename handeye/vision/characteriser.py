@@ -11,9 +11,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from handeye.core.pose import Array
-from handeye.vision.beam import beams
+from handeye.vision.beam import BRIGHTER, SPAN, Edge, Polarity, beams
 from handeye.vision.camera_model import View
-from handeye.vision.edge import BRIGHTER, SPAN, Edge, Polarity
 from handeye.vision.scan import Scan
 
 

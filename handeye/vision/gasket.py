@@ -28,7 +28,7 @@ from handeye.program.diagnosis.causes import (
 from handeye.program.program import Hole, Part
 from handeye.vision.camera_model import View, in_picture
 from handeye.vision.characteriser import characterise, fit_circle, rim
-from handeye.vision.holes import hole_places
+from handeye.vision.hole_search import hole_places
 from handeye.vision.scan import Scan
 
 ABSENT: Final = 2.2

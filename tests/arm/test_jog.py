@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from handeye.arm.ik import IKResult, solve
-from handeye.arm.jog import jog
+from handeye.arm.line import jog
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
 from handeye.core.pose import hand

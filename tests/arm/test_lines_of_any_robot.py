@@ -5,9 +5,8 @@ import pytest
 from robots import CARTESIAN, GANTRY, PLANAR, ROBOTS
 
 from handeye.arm.ik import IKResult, solve
-from handeye.arm.jog import jog
 from handeye.arm.kinematics import forward
-from handeye.arm.line import arc, pivot, straight
+from handeye.arm.line import arc, jog, pivot, straight
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
 from handeye.core.pose import hand, rotation, rotation_z

@@ -6,9 +6,8 @@ import pytest
 from arm_in_mujoco import postures
 from robots import ROBOTS, Robot
 
-from handeye.arm.chain import chain
 from handeye.arm.dynamics import gravity, mass_matrix
-from handeye.arm.kinematics import forward
+from handeye.arm.kinematics import chain, forward
 from handeye.arm.model import constants
 
 COUNT = 25

@@ -9,8 +9,8 @@ from driving import BRAKED, Drive, tick
 from benchmarks import tape
 from benchmarks.bare_physics import Bare, play
 from benchmarks.tape import Tape
+from handeye.cell.physics_stepper import asleep
 from handeye.cell.simulated import SimulatedCell
-from handeye.cell.sleep import asleep
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 

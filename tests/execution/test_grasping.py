@@ -7,7 +7,7 @@ import pytest
 from fakes import FakeCell
 
 from handeye.al import compile_text
-from handeye.arm.hand import GraspModel
+from handeye.arm.model import GraspModel
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.source import Source
 from handeye.core.units import INCH, JIFFY

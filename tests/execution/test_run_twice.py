@@ -27,7 +27,7 @@ from handeye.tasks.water_pump.world.nominal import DRAWING
 
 pytestmark = pytest.mark.slow
 
-PLANNERS = {("planning.planner", "*"), ("planning.motions", "move_trajectory"), ("arm.ik.solvers", "solve")}
+PLANNERS = {("planning.planner", "*"), ("planning.motions", "move_trajectory"), ("arm.ik", "solve")}
 """Makers of motions to places: the planner, the path over the goal, the joints that reach it."""
 
 UNDISTURBED = "MOVE P\nMOVE T DIRECT\nPARK"

@@ -18,7 +18,7 @@ from handeye.program.guards import GuardKind
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.touch.guards import Reading, Trip
-from handeye.touch.hold import SKEW
+from handeye.touch.senses import SKEW
 
 pytestmark = pytest.mark.slow
 

@@ -6,7 +6,7 @@ import pytest
 from handeye.execution.undo.retracing import EarlyContact
 from handeye.program.diagnosis.causes import MetEarly
 from handeye.touch.guards import Reading
-from handeye.touch.hold import OFF_MIDDLE
+from handeye.touch.senses import OFF_MIDDLE
 
 KEPT = 0.03
 """m"""

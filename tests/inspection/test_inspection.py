@@ -11,8 +11,13 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.core.resources import plans
 from handeye.core.source import Source
 from handeye.core.units import OUNCE_FORCE
-from handeye.inspection.dependence import dependences
-from handeye.inspection.inspection import InspectedStep, depends_text, inspection, inspection_text
+from handeye.inspection.inspection import (
+    InspectedStep,
+    dependences,
+    depends_text,
+    inspection,
+    inspection_text,
+)
 from handeye.inspection.wording import direction
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan

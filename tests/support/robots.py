@@ -10,8 +10,7 @@ from typing import Literal
 import mujoco
 import numpy as np
 
-from handeye.arm.hand import GraspModel, HandModel
-from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel, Structure
+from handeye.arm.model import ArmModel, ComplianceModel, GraspModel, HandModel, Joint, ServoModel, Structure
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import Pose, pose
 from handeye.core.resources import scenes

@@ -10,7 +10,7 @@ from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.program import Hole, Part
 from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.vision.camera_model import View
-from handeye.vision.holes import hole_places
+from handeye.vision.hole_search import hole_places
 
 DARK, BRIGHT, BELT, PLATE, FACE, HOLE, GASKET = 3, 11, 3, 6, 12, 4, 4
 """Levels."""

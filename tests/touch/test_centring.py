@@ -5,7 +5,7 @@ import pytest
 from handeye.core.errors import NOTHING_HELD
 from handeye.core.units import INCH, JIFFY
 from handeye.touch.centring import Centring
-from handeye.touch.hold import least_gap
+from handeye.touch.senses import least_gap
 
 SPEED = 0.5 * INCH
 TRAVEL = 0.00025

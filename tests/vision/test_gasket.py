@@ -19,7 +19,7 @@ from handeye.vision import gasket
 from handeye.vision.characteriser import Blob, characterise
 from handeye.vision.drawing import annotate
 from handeye.vision.gasket import GasketInspection, difference, inspect
-from handeye.vision.holes import hole_places
+from handeye.vision.hole_search import hole_places
 from handeye.vision.marks import GREEN, RED, marks
 from handeye.vision.scan import Scan
 

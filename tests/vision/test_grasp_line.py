@@ -6,7 +6,7 @@ from synthetic import part, view
 
 from handeye.core.pose import hand
 from handeye.core.units import DEGREE, INCH
-from handeye.vision.grasp_line import grasp_line
+from handeye.vision.marks import grasp_line
 
 PART = part()
 FACE = PART.at[2] + PART.face

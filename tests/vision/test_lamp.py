@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.vision.lamp import find_spot
+from handeye.vision.alignment import find_spot
 
 
 def scene(seed: int, spots: tuple[tuple[float, float], ...] = ()) -> np.ndarray:

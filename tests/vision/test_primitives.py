@@ -11,10 +11,9 @@ from hypothesis import strategies as st
 
 import handeye
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.vision.beam import beams
+from handeye.vision.beam import BRIGHTER, DARKER, Edge, Polarity, beams
 from handeye.vision.blob import localise
 from handeye.vision.characteriser import characterise, walk
-from handeye.vision.edge import BRIGHTER, DARKER, Edge, Polarity
 from handeye.vision.scan import Scan
 
 Place = tuple[float, float]

@@ -9,12 +9,12 @@ from synthetic import HOLE, Canvas, draw_base, part, view
 from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.program.diagnosis.causes import GasketHoleOff, NoHoles, NoOutline
+from handeye.vision.alignment import find_spot
 from handeye.vision.base import Failure, GeneralLocation, locate_general, locate_specific
+from handeye.vision.beam import BRIGHTER
 from handeye.vision.characteriser import Blob, fit_circle, walk
-from handeye.vision.edge import BRIGHTER
 from handeye.vision.gasket import inspect
-from handeye.vision.holes import Candidate, Pair, classify, hole_places
-from handeye.vision.lamp import find_spot
+from handeye.vision.hole_search import Candidate, Pair, classify, hole_places
 from handeye.vision.scan import Scan
 
 PART = part()

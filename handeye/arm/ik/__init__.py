@@ -1,9 +1,87 @@
 """Inverse kinematics: joint positions for a hand pose, or why there are none.
 
-One solver for each structure; `solve` and `branches` choose the arm's.
+One solver for each structure; `solve` and its like choose the arm's.
 """
 
-from handeye.arm.ik.result import IKResult
-from handeye.arm.ik.solvers import branches, solve
+from collections.abc import Mapping
+from typing import Final, Protocol
 
-__all__ = ["IKResult", "branches", "solve"]
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.arm.ik import cartesian, gantry, spherical_wrist
+from handeye.arm.ik.result import IKResult
+from handeye.arm.model import ArmModel, Structure
+from handeye.core.pose import Array, Pose
+from handeye.program.diagnosis.reach import InLine
+
+__all__ = ["IKResult", "branches", "rates", "singular", "solve"]
+
+
+class Solver(Protocol):
+    """Inverse kinematics of a structure; each function raises ValueError for an arm of another."""
+
+    def solve(self, arm: ArmModel, X_WT: Pose, near: Array, /) -> IKResult: ...
+
+    def branches(
+        self, arm: ArmModel, X_WT: Pose, start: Array | None, /
+    ) -> tuple[Array, NDArray[np.bool_]]: ...
+
+    def singular(self, arm: ArmModel, q_start: Array, q: Array, V: Array, /) -> tuple[int, InLine] | None: ...
+
+    def rates(self, arm: ArmModel, q: Array, J: Array, V: Array, /) -> Array: ...
+
+
+_SOLVERS: Final[Mapping[Structure, Solver]] = {
+    "spherical wrist": spherical_wrist,
+    "gantry": gantry,
+    "cartesian": cartesian,
+}
+
+
+def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
+    """Joint positions for the hand at `X_WT`: the branch within limits nearest to `near`.
+
+    Nearest in the sum of joint travel times. Joints that the pose leaves free stay as in `near`; held joints go to
+    where they are held.
+
+    Args:
+        X_WT: shape (4, 4).
+        near: shape (n,), rad and m.
+    """
+    return _SOLVERS[arm.structure].solve(arm, X_WT, near)
+
+
+def branches(arm: ArmModel, X_WT: Pose, start: Array | None = None) -> tuple[Array, NDArray[np.bool_]]:
+    """All closed-form solutions for poses of shape (..., 4, 4), ignoring limits.
+
+    Args:
+        start: initial configuration of a motion along the poses, shape (n,): free and held joints stay as there. None:
+            free
+            joints are 0, held ones where they are held.
+    Returns:
+        joint positions (..., k, n), revolute ones in (-pi, pi], and which exist, (..., k).
+    """
+    return _SOLVERS[arm.structure].branches(arm, X_WT, start)
+
+
+def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
+    """The first of N configurations in which the joints cannot give the hand its twist, and why, or None.
+
+    Args:
+        q_start: initial configuration, shape (n,).
+        q: configurations of one branch, shape (N, n).
+        V: twists at T in world axes, shape (N, 6).
+    """
+    return _SOLVERS[arm.structure].singular(arm, q_start, q, V)
+
+
+def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
+    """Joint rates for twists of the hand, where not singular; shape (N, n).
+
+    Args:
+        q: shape (N, n).
+        J: Jacobian at T, shape (N, 6, n).
+        V: twists at T in world axes, shape (N, 6).
+    """
+    return _SOLVERS[arm.structure].rates(arm, q, J, V)

@@ -8,10 +8,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.arm.chain import chain
-from handeye.arm.ik.choice import choose
-from handeye.arm.ik.result import IKResult
-from handeye.arm.kinematics import forward
+from handeye.arm.ik.result import IKResult, choose
+from handeye.arm.kinematics import chain, forward
 from handeye.arm.model import ArmModel
 from handeye.core.pose import Array, Pose
 from handeye.program.diagnosis.reach import FixedDirection, FixedOrientation, InLine

@@ -15,10 +15,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.arm.chain import chain, link_rotations
-from handeye.arm.ik.choice import choose, nearest_turn
-from handeye.arm.ik.result import IKResult
-from handeye.arm.kinematics import forward, jacobian
+from handeye.arm.ik.result import IKResult, choose, nearest_turn
+from handeye.arm.kinematics import chain, forward, jacobian, link_rotations
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array, Pose, rotation_x
 from handeye.program.diagnosis.reach import InLine

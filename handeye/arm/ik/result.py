@@ -1,14 +1,16 @@
-"""Results of inverse kinematics."""
+"""Results of inverse kinematics, and the choice among solutions: within limits, and reached soonest."""
 
+import math
 from dataclasses import dataclass
+from typing import Final
 
 import msgspec
 import numpy as np
 
-from handeye.arm.model import ArmModel
+from handeye.arm.model import ArmModel, Joint
 from handeye.core.pose import Array
 from handeye.program.diagnosis.causes import ArmNames, BeyondArm
-from handeye.program.diagnosis.reach import ReachFailure
+from handeye.program.diagnosis.reach import JointLimit, OutOfReach, ReachFailure
 from handeye.program.diagnosis.reach_text import reach_sentence
 
 
@@ -29,3 +31,58 @@ class IKResult:
         # solvers compute with the numbers of arrays, which do not go to disk
         plain = msgspec.to_builtins(self.reason, enc_hook=np.generic.item)
         return BeyondArm(goal=goal, reason=msgspec.convert(plain, ReachFailure), arm=ArmNames.of(arm))
+
+
+SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, rad or m
+
+
+def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResult:
+    """The solution within limits with the least sum of joint travel times from `near`.
+
+    Without one, the failure of the solution least beyond them.
+    """
+    good = [q for q in found if all(map(_inside, arm.joints, q))]
+    if good:
+        return IKResult(q=np.array(min(good, key=lambda q: _travel_time(arm, q, near))))
+    return min((_fault(arm, q) for q in found), key=lambda fault: fault[0])[1]
+
+
+def _inside(joint: Joint, x: float) -> bool:
+    return joint.lower - SLACK <= x <= joint.upper + SLACK
+
+
+def _travel_time(arm: ArmModel, a: list[float], b: list[float]) -> float:
+    return sum(abs(x - y) / joint.speed for joint, x, y in zip(arm.joints, a, b, strict=True))
+
+
+def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
+    """Travel time of the joint farthest beyond its limits, and the failure; sliding joints first, as no branch mends
+    them.
+    """
+    outside = [(i, j, x) for i, (j, x) in enumerate(zip(arm.joints, q, strict=True)) if not _inside(j, x)]
+    excess = [(j.kind == "prismatic", max(x - j.upper, j.lower - x) / j.speed) for _, j, x in outside]
+    worst = max(range(len(outside)), key=excess.__getitem__)
+    i, joint, x = outside[worst]
+    return excess[worst][1], IKResult(reason=beyond(joint, i, x))
+
+
+def beyond(joint: Joint, index: int, x: float) -> OutOfReach | JointLimit:
+    """Failure of a joint at `x`, beyond its limits."""
+    limit = joint.upper if x > joint.upper else joint.lower
+    return OutOfReach(index, x, limit) if joint.kind == "prismatic" else JointLimit(index, x, limit)
+
+
+def nearest_turn(joint: Joint, x: float, near: float) -> float:
+    """`x` plus whole turns: nearest to `near` within limits, else nearest to the limits."""
+    if joint.kind == "prismatic":
+        return x
+    turn = 2 * math.pi
+    x += turn * round((near - x) / turn)
+    if x > joint.upper and x - turn >= joint.lower - SLACK:
+        return x - turn
+    if x < joint.lower and x + turn <= joint.upper + SLACK:
+        return x + turn
+    if x > joint.upper or x < joint.lower:
+        middle = (joint.lower + joint.upper) / 2
+        x += turn * round((middle - x) / turn)
+    return x

@@ -12,8 +12,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.arm.ik.choice import choose, nearest_turn
-from handeye.arm.ik.result import IKResult
+from handeye.arm.ik.result import IKResult, choose, nearest_turn
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array, Pose, inverse
 from handeye.program.diagnosis.reach import InLine, InnerCylinder, OutOfReach, TooNear

@@ -8,8 +8,7 @@ placeholder.
 from math import pi
 from typing import Final, Literal
 
-from handeye.arm.hand import GraspModel, HandModel
-from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel
+from handeye.arm.model import ArmModel, ComplianceModel, GraspModel, HandModel, Joint, ServoModel
 from handeye.core.pose import pose, rotation_z
 from handeye.core.units import DEGREE, GAP, INCH, JIFFY
 

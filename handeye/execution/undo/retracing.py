@@ -23,7 +23,7 @@ from handeye.planning.motions import GUARDED_SPEED
 from handeye.program.diagnosis.causes import MetEarly
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard, Reading, Trip
-from handeye.touch.hold import too_early
+from handeye.touch.senses import too_early
 
 ALLOWED: Final = 20.0
 """N. Measured: lifting a top off the pins is felt as 11 at most, with a screw left in it as 36 and then 108."""

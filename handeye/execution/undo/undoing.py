@@ -41,7 +41,7 @@ from handeye.program.guards import GuardKind
 from handeye.program.motion_operations import Center, Close, Move, Open
 from handeye.program.operation import Operation
 from handeye.touch.guards import FirstOf, Monitor
-from handeye.touch.hold import EMPTY_GAP, SAME_HOLD, SKEW, as_before, at_least
+from handeye.touch.senses import EMPTY_GAP, SAME_HOLD, SKEW, as_before, at_least
 
 SUPPORT_SHARE: Final = 0.5  # of the force when a screw was taken, to support the hand that returns it
 STRAIGHTER: Final = 2 * 1.1e-3

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.sleep import allow
+from handeye.cell.physics_stepper import allow
 from handeye.cell.threads import Threads
 from handeye.core.pose import Array, inverse, pose
 from handeye.core.record import Record

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from driving import Drive, tick
 
+from handeye.cell.physics_stepper import asleep
 from handeye.cell.signal_lines import SignalLinesState
-from handeye.cell.sleep import asleep
 from handeye.core.errors import ERRORS
 from handeye.core.faults import UNKNOWN, Fault
 from handeye.core.resources import plans

@@ -16,7 +16,7 @@ from handeye.systems.trig.language.graph import GUARDED, NONE, NORMAL, TOP, Node
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.program import NOWHERE, HaltedMove, RecordedStep, TrigProgram
 from handeye.systems.trig.language.trig_arm import Halted, HoldOff, Missed, Obstacle, TrigArm
-from handeye.touch.hold import as_before, at_least, least_gap
+from handeye.touch.senses import as_before, at_least, least_gap
 
 AGAIN: Final = 1e-3
 """m beyond a guarded step's contact within which it must be met again. Chosen: a twelfth of a block."""

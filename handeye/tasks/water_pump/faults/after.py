@@ -10,8 +10,8 @@ from typing import Final
 import mujoco
 import numpy as np
 
+from handeye.cell.physics_stepper import wake
 from handeye.cell.simulated import SimulatedCell
-from handeye.cell.sleep import wake
 from handeye.cell.truth import Truth
 from handeye.core.pose import Array, inverse, pose
 from handeye.tasks.interface import Disturbance

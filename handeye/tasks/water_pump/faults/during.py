@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.sleep import wake
+from handeye.cell.physics_stepper import wake
 from handeye.cell.state import finite
 from handeye.core.errors import FORCE_WRONG, NOTHING_HELD, SEARCH_EXHAUSTED, SERVO_LAG, WRONG_HEIGHT
 from handeye.core.faults import Expected, Fault, Size

@@ -17,7 +17,7 @@ from handeye.tasks.water_pump.trials.known_camera import known_camera
 from handeye.tasks.water_pump.trials.still_pump import StillPump, base_poses, locate, pump_base, put_base
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.vision.base import Failure, SpecificLocation
-from handeye.vision.holes import hole_places
+from handeye.vision.hole_search import hole_places
 
 WITHIN: Final = (INCH / 3, INCH / 4)  # accuracy of the eye by the paper, in x and in y
 WRONG_BEYOND_PX: Final = 5.0  # a hole found farther off is something else, whatever the camera's error

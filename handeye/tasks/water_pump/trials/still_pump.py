@@ -3,10 +3,12 @@
 import math
 from collections.abc import Iterator
 
+import mujoco
 import numpy as np
 
-from handeye.cell.still_cell import StillCell
-from handeye.core.pose import planar
+from handeye.cell.camera import SimulatedCamera, make_renderer, true_camera
+from handeye.cell.keyframe import body_pose
+from handeye.core.pose import Array, Pose, planar
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import CLOSE_UP, WIDE, Picture, TvCamera
@@ -24,16 +26,29 @@ Place = tuple[float, float, float, float]
 """x, y, z (m) and yaw (rad) in W."""
 
 
-class StillPump(StillCell):
+class StillPump:
     """The cell of a world before it has moved, its arm parked."""
 
     def __init__(self, world: PumpWorld, *, renderer: str = "auto") -> None:
-        self.world = world
-        posture = {f"{ARM}j{number}": float(q) for number, q in enumerate(PARK, 1)}
-        super().__init__(
-            build(world), posture=posture, drawing=DRAWING, errors=world.camera,
-            noise=world.generator("camera"), renderer=renderer,
-        )  # fmt: skip
+        self.world, model = world, build(world)
+        self._model, self._data = model, mujoco.MjData(model)
+        for number, q in enumerate(PARK, 1):
+            self._data.joint(f"{ARM}j{number}").qpos = float(q)
+        mujoco.mj_forward(model, self._data)
+        eye, noise = make_renderer(renderer, model), world.generator("camera")
+        self.camera = SimulatedCamera(self._data, world.camera, noise, eye, DRAWING)
+        self.true_camera = true_camera(world.camera, DRAWING)
+
+    def put(self, part: str, X_WP: Pose) -> None:
+        """Put a free body at a pose, whatever is there."""
+        quat: Array = np.zeros(4)
+        mujoco.mju_mat2Quat(quat, X_WP[:3, :3].ravel())
+        self._data.joint(part).qpos = [*X_WP[:3, 3], *quat]
+        mujoco.mj_forward(self._model, self._data)
+
+    def pose(self, part: str) -> Pose:
+        """`X_WP` of a body."""
+        return body_pose(self._data, part)
 
 
 def pump_base(at: Place | None = None) -> Part:

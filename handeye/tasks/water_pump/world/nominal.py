@@ -5,8 +5,8 @@ from typing import Final
 
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
-from handeye.execution.calibration_look import CalibrationLook
 from handeye.ports.camera import CLOSE_UP, LENSES, WIDE
+from handeye.vision.calibration import CalibrationLook
 from handeye.vision.camera_model import CameraModel, LensModel
 
 DRAWING: Final = CameraModel(
