@@ -139,8 +139,7 @@ def _distance(step: Array, turn: Array) -> Array:
     return np.asarray(np.abs(_shortest(step, turn)).sum(axis=-1))
 
 
-_PEAK_SPEED: Final = 1.875
-"""Peak rate of the quintic 10 s3 - 15 s4 + 6 s5, over its mean."""
+_PEAK_SPEED: Final = 1.875  # peak rate of the quintic 10 s3 - 15 s4 + 6 s5, over its mean
 _PEAK_ACCELERATION: Final = 5.774  # over distance / duration2
 
 

@@ -152,8 +152,7 @@ class ArmModel:
         return q
 
 
-_WORKING: Final = (ComplianceModel, GraspModel)
-"""Parts that no plan depends on."""
+_WORKING: Final = (ComplianceModel, GraspModel)  # parts that no plan depends on
 
 
 def digest(arm: ArmModel) -> str:

@@ -18,19 +18,16 @@ from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.ports.workcell import ArmPort, ArmReading
 
-_LATE: Final = 1e-6
-"""Share of a period lost to rounding."""
+_LATE: Final = 1e-6  # share of a period lost to rounding
 
 
 @dataclass(slots=True)
 class Watchdog:
     """Cuts the drives of an arm whose computer does not answer, until the program sets the brakes itself."""
 
-    period: float
-    """s"""
+    period: float  # s
     tripped: bool = False
-    unanswered: float = 0.0
-    """s since the arm was driven."""
+    unanswered: float = 0.0  # s since the arm was driven
 
     def answer(self, *, braked: bool) -> None:
         """The computer has put something out; brakes acknowledge that a period was missed."""
@@ -75,11 +72,9 @@ class ArmState(Record, frozen=True, kw_only=True):
     q: tuple[float, ...]
     qd: tuple[float, ...]
     braked: bool
-    command: tuple[float, ...] | None
-    """Torques; None: brakes."""
+    command: tuple[float, ...] | None  # torques; None: brakes
     tripped: bool
-    unanswered: float
-    """s since it was driven."""
+    unanswered: float  # s since it was driven
 
 
 class SimulatedArm(Mechanism[ArmState], ArmPort):
@@ -112,11 +107,9 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]
         joints = [model.joint(name).id for name in names]
-        self.qpos = model.jnt_qposadr[joints]
-        """Where its joints stand in the simulator's positions."""
+        self.qpos = model.jnt_qposadr[joints]  # where its joints stand in the simulator's positions
         self.dofs = model.jnt_dofadr[joints]
-        self.last_link = int(model.jnt_bodyid[joints[-1]])
-        """The body that carries the hand."""
+        self.last_link = int(model.jnt_bodyid[joints[-1]])  # the body that carries the hand
         self.watchdog = Watchdog(arm.servo.period)
         self.motors = np.array([model.actuator(name).id for name in names])
         """Its motors, actuators of the simulator."""

@@ -20,26 +20,21 @@ _FINEST: Final = 10**6
 """Physics steps in a second, at most, for the step to be known as a fraction of one: 1/960, 1/1200, .001."""
 FASTEST: Final = 1000.0
 """m/s and rad/s: nothing on a bench gets near it, unless the solver of its contacts has failed."""
-_STRETCH: Final = Fraction(1, 60)
-"""s for which mechanisms may hold what they do to the simulator, at most."""
+_STRETCH: Final = Fraction(1, 60)  # s for which mechanisms may hold what they do to the simulator, at most
 
 
 class Due(Record, frozen=True, kw_only=True):
     """An event that is to happen between two physics steps."""
 
-    microseconds: int
-    """When, on the clock of the bench."""
-    name: str
-    """By which the bench knows what is to be done."""
+    microseconds: int  # when, on the clock of the bench
+    name: str  # of its handler
 
 
 class BenchTime(Record, frozen=True, kw_only=True):
     """The clock of a bench, and what it waits for."""
 
-    steps: int
-    """Physics steps since it was switched on."""
-    due: tuple[Due, ...] = ()
-    """In order."""
+    steps: int  # physics steps since it was switched on
+    due: tuple[Due, ...] = ()  # in order
 
 
 class Bench(Clock, Mechanism[BenchTime]):
@@ -54,14 +49,12 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model, self.data = model, mujoco.MjData(model)
-        self.before_step: list[Callable[[], None]] = []
-        """Called before every physics step."""
+        self.before_step: list[Callable[[], None]] = []  # called before every physics step
         self.after_step: list[Callable[[], None]] = []
         self.before_period: list[Callable[[], None]] = []
         """Called whenever time is about to pass, for 1/60 s at most unless everything sleeps."""
         self.after_period: list[Callable[[], None]] = []
-        self.handlers: dict[str, Callable[[], None]] = {}
-        """Handlers of events, by name."""
+        self.handlers: dict[str, Callable[[], None]] = {}  # handlers of events, by name
         self._tick = Fraction(model.opt.timestep).limit_denominator(_FINEST)
         self._parts: list[Mechanism[Any]] = []
         self._steps, self._stretch = 0, max(1, int(_STRETCH / self._tick))

@@ -31,12 +31,9 @@ def switch(name: str, above: float = 0.0) -> Sense:
 class AxesState(Record, frozen=True, kw_only=True):
     """State of the controller of a machine of n axes."""
 
-    goal: tuple[float, ...]
-    """Where its servos are to be at the end of the period, m and rad, n numbers."""
-    way: tuple[float, ...]
-    """How far they go in a physics step, n numbers."""
-    left: int
-    """Physics steps of the period that are left."""
+    goal: tuple[float, ...]  # where its servos are to be at the end of the period, m and rad, n numbers
+    way: tuple[float, ...]  # how far they go in a physics step, n numbers
+    left: int  # physics steps of the period that are left
     powered: bool = True
     latched: dict[str, tuple[float, ...]]
     """Values of the latched channels that have differed from zero since they were cleared."""

@@ -23,10 +23,8 @@ from handeye.core.units import DEGREE
 from handeye.ports.camera import FIRST_LENS, Picture, Renderer, TvCamera
 from handeye.vision.camera_model import CameraModel, View
 
-TURRET: Final = 20.0
-"""s for which the turret turns."""
-SLEW: Final = 5 * DEGREE
-"""rad/s of pan and of tilt, which turn together."""
+TURRET: Final = 20.0  # s for which the turret turns
+SLEW: Final = 5 * DEGREE  # rad/s of pan and of tilt, which turn together
 REFOCUS: Final = 0.0347
 """1/m in a second: rings are divided by the reciprocal of the distance. With these rates the looks of a pump take
 the 90 s that the paper gives for all lens changes and focusing: 40 for the turret, 12 for 60 degrees, 36 for 1.25 1/m,
@@ -36,14 +34,11 @@ the 90 s that the paper gives for all lens changes and focusing: 40 for the turr
 class CameraState(Record, frozen=True, kw_only=True):
     """The camera's mechanism and tube."""
 
-    noise: str
-    """State of its generator, as JSON."""
+    noise: str  # state of its generator, as JSON
     lens: float
     pots: tuple[float, float]
-    stand: tuple[float, float]
-    """Pan and tilt as they really are, rad."""
-    focus: float | None
-    """m; None: at infinity."""
+    stand: tuple[float, float]  # pan and tilt as they really are, rad
+    focus: float | None  # m; None: at infinity
     gain: float | None
 
 

@@ -34,14 +34,11 @@ class Carriers:
         """How many there are."""
         holes = range(self.count)
         self._body = np.array([model.body(f"carrier{k}").id for k in holes])
-        self.base = int(model.body_parentid[self._body[0]])
-        """The body that has the holes."""
+        self.base = int(model.body_parentid[self._body[0]])  # the body that has the holes
         self._slide = [model.joint(f"thread_slide{k}").id for k in holes]
         self._turn = [model.joint(f"thread_turn{k}").id for k in holes]
-        self.head = np.array([model.geom(f"head{k}").id for k in holes])
-        """Their heads, geoms."""
-        self.site = [model.site(f"thread{k}").id for k in holes]
-        """Their frames, sites."""
+        self.head = np.array([model.geom(f"head{k}").id for k in holes])  # their heads, geoms
+        self.site = [model.site(f"thread{k}").id for k in holes]  # their frames, sites
         self.mouths: Array = model.body_pos[self._body].copy()
         """Mouths of the tapped holes in the base's frame, m, shape (n, 3)."""
         self._lead = float(model.eq_data[_helix(model, self._slide[0], self._turn[0]), 1])  # m per radian

@@ -7,11 +7,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-Values = NDArray[Any]
-"""Numbers, or the points of a picture."""
+Values = NDArray[Any]  # numbers, or the points of a picture
 
-PICTURE: Final = "picture"
-"""The line of the camera's pictures."""
+PICTURE: Final = "picture"  # the line of the camera's pictures
 
 
 class Effect(ABC):
@@ -74,8 +72,7 @@ class Missing(Effect):
         return np.asarray(values * 0) if seconds < self.seconds else values
 
 
-DEAD: Final = Scaled(0.0)
-"""Nothing arrives."""
+DEAD: Final = Scaled(0.0)  # nothing arrives
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

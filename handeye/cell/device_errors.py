@@ -14,28 +14,17 @@ class ArmErrors:
     """Errors of the sensors and drives of an arm of n joints; shape (n,), rad (a prismatic joint: m) unless said."""
 
     offset: Array
-    scale: Array
-    """Relative error of the reading, about `centre`."""
-    wave: Array
-    """Amplitude of the waviness of a potentiometer."""
-    period: Array
-    """Wavelength of the waviness."""
-    phase: Array
-    """Phase of the waviness, rad."""
-    centre: Array
-    """Posture at which `scale` makes no error."""
-    pot_noise: Array
-    """Sigma, before the converter."""
-    pot_step: Array
-    """Step of the potentiometer's converter; 0: it has none."""
-    tachometer_noise: Array
-    """Sigma before the converter, rad/s, m/s."""
-    tachometer_step: Array
-    """Step of the tachometer's converter, rad/s, m/s; 0: it has none."""
-    torque_step: Array
-    """Step of the converter that gives the drive its torque, N m, N; 0: it has none."""
-    drive_gain: Array
-    """True torque over the torque that is put out."""
+    scale: Array  # relative error of the reading, about `centre`
+    wave: Array  # amplitude of the waviness of a potentiometer
+    period: Array  # wavelength of the waviness
+    phase: Array  # phase of the waviness, rad
+    centre: Array  # posture at which `scale` makes no error
+    pot_noise: Array  # sigma, before the converter
+    pot_step: Array  # step of the potentiometer's converter; 0: it has none
+    tachometer_noise: Array  # sigma before the converter, rad/s, m/s
+    tachometer_step: Array  # step of the tachometer's converter, rad/s, m/s; 0: it has none
+    torque_step: Array  # step of the converter that gives the drive its torque, N m, N; 0: it has none
+    drive_gain: Array  # true torque over the torque that is put out
 
     @classmethod
     def none(cls, joints: int) -> Self:
@@ -64,49 +53,34 @@ class ArmBuild:
     """How an arm of n joints was really built; arrays have shape (n,), true over believed unless said."""
 
     link_mass: Array
-    mass_centre: Array
-    """Distance of each link's mass centre from the joint that moves the link."""
-    armature: Array
-    """Inertia of each drive."""
-    damping: Array
-    """Viscous friction."""
-    friction: Array
-    """Coulomb friction, N m, N."""
-    hand_length: float
-    """By how much the hand is longer, m."""
+    mass_centre: Array  # distance of each link's mass centre from the joint that moves the link
+    armature: Array  # inertia of each drive
+    damping: Array  # viscous friction
+    friction: Array  # Coulomb friction, N m, N
+    hand_length: float  # true less believed, m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HandErrors:
     """Errors of the sensors of the hand and the screwdriver."""
 
-    gap_offset: float
-    """m"""
+    gap_offset: float  # m
     gap_scale: float
-    gap_noise: float
-    """Sigma before the converter, m."""
-    gap_step: float
-    """Step of the converter, m; 0: it has none."""
-    switch_force: tuple[float, float]
-    """Force at which the +y and the -y finger's switch fires, N."""
-    torque_noise: float
-    """Sigma, N m."""
+    gap_noise: float  # sigma before the converter, m
+    gap_step: float  # step of the converter, m; 0: it has none
+    switch_force: tuple[float, float]  # force at which the +y and the -y finger's switch fires, N
+    torque_noise: float  # sigma, N m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraErrors:
     """Differences between a TV camera and its drawing."""
 
-    place: tuple[float, float, float]
-    """Error of the mount in W, m."""
-    turn: tuple[float, float, float]
-    """Error of pan, tilt and roll, rad."""
-    focal_scale: tuple[float, float]
-    """True over nominal focal length of the 25 mm and the 50 mm lens."""
+    place: tuple[float, float, float]  # error of the mount in W, m
+    turn: tuple[float, float, float]  # error of pan, tilt and roll, rad
+    focal_scale: tuple[float, float]  # true over nominal focal length of the 25 mm and the 50 mm lens
     lens_place: tuple[tuple[float, float, float], tuple[float, float, float]]
     """Error of the place of either lens: forwards, to the right and upwards in its picture, m."""
-    pot_noise: float
-    """Sigma of the pan and tilt readings, rad."""
+    pot_noise: float  # sigma of the pan and tilt readings, rad
     raster: Raster
-    drift: float
-    """Sigma of where a picture lies, along its lines and across, over half its length and height."""
+    drift: float  # sigma of where a picture lies, along its lines and across, over half its length and height

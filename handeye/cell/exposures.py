@@ -45,28 +45,21 @@ def _told(model: mujoco.MjModel) -> dict[int, tuple[float, float]]:
     }
 
 
-APERTURE: Final = 0.008
-"""Radius of the opening, m: of a 50 mm lens at f/3.1."""
-_NEAR, _FAR = 0.1, 14.0
-"""Clipping planes, m."""
-_MIDDLE: Final = 20
-"""The focus is measured in the middle of the picture, 1/20 of its sides to either side."""
+APERTURE: Final = 0.008  # radius of the opening, m: of a 50 mm lens at f/3.1
+_NEAR, _FAR = 0.1, 14.0  # clipping planes, m
+_MIDDLE: Final = 20  # the focus is measured in the middle of the picture, 1/20 of its sides to either side
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lens:
     """A lens that looks from a place, upright in the picture."""
 
-    eye: Array
-    """Its middle in W, m."""
+    eye: Array  # its middle in W, m
     forward: Array
     up: Array
-    slopes: tuple[float, float]
-    """Half the width and half the height of what it sees, over the distance."""
-    size: tuple[int, int]
-    """Points of the picture, width and height."""
-    focus: float = 1.0
-    """Distance at which things are sharp, m."""
+    slopes: tuple[float, float]  # half the width and half the height of what it sees, over the distance
+    size: tuple[int, int]  # points of the picture, width and height
+    focus: float = 1.0  # distance at which things are sharp, m
 
     @classmethod
     def of(cls, scene: mujoco.MjvScene, size: tuple[int, int]) -> Self:
@@ -110,10 +103,8 @@ class Lens:
 
 USUAL: Final = 24
 MOST: Final = 1000
-_SHADOW: Final = 2048
-"""Points along a side of the map of shadows: their edges are averaged."""
-_TURN: Final = np.pi * (3 - np.sqrt(5))
-"""Golden angle: from one point of a spiral to the next."""
+_SHADOW: Final = 2048  # points along a side of the map of shadows: their edges are averaged
+_TURN: Final = np.pi * (3 - np.sqrt(5))  # golden angle: from one point of a spiral to the next
 _SEED: Final = 1
 _LIGHT: Final = ((np.arange(256) / 255) ** GAMMA).astype(np.float32)
 """Light of a point of the screen by its value."""

@@ -13,10 +13,8 @@ from numpy.typing import NDArray
 from handeye.core.pose import Array
 
 Colour = tuple[float, float, float]
-_AWAY: Final = 2.0
-"""Distance of the sky from the middle of the scene, over its size."""
-_GRAZING: Final = 0.2
-"""Least height of a point of the sky, over its distance."""
+_AWAY: Final = 2.0  # distance of the sky from the middle of the scene, over its size
+_GRAZING: Final = 0.2  # least height of a point of the sky, over its distance
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,17 +22,12 @@ class Lighting:
     """A lamp with a disc, and a sky."""
 
     lamp: Colour
-    gloss: float
-    """Share of the lamp that shiny shapes mirror."""
+    gloss: float  # share of the lamp that shiny shapes mirror
     sky: Colour
-    everywhere: Colour
-    """Light that throws no shadow."""
-    stand: tuple[float, float, float]
-    """Where the lamp stands, from the middle of the scene over its size."""
-    radius: float
-    """Radius of the lamp's disc, m."""
-    cutoff: float = 48.0
-    """Half of the angle of the lamp's cone, degrees."""
+    everywhere: Colour  # light that throws no shadow
+    stand: tuple[float, float, float]  # where the lamp stands, from the middle of the scene over its size
+    radius: float  # radius of the lamp's disc, m
+    cutoff: float = 48.0  # half of the angle of the lamp's cone, degrees
 
     def throw(self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array) -> None:
         """Light a scene from points of the lamp's disc (radii, right and up) and of the sky, shape (2,) each.
@@ -74,13 +67,10 @@ def _unit(vector: Array) -> Array:
     return np.asarray(vector / np.linalg.norm(vector))
 
 
-GAMMA: Final = 2.2
-"""Light is the value of a point of the screen to this power."""
+GAMMA: Final = 2.2  # light is the value of a point of the screen to this power
 _SEED: Final = 1973
-_LINES: Final = 960
-"""Height (points) of a picture whose grain is a point wide."""
-_VIGNETTE: Final = 0.11
-"""How much less light falls into the corners."""
+_LINES: Final = 960  # height (points) of a picture whose grain is a point wide
+_VIGNETTE: Final = 0.11  # how much less light falls into the corners
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -132,8 +122,7 @@ def _black_and_white(light: Array) -> Array:
 _PANCHROMATIC: Final = np.array([0.30, 0.55, 0.15])
 """How much a black and white film makes of red, green and blue."""
 _PAPER: Final = np.array([1.0, 0.985, 0.945])
-_GRAIN: Final = 0.016
-"""How much a point differs by the grain, standard deviation."""
+_GRAIN: Final = 0.016  # how much a point differs by the grain, standard deviation
 
 
 def _grain(height: int, width: int) -> Array:

@@ -16,10 +16,8 @@ from handeye.cell.keyframe import body_pose
 from handeye.cell.solids import Solid, SolidScene
 from handeye.core.pose import Array, Pose, inverse, pose
 
-FRAME: Final = "scene"
-"""The node of the world frame, z up."""
-_OUTSIDE: Final = "world"
-"""Name of a file's frame in trimesh."""
+FRAME: Final = "scene"  # the node of the world frame, z up
+_OUTSIDE: Final = "world"  # name of a file's frame in trimesh
 _Y_UP: Final = trimesh.transformations.rotation_matrix(-np.pi / 2, (1.0, 0.0, 0.0))
 _ROUGH: Final = 0.7
 

@@ -25,10 +25,8 @@ class HandState(Record, frozen=True, kw_only=True):
 
     gap: float
     touch: tuple[bool, bool]
-    set_point: float
-    """Set-point of the finger servo, m."""
-    command: tuple[float, float] | None
-    """Gap (m) and grip (N) that it was told."""
+    set_point: float  # of the finger servo, m
+    command: tuple[float, float] | None  # gap (m) and grip (N) that it was told
 
 
 class SimulatedHand(Mechanism[HandState], HandPort):
@@ -64,8 +62,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._fingers = [int(model.jnt_qposadr[finger]) for finger in fingers]
         self._dof = int(model.jnt_dofadr[fingers[0]])
         self._switches = [int(model.sensor(f"{prefix}switch_{side}").adr[0]) for side in "ab"]
-        self._set_point = self.gap
-        """Where the finger servo is to be when the time is over, m as read."""
+        self._set_point = self.gap  # where the finger servo is to be when the time is over, m as read
         self._command: tuple[float, float] | None = None
         self._reading = HandReading(gap=self.gap, touch=(False, False))
         self._act = int(model.actuator_actadr[self._motor])
@@ -187,10 +184,8 @@ class ScrewdriverState(Record, frozen=True, kw_only=True):
     """State of a screwdriver: reading and commanded speed."""
 
     torque: float
-    command: float
-    """rad/s"""
-    magnet: bool = True
-    """The magnet of the bit is on."""
+    command: float  # rad/s
+    magnet: bool = True  # the magnet of the bit is on
 
 
 class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):

@@ -12,10 +12,8 @@ S = TypeVar("S", bound=msgspec.Struct)
 class Mechanism(ABC, Generic[S]):
     """Acts on the simulator before time passes, and may read it afterwards."""
 
-    name: str
-    """By which its state is found."""
-    kind: type[S]
-    """The type of its state."""
+    name: str  # by which its state is found
+    kind: type[S]  # the type of its state
     changes: ClassVar[tuple[str, ...]] = ()
     """Fields of the MuJoCo model that it changes as it runs: they belong to the state of the cell."""
 

@@ -25,8 +25,7 @@ PLATFORMS: Final = (
     ("OSMesa", "mujoco.osmesa", ("libOSMesa.so.8", "libOSMesa.so"), ()),
 )
 """Name, module, and alternatives for the libraries it needs."""
-NEAR, FAR = 0.3, 10.0
-"""Clipping planes, m."""
+NEAR, FAR = 0.3, 10.0  # clipping planes, m
 MOST_GEOMS: Final = 10000
 
 _WIDTH, _HEIGHT = COLUMNS * FINE, ROWS * FINE

@@ -14,14 +14,12 @@ from handeye.core.files import Kind
 
 PNG: Final = Kind("PNG picture", rb"\x89PNG\r\n\x1a\n", ending=".png")
 SMALLEST: Final = 8
-LARGEST: Final = 2048
-"""Points along a side."""
+LARGEST: Final = 2048  # points along a side
 FINE_SHADOW: Final = 4096
 FINE_SAMPLES: Final = 4
 SHOWN: Final = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)
 
-Photograph = NDArray[np.uint8]
-"""Red, green and blue of every point, shape (height, width, 3)."""
+Photograph = NDArray[np.uint8]  # red, green and blue of every point, shape (height, width, 3)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,10 +27,8 @@ class Near:
     """A view of a place from nearby, from the side on which a camera of the scene stands."""
 
     camera: str
-    place: tuple[float, float, float]
-    """W, m"""
-    distance: float
-    """m"""
+    place: tuple[float, float, float]  # W, m
+    distance: float  # m
     turned: float = 0.0
     """How far the eye has gone round the place from there, counterclockwise seen from above, degrees."""
 
@@ -130,10 +126,7 @@ def photograph_png(model: mujoco.MjModel, data: mujoco.MjData, camera: str, widt
 def smooth_photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
 ) -> Photograph:
-    """A photograph that is drawn at twice the size and averaged.
-
-    Raises as `photograph`, and if the size cannot be.
-    """
+    """A photograph that is drawn at twice the size and averaged; raises as `photograph`, and if the size cannot be."""
     check_size(width, height)
     fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
     return np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), dtype=np.uint8)

@@ -78,8 +78,7 @@ class PhysicsStepper:
         return free
 
 
-_NUDGE: Final = 1e-12
-"""rad/s, m/s: a velocity that is not zero wakes a tree."""
+_NUDGE: Final = 1e-12  # rad/s, m/s: a velocity that is not zero wakes a tree
 _POLICY: Final = {
     True: int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED),
     False: int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER),

@@ -45,8 +45,7 @@ def _turned(model: mujoco.MjModel, name: str, turns: Array) -> Array:
     return np.column_stack([np.tile(body.pos, (len(turns), 1)), *turned])
 
 
-Posed = tuple[mujoco.MjModel, mujoco.MjData]
-"""A scene as it stands."""
+Posed = tuple[mujoco.MjModel, mujoco.MjData]  # a scene as it stands
 
 
 def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: float = 0.0) -> Posed:

@@ -25,8 +25,7 @@ class Raster:
     """How far a corner is drawn inwards in the picture, over its distance from the middle."""
     lines: float = 0.0
     """How far the middle of each line is off, over half its length, where its ends are right."""
-    field: float = 0.0
-    """The same down the picture."""
+    field: float = 0.0  # the same down the picture
 
     def read(self, light: NDArray[np.float32], shift: Array) -> NDArray[np.float32]:
         """The light that the beam meets, shape (256, 333), in a picture that lies `shift` = (columns, rows) off."""

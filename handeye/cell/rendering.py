@@ -20,10 +20,8 @@ from handeye.core.pose import Array
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.vision.camera_model import View
 
-FINE: Final = 2
-"""Samples for a picture point, along the line and across it."""
-LUMA: Final = np.array([0.299, 0.587, 0.114])
-"""Weights of red, green and blue in luminance, ITU-R BT.601."""
+FINE: Final = 2  # samples for a picture point, along the line and across it
+LUMA: Final = np.array([0.299, 0.587, 0.114])  # weights of red, green and blue in luminance, ITU-R BT.601
 SHOWN: Final = np.array([1, 0, 1, 0, 0, 1], dtype=np.uint8)
 """Geom groups the camera sees: the ground and the parts, and 5, which people leave out; not 1, scenery for people."""
 
@@ -38,8 +36,7 @@ class SceneRenderer(ABC):
         """Light on the target, shape (256, 333); `data` must be up to date on geoms and lights."""
 
 
-RendererMaker = Callable[[mujoco.MjModel], SceneRenderer]
-"""Makes the renderer of a scene."""
+RendererMaker = Callable[[mujoco.MjModel], SceneRenderer]  # makes the renderer of a scene
 
 
 def averaged(fine: Array | Luminance) -> Luminance:
@@ -48,8 +45,7 @@ def averaged(fine: Array | Luminance) -> Luminance:
     return np.asarray(lines.reshape(ROWS, COLUMNS, FINE).sum(axis=2) / FINE**2, dtype=np.float32)
 
 
-_SHOWN: Final = 60
-"""Characters of what is no picture: it may be long."""
+_SHOWN: Final = 60  # characters of what is no picture: it may be long
 
 
 class PictureMaker(Protocol):

@@ -36,19 +36,15 @@ class Converters:
         return np.where(self._there, np.rint(values / self._divisors) * self._steps, values)
 
 
-_NUMBER: Final = 8
-"""Bytes of a number."""
-_BRIGHTEST: Final = 15
-"""Intensity of a point."""
+_NUMBER: Final = 8  # bytes of a number
+_BRIGHTEST: Final = 15  # intensity of a point
 
 
 class DefectState(Record, frozen=True, kw_only=True):
     """State of a defect."""
 
-    seconds: float | None = None
-    """Since it set in; None: it has not."""
-    first: bytes | None = None
-    """Value on its line then, a number or the points of a picture; None: none yet."""
+    seconds: float | None = None  # since it set in; None: it has not
+    first: bytes | None = None  # value on its line then, a number or the points of a picture; None: none yet
 
 
 class SignalLinesState(Record, frozen=True, kw_only=True):
@@ -134,5 +130,4 @@ class SignalLines(Mechanism[SignalLinesState]):
         self._states = list(state.defects)
 
 
-SOUND: Final = SignalLines()
-"""Lines on which nothing is broken."""
+SOUND: Final = SignalLines()  # lines on which nothing is broken

@@ -46,10 +46,8 @@ class SimulatedCell(Clock, SnapshotCell):
         `mechanisms` act on the model in order: threads, more arms. `noise` is drawn from by all sensors but the camera.
         Raises ValueError if two devices or mechanisms have one name, by which their states are found.
         """
-        self.arm = arm
-        """The experimenter may push it."""
-        self.lines = lines
-        """Lines of its devices, with what is broken on them."""
+        self.arm = arm  # the experimenter may push it
+        self.lines = lines  # lines of its devices, with what is broken on them
         devices = (arm, hand, screwdriver, lamp)
         parts: tuple[Mechanism[Any], ...] = (
             *((lines,) if lines.defects else ()),

@@ -17,8 +17,7 @@ from handeye.cell.looks import BOX, CYLINDER, MESH, SCENERY, SEEN, SPHERE
 from handeye.cell.mjcf import mesh_of
 from handeye.core.pose import Array, Pose, pose
 
-SIDES: Final = 64
-"""Sides of the prism that stands for a cylinder."""
+SIDES: Final = 64  # sides of the prism that stands for a cylinder
 _RGB: Final = int(mujoco.mjtTextureRole.mjTEXROLE_RGB)
 
 
@@ -26,12 +25,9 @@ _RGB: Final = int(mujoco.mjtTextureRole.mjTEXROLE_RGB)
 class Solid:
     """A solid of a body."""
 
-    name: str
-    """None other in its body has it."""
-    mesh: str | None
-    """Name of its shape, which other solids may have too."""
-    shape: trimesh.Trimesh
-    """In its own frame, m."""
+    name: str  # no other in its body has it
+    mesh: str | None  # name of its shape, which other solids may have too
+    shape: trimesh.Trimesh  # in its own frame, m
     X_BS: Pose
     colours: Array
     """Red, green, blue and opacity on a screen: of each corner, shape (n, 4), or of the whole solid, shape (4,)."""
@@ -118,10 +114,8 @@ class Weighed:
     """A body of solid metal, weighed by its volume."""
 
     body: str
-    mass: float
-    """By volume and density, kg."""
-    mass_there: float
-    """In the scene, kg."""
+    mass: float  # by volume and density, kg
+    mass_there: float  # in the scene, kg
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,10 +123,8 @@ class SolidScene:
     """Bodies of a scene with their solids."""
 
     spec: mujoco.MjSpec
-    model: mujoco.MjModel
-    """The specification, compiled."""
-    bodies: Mapping[str, tuple[Solid, ...]]
-    """By the names of bodies, as in the scene."""
+    model: mujoco.MjModel  # the specification, compiled
+    bodies: Mapping[str, tuple[Solid, ...]]  # by the names of bodies, as in the scene
 
     @classmethod
     def of(cls, spec: mujoco.MjSpec, wanted: Collection[str] | None) -> Self:

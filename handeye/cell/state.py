@@ -17,12 +17,9 @@ V = TypeVar("V", bound=Array | Sequence[float])
 class CellState(Record, frozen=True, kw_only=True):
     """All that a cell's future depends on, besides its world and what is put out to it."""
 
-    physics: Array
-    """MuJoCo's integration state; it begins with the time."""
-    figures: dict[str, Array]
-    """The fields of the model that the mechanisms of the cell change, as numbers."""
-    noise: str
-    """State of the sensors' generator, as JSON."""
+    physics: Array  # MuJoCo's integration state; it begins with the time
+    figures: dict[str, Array]  # the fields of the model that the mechanisms of the cell change, as numbers
+    noise: str  # state of the sensors' generator, as JSON
     mechanisms: dict[str, dict[str, Any]]
     """The state of each device and mechanism by its name; each checks its own before it is used."""
 
@@ -38,18 +35,12 @@ def noise_state(rng: np.random.Generator) -> str:
 
 
 def set_noise(rng: np.random.Generator, state: str) -> None:
-    """Put a generator into a state.
-
-    Raises what `json.loads` and numpy raise if it is not one.
-    """
+    """Put a generator into a state; raises what `json.loads` and numpy raise if it is not one."""
     rng.bit_generator.state = json.loads(state)
 
 
 def check_noise(state: str) -> None:
-    """See that a generator can be put into a state.
-
-    Raises as `set_noise` if it cannot.
-    """
+    """See that a generator can be put into a state; raises as `set_noise` if it cannot."""
     set_noise(np.random.Generator(np.random.PCG64(0)), state)
 
 

@@ -59,12 +59,9 @@ Number = Annotated[int, msgspec.Meta(ge=0)]
 class Thread(Record, frozen=True, kw_only=True):
     """State of one tapped hole."""
 
-    screw: Number | None = None
-    """The screw in it."""
-    crossed: bool = False
-    """It has cut a thread of its own."""
-    scarred: bool = False
-    """A screw has been crossed in it, now or before."""
+    screw: Number | None = None  # the screw in it
+    crossed: bool = False  # it has cut a thread of its own
+    scarred: bool = False  # a screw has been crossed in it, now or before
     clamp: float = 0.0
     """Force of the head on the part beneath, N, smoothed over a few ticks, when it was last turned."""
 
@@ -72,10 +69,8 @@ class Thread(Record, frozen=True, kw_only=True):
 class ThreadsState(Record, frozen=True, kw_only=True):
     """States of all holes."""
 
-    holes: tuple[Thread, ...]
-    """In the order of the carriers."""
-    driven: Number
-    """The hole whose carrier the driver's motor is coupled to."""
+    holes: tuple[Thread, ...]  # in the order of the carriers
+    driven: Number  # the hole whose carrier the driver's motor is coupled to
 
 
 class Driver(Protocol):
@@ -94,13 +89,10 @@ class Driver(Protocol):
 class ThreadFigures:
     """How threads and screws were made; holes and screws are numbered from 0."""
 
-    phases: tuple[float, ...]
-    """Where the thread of each hole starts, rad."""
+    phases: tuple[float, ...]  # where the thread of each hole starts, rad
     friction: float = THREAD_FRICTION
-    scarred: Set[int] = frozenset()
-    """Holes in which a screw has been crossed before."""
-    crossing: Set[int] = frozenset()
-    """Holes in which every screw crosses."""
+    scarred: Set[int] = frozenset()  # holes in which a screw has been crossed before
+    crossing: Set[int] = frozenset()  # holes in which every screw crosses
     slipping: Set[int] = frozenset()
     """Screws on which the bit slips; no thread takes one, also if something else than the bit turns it a little."""
 

@@ -17,10 +17,8 @@ from handeye.cell.mechanism import Mechanism
 class Drawn:
     """Drawn state of a scene, before anything happened in it."""
 
-    groups: NDArray[np.int32]
-    """Group of each shape."""
-    colours: NDArray[np.float32]
-    """Red, green, blue and alpha of each material, shape (n, 4)."""
+    groups: NDArray[np.int32]  # group of each shape
+    colours: NDArray[np.float32]  # red, green, blue and alpha of each material, shape (n, 4)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -33,8 +33,7 @@ class Vidicon:
 
     def __init__(self, rng: np.random.Generator) -> None:
         self._rng = rng
-        self.gain: float | None = None
-        """The target voltage of the last picture; None before the first."""
+        self.gain: float | None = None  # the target voltage of the last picture; None before the first
 
     def expose(self, light: Luminance, *, disc: float = 0.0, hold_target: bool = False) -> Picture:
         """Digitise light that is out of focus by a disc of a diameter (points); the gain may be held."""

@@ -89,5 +89,4 @@ class ExecutionContext:
 
 Action = Callable[[ExecutionContext, Any], Fault | None]
 """Carries out an operation and returns the error it raises."""
-Decision = Callable[[ExecutionContext, Any], bool]
-"""True if the step takes its branch."""
+Decision = Callable[[ExecutionContext, Any], bool]  # True if the step takes its branch

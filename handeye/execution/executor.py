@@ -34,8 +34,7 @@ from handeye.program.events import (
 from handeye.program.operation import Device, Operation
 from handeye.program.program import Program, Step
 
-_CALLED: Final[dict[Device, str]] = {"camera": "television camera"}
-"""Names of devices for people."""
+_CALLED: Final[dict[Device, str]] = {"camera": "television camera"}  # names of devices for people
 
 
 def check_devices(program: Program, cell: Workcell) -> None:
@@ -48,8 +47,7 @@ def check_devices(program: Program, cell: Workcell) -> None:
             raise Refused(f"line {step.place} needs a {called}, which this cell does not have")
 
 
-IDLE_LIMIT: Final = 10_000
-"""Steps without time passing after which the program counts as looping."""
+IDLE_LIMIT: Final = 10_000  # steps without time passing after which the program counts as looping
 
 ACTIONS: Final[dict[type[Operation], Action]] = MOTION_ACTIONS | HAND_ACTIONS | VISION_ACTIONS | FLOW_ACTIONS
 

@@ -24,8 +24,7 @@ from handeye.program.operation import Operation
 from handeye.touch.centring import Centring
 from handeye.touch.senses import FREE_OPENING, GAP_ERROR, at_least, at_most, followed, least_gap, stood_still
 
-_SHUT: Final = -0.02
-"""Gap set-point, m, beyond any closed gap: the fingers press with full force."""
+_SHUT: Final = -0.02  # gap set-point, m, beyond any closed gap: the fingers press with full force
 
 
 def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:

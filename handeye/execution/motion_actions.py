@@ -38,8 +38,7 @@ from handeye.program.operation import Operation
 from handeye.touch.guards import monitor
 from handeye.touch.senses import STARTING_TORQUE
 
-PLAN_TOLERANCE: Final = 1e-4
-"""A goal or start within this (m, rad) of its planned value is run as planned."""
+PLAN_TOLERANCE: Final = 1e-4  # a goal or start within this (m, rad) of its planned value is run as planned
 
 
 def move(run: ExecutionContext, operation: Move) -> Fault | None:

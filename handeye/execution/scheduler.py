@@ -18,8 +18,7 @@ from handeye.ports.clock import Clock
 
 Time = TypeVar("Time", int, Fraction)
 T = TypeVar("T")
-_FINEST: Final = 1_000_000
-"""Largest denominator of a duration, s, that is given in floating point."""
+_FINEST: Final = 1_000_000  # largest denominator of a duration, s, that is given in floating point
 _ROUNDING_S: Final = 1e-12
 
 
@@ -28,12 +27,10 @@ class Until:
     """Wait for a condition, which is looked at whenever another task has done something or time has passed."""
 
     met: Callable[[], bool]
-    name: str
-    """The condition in words, for a deadlock: `flag 2`."""
+    name: str  # the condition in words, for a deadlock: `flag 2`
 
 
-Wait = float | Fraction | Until
-"""A duration in s (`microseconds` makes exact ones), or a condition."""
+Wait = float | Fraction | Until  # a duration in s (`microseconds` makes exact ones), or a condition
 Task = Generator[Wait, None, T]
 
 

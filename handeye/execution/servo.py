@@ -28,16 +28,14 @@ from handeye.touch.guards import ActiveGuard, Reading
 class ServoPeriod:
     """Readings, torques, felt force and guards of a servo period."""
 
-    sensed: Sensed
-    """Readings of all devices at its end."""
+    sensed: Sensed  # readings of all devices at its end
     effort: Array
     """Torques put out in it, shape (n,), N m (N if prismatic); zero under the brakes and where servos are closed
     outside the computer."""
     wrench: Array | None = None
     """Force (N) of the hand on the world and moment (N m) about its tool centre point in W, shape (6,), as estimated,
     or the force alone, shape (3,), by a sensor; None: not estimated, or only for the tare."""
-    guards: tuple[ActiveGuard, ...] = ()
-    """Guards that watch at its end."""
+    guards: tuple[ActiveGuard, ...] = ()  # guards that watch at its end
 
 
 T = TypeVar("T")
@@ -55,14 +53,10 @@ class Servo:
 
     cell: Workcell
     arm: ArmModel
-    state: DriveState
-    """Its state: set-points, load and felt wrench."""
-    watch: Callable[[ServoPeriod], None] = lambda _: None
-    """Called after every servo period."""
-    halt: Callable[[], bool] = lambda: False
-    """The panic button, asked at every servo period."""
-    track: Track = field(default_factory=Track)
-    """Notes what is put out and felt, for whoever undoes it."""
+    state: DriveState  # its state: set-points, load and felt wrench
+    watch: Callable[[ServoPeriod], None] = lambda _: None  # called after every servo period
+    halt: Callable[[], bool] = lambda: False  # the panic button, asked at every servo period
+    track: Track = field(default_factory=Track)  # notes what is put out and felt, for whoever undoes it
 
     @property
     def period(self) -> float:

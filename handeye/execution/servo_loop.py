@@ -46,12 +46,9 @@ PRESS_TIME = 10.0
 class Outcome:
     """Outcome of a motion."""
 
-    trip: Trip | None = None
-    """The guard that ended it."""
-    error: int | None = None
-    """An error of the motion itself (servo lag, watchdog)."""
-    cause: Cause | None = None
-    """Cause of that error, if there is more to say of it."""
+    trip: Trip | None = None  # the guard that ended it
+    error: int | None = None  # an error of the motion itself (servo lag, watchdog)
+    cause: Cause | None = None  # cause of that error, if there is more to say of it
     off: float = 0.0
     """Distance of the hand from its set-points in the middle of the way, m, if it is too far from the last."""
 

@@ -43,8 +43,7 @@ class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
     tool: float = 0.0  # screwdriver speed before, rad/s
     force: float = 0.0  # greatest force felt, N; 0: none was estimated
     ended: GuardKind | None = None  # the guard that ended it
-    risen: float = 0.0
-    """Rise of the hand, m, while its screw was being turned out, if that was interrupted."""
+    risen: float = 0.0  # rise of the hand, m, while its screw was being turned out, if that was interrupted
     remembered: dict[str, bytes] = msgspec.field(default_factory=dict)
     """Memory before it, where it has changed; see `undo.memory`."""
     enters: bool = False  # first of its stage
@@ -138,8 +137,7 @@ class DriveState(MutableRecord, kw_only=True):
     met: Array | None = None  # hand set-point in W (m) where a guard ended the last motion
     rest: Array | None = None
     """Potentiometers at rest under the brakes; None while the arm moves or is driven."""
-    crept: Array | None = None
-    """Their change until it was driven again; None once a motion has checked it."""
+    crept: Array | None = None  # their change until it was driven again; None once a motion has checked it
     in_air: bool = False  # the last motion was a MOVE without contact
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))
@@ -182,8 +180,7 @@ class ExecutionState(SystemState, kw_only=True):
     general: dict[str, GeneralLocation] = msgspec.field(default_factory=dict)
     found: dict[str, VisionResult] = msgspec.field(default_factory=dict)  # by picture
     world: WorldState = msgspec.field(default_factory=WorldState)
-    faint: list[str] = msgspec.field(default_factory=list)
-    """Statements whose guards were reported as faint."""
+    faint: list[str] = msgspec.field(default_factory=list)  # statements whose guards were reported as faint
     done: list[ExecutedStep] = msgspec.field(default_factory=list)
     """Executed steps that are not reversed, in order."""
     undoing: Undoing | None = None  # the reversal in progress

@@ -9,8 +9,7 @@ import msgspec
 from handeye.core.plain_text import one_line
 from handeye.program.program import Step
 
-Pair = tuple[int | None, int | None]
-"""Numbers of a step before and after; None if it was added or removed."""
+Pair = tuple[int | None, int | None]  # numbers of a step before and after; None if it was added or removed
 
 
 def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:

@@ -16,10 +16,8 @@ from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.program.operation import Branch
 from handeye.program.program import Part, Position, Program, Step
 
-_TOLERANCE_M: Final = 1e-9
-"""m; smaller shifts are rounding."""
-_LEAST_TURN: Final = 1e-6
-"""rad; the precision of an arc cosine near 1."""
+_TOLERANCE_M: Final = 1e-9  # m; smaller shifts are rounding
+_LEAST_TURN: Final = 1e-6  # rad; the precision of an arc cosine near 1
 
 
 class PlaceChange(Record, frozen=True, kw_only=True):
@@ -71,8 +69,7 @@ def _pose(place: Position | Part) -> Pose:
     return planar(*place.at) if isinstance(place, Part) else hand(*place.at)
 
 
-_ALIKE = 1e-9
-"""m, rad or s; smaller differences of motions are rounding."""
+_ALIKE = 1e-9  # m, rad or s; smaller differences of motions are rounding
 
 
 class MotionChange(Record, frozen=True, kw_only=True):
@@ -84,8 +81,7 @@ class MotionChange(Record, frozen=True, kw_only=True):
     """The joint, from 1, whose end has moved farthest in terms of time; None if ends agree, or the arms differ."""
     name: str = ""
     kind: Literal["revolute", "prismatic"] | None = None
-    moved: float = 0.0
-    """Displacement of that joint's end, rad or m."""
+    moved: float = 0.0  # displacement of that joint's end, rad or m
 
 
 class StepChange(Record, frozen=True, kw_only=True):

@@ -19,8 +19,7 @@ from handeye.program.program import Program
 Measured = Literal["part", "position", "difference", "search"]
 Key = tuple[Measured, str]
 _MEASURED: Final[tuple[Measured, ...]] = get_args(Measured)
-Newest = dict[Key, frozenset[int]]
-"""Steps that may have made each measurement last."""
+Newest = dict[Key, frozenset[int]]  # steps that may have made each measurement last
 
 
 class Dependence(Record, frozen=True, kw_only=True):
@@ -99,32 +98,21 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     """A step, by its number in the plan."""
 
     step: int
-    file: str = ""
-    """The required file of its line; empty: the script itself."""
+    file: str = ""  # the required file of its line; empty: the script itself
     line: int
     text: str
     """Its statement. `conditions` (`STOP`, `FORCE`) and `depends` (`RESTORE`) say what modifies it."""
-    operation: str
-    """Name on disk."""
-    seconds: float | None
-    """Planned duration of its motion; None if it has none."""
-    guards: Guards
-    """Guards that end it, SI."""
-    press: Vector3 | None
-    """Force it exerts, N, table coordinates."""
-    conditions: tuple[str, ...]
-    """What ends it and the force it exerts, in words and units of the language."""
+    operation: str  # name on disk
+    seconds: float | None  # planned duration of its motion; None if it has none
+    guards: Guards  # guards that end it, SI
+    press: Vector3 | None  # force it exerts, N, table coordinates
+    conditions: tuple[str, ...]  # what ends it and the force it exerts, in words and units of the language
     depends: tuple[Dependence, ...]
-    error: int | None
-    """The error it tests for."""
-    raised: int | None
-    """The step that follows if that error was raised."""
-    counter: str | None = None
-    """The counter it counts down."""
-    positive: int | None = None
-    """The step that follows while the counter is positive."""
-    next: int | None
-    """The step that follows otherwise; None ends the program."""
+    error: int | None  # the error it tests for
+    raised: int | None  # the step that follows if that error was raised
+    counter: str | None = None  # the counter it counts down
+    positive: int | None = None  # the step that follows while the counter is positive
+    next: int | None  # the step that follows otherwise; None ends the program
 
 
 class InspectedStage(Record, frozen=True, kw_only=True):
@@ -132,8 +120,7 @@ class InspectedStage(Record, frozen=True, kw_only=True):
 
     number: int
     name: str
-    seconds: float
-    """Planned motion, each step counted once."""
+    seconds: float  # planned motion, each step counted once
     steps: tuple[InspectedStep, ...]
 
 
@@ -143,11 +130,9 @@ class Inspection(Record, frozen=True, kw_only=True):
     name: str
     version: int
     arm: str
-    speed: float
-    """Speed of free motions as a share of the arm's limits."""
+    speed: float  # speed of free motions as a share of the arm's limits
     motions: int
-    seconds: float
-    """Planned motion, each step counted once: a search that fails takes longer."""
+    seconds: float  # planned motion, each step counted once: a search that fails takes longer
     stages: tuple[InspectedStage, ...]
 
 

@@ -15,8 +15,7 @@ from handeye.program.operations import AnyOperation
 
 FINGERS = {1: "finger 1", 2: "finger 2", 3: "either finger"}
 """Fingers by switch mask; 1 is the one on the hand's +y side."""
-_ON_AXIS = 1e-9
-"""Relative size of other components below which a direction lies on an axis."""
+_ON_AXIS = 1e-9  # relative size of other components below which a direction lies on an axis
 
 
 def figure(value: float) -> str:

@@ -23,25 +23,16 @@ if TYPE_CHECKING:
 class HandlingLimits:
     """How fast an arm may move what it holds, and what its finger may feel. Tuples have a number for each axis."""
 
-    acceleration: tuple[float, ...]
-    """m/s2 and rad/s2."""
-    guarded_speed: tuple[float, ...]
-    """m/s and rad/s of a guarded move."""
-    settling: float
-    """s that the servos are given behind a move."""
-    standing: tuple[float, ...]
-    """m and rad that an axis may be from its goal while it stands."""
-    lag: float
-    """s that an axis may lag behind its goal while it moves."""
-    open: float
-    """m between the fingers, as `closed`: the goals of an open and of a closed hand."""
+    acceleration: tuple[float, ...]  # m/s2 and rad/s2
+    guarded_speed: tuple[float, ...]  # m/s and rad/s of a guarded move
+    settling: float  # s that the servos are given behind a move
+    standing: tuple[float, ...]  # m and rad that an axis may be from its goal while it stands
+    lag: float  # s that an axis may lag behind its goal while it moves
+    open: float  # goal of an open hand, m between the fingers, as `closed`
     closed: float
-    grasping: float
-    """s that the hand is given behind its goal."""
-    carried: float
-    """N upwards on the finger when something else carries what it holds."""
-    resistance: float
-    """N on the finger that are an obstacle on a way back."""
+    grasping: float  # s that the hand is given behind its goal
+    carried: float  # N upwards on the finger when something else carries what it holds
+    resistance: float  # N on the finger that are an obstacle on a way back
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,16 +40,12 @@ class ArmMachine:
     """An arm with axes, a hand, and a finger that feels force."""
 
     name: str
-    scene_file: str
-    """Its scene, below the folder of scenes."""
-    period: float
-    """s between two goals that its controller takes."""
+    scene_file: str  # below the folder of scenes
+    period: float  # s between two goals that its controller takes
     axes: tuple[AxisSpec, ...]
     hand: AxisSpec
-    force: Channel
-    """Force that the finger exerts, N, shape (3,)."""
-    force_sensor: str
-    """The sensor of the scene that shows it."""
+    force: Channel  # force that the finger exerts, N, shape (3,)
+    force_sensor: str  # the sensor of the scene that shows it
     limits: HandlingLimits
 
     @property

@@ -51,8 +51,7 @@ The pump's free motions deviate as much from the straight descent: the screwdriv
 rack.
 """
 
-SAME: Final = 1e-6
-"""Depths closer than this are equal, m: of equal ones the first counts, on every processor."""
+SAME: Final = 1e-6  # depths closer than this are equal, m: of equal ones the first counts, on every processor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

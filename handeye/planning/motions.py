@@ -18,8 +18,7 @@ from handeye.program.motion_operations import Change, Move, Turn
 
 CLEARANCE: Final = 3.0 * INCH
 """Departure and approach height; "a few inches" in 1972, three by recollection (reference D10)."""
-LEAST_CLEARANCE: Final = 0.5 * INCH
-"""Minimum, for near places: a motion rises no higher than it goes far."""
+LEAST_CLEARANCE: Final = 0.5 * INCH  # minimum, for near places: a motion rises no higher than it goes far
 GUARDED_SPEED: Final = 1.0 * INCH
 """m/s of a straight motion that makes contact; at 1 in/s a 50 oz stop overshoots by a few newtons."""
 FREE_SPEED: Final = 2.0 * INCH  # m/s of a straight motion otherwise

@@ -16,27 +16,21 @@ class AxisSpec:
 
     name: str
     kind: Literal["revolute", "prismatic"]
-    lower: float
-    """rad or m, as `upper`."""
+    lower: float  # rad or m, as `upper`
     upper: float
-    speed: float
-    """Greatest, rad/s or m/s."""
+    speed: float  # greatest, rad/s or m/s
     force: float | None = None
     """Greatest force (N) or torque (N m) of its servo, as the grip of a hand; None: more than is ever needed."""
-    holds: bool = False
-    """Stays where it is when the power is off, by a brake or a gear that locks itself."""
+    holds: bool = False  # stays where it is when the power is off, by a brake or a gear that locks itself
 
 
 class Channel(Record, frozen=True, kw_only=True):
     """A quantity that a device senses."""
 
     name: str
-    unit: str = ""
-    """SI; empty: a switch or a count."""
-    width: int = 1
-    """Components of its values; three are called x, y and z."""
-    latched: bool = False
-    """Once it differs from zero it stays as it was then, until it is cleared."""
+    unit: str = ""  # SI; empty: a switch or a count
+    width: int = 1  # components of its values; three are called x, y and z
+    latched: bool = False  # once it differs from zero it stays as it was then, until it is cleared
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -51,19 +45,15 @@ class Channel(Record, frozen=True, kw_only=True):
 class AxesReading:
     """Readings of a machine of n axes."""
 
-    time: float
-    """s on the cell's clock."""
-    q: Array
-    """Positions of the axes, shape (n,), rad or m."""
-    channels: Mapping[str, float]
-    """Everything else that the machine senses, SI, by `Channel.parts`."""
+    time: float  # s on the cell's clock
+    q: Array  # positions of the axes, shape (n,), rad or m
+    channels: Mapping[str, float]  # everything else that the machine senses, SI, by `Channel.parts`
 
 
 class Axes(ABC):
     """A machine whose axes go to their goals by themselves."""
 
-    name: str
-    """Name of the machine, unlike that of any other under the same clock."""
+    name: str  # name of the machine, unlike that of any other under the same clock
 
     @property
     @abstractmethod

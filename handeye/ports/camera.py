@@ -13,25 +13,21 @@ ROWS: Final = 256
 RASTER: Final = (0.0128, 0.0096)
 """Width and height of the raster on a one-inch vidicon, m. Inferred; the points are not square."""
 
-WIDE: Final = 0.025
+WIDE: Final = 0.025  # focal length of a lens of the turret, m, as CLOSE_UP
 CLOSE_UP: Final = 0.050
-"""Focal lengths, m, of the lenses of the turret."""
 LENSES: Final = (WIDE, CLOSE_UP)
 FIRST_LENS: Final = CLOSE_UP
 """The lens that is in place when the cell is switched on: as the last look of a run leaves it."""
 
-DIGITISE: Final = 0.5
-"""s for a picture: the layout study, 6."""
+DIGITISE: Final = 0.5  # s for a picture: the layout study, 6
 
-Picture = NDArray[np.uint8]
-"""A digitised television picture: ROWS by COLUMNS of intensities 0..15."""
+Picture = NDArray[np.uint8]  # a digitised television picture: ROWS by COLUMNS of intensities 0..15
 
 
 class Renderer(Record, frozen=True, kw_only=True):
     """Method by which pictures are made; two methods, or two platforms, need not give the same picture."""
 
-    method: Literal["opengl", "rays", "none", "replaced"]
-    """`replaced`: by code of whoever began the run."""
+    method: Literal["opengl", "rays", "none", "replaced"]  # `replaced`: by code of whoever began the run
     platform: str = ""
     """Library that draws for OpenGL: `EGL`, `OSMesa`, ...; name of the code that replaces it."""
 

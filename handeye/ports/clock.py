@@ -7,12 +7,10 @@ from typing import Final
 
 from handeye.core.errors import BadArgument
 
-LONGEST: Final = 86400.0
-"""s that may pass at once: a day, far longer than any job."""
+LONGEST: Final = 86400.0  # s that may pass at once: a day, far longer than any job
 _ROUNDING: Final = 1e-6
 """Share of a step by which a period may miss a whole number of steps: what floating-point numbers lose."""
-_DIGITS: Final = ".12g"
-"""Digits of a period in a message, so that what is written there can be typed."""
+_DIGITS: Final = ".12g"  # digits of a period in a message, so that what is written there can be typed
 
 
 class Clock(ABC):

@@ -48,8 +48,7 @@ class LampPort(ABC):
 class HandReading:
     """Readings of a hand."""
 
-    gap: float
-    """Opening between the finger tips by the hand's potentiometer, m."""
+    gap: float  # opening between the finger tips by the hand's potentiometer, m
     touch: tuple[bool, bool]
     """The microswitch inside each finger: (finger on the +y side of the hand frame, finger on the -y side)."""
 
@@ -73,12 +72,9 @@ class HandPort(ABC):
 class ArmReading:
     """Readings of an arm of n joints."""
 
-    q: Array
-    """Joint positions by the potentiometers, shape (n,), rad or m, calibration error included."""
-    qd: Array
-    """Joint rates by the tachometers, shape (n,)."""
-    braked: bool
-    """Brakes set, drives off."""
+    q: Array  # joint positions by the potentiometers, shape (n,), rad or m, calibration error included
+    qd: Array  # joint rates by the tachometers, shape (n,)
+    braked: bool  # brakes set, drives off
 
 
 class ArmPort(ABC):
@@ -106,18 +102,12 @@ class Sensed:
     """All readings at the end of a servo period; of devices that the cell does not have, zero and False."""
 
     time: float
-    q: Array
-    """As `ArmReading.q`, shape (n,)."""
-    qd: Array
-    """As `ArmReading.qd`, shape (n,)."""
-    gap: float = 0.0
-    """As `HandReading.gap`, m."""
-    touch: tuple[bool, bool] = (False, False)
-    """As `HandReading.touch`."""
-    tool_torque: float = 0.0
-    """As `ScrewdriverPort.torque`, N m."""
-    braked: bool = False
-    """As `ArmReading.braked`."""
+    q: Array  # as `ArmReading.q`, shape (n,)
+    qd: Array  # as `ArmReading.qd`, shape (n,)
+    gap: float = 0.0  # as `HandReading.gap`, m
+    touch: tuple[bool, bool] = (False, False)  # as `HandReading.touch`
+    tool_torque: float = 0.0  # as `ScrewdriverPort.torque`, N m
+    braked: bool = False  # as `ArmReading.braked`
     channels: Mapping[Channel, tuple[float, ...]] = field(default_factory=dict)
     """Values of everything else that machines sense."""
 

@@ -14,8 +14,7 @@ from handeye.core.pose import Array
 from handeye.ports.camera import Picture
 
 MAX_SHIFT: Final = 4  # points, along lines and across
-CHANGED: Final = 3.0
-"""Difference in levels above which two points count as changed, and no more."""
+CHANGED: Final = 3.0  # difference in levels above which two points count as changed, and no more
 AREA: Final = 11  # side of a square, points
 QUIET: Final = 1.2  # mean difference in it, levels, up to which nothing has changed
 CLEAR: Final = 15  # side of a square, points, clear of changes and of soft shadow edges
@@ -95,10 +94,8 @@ def moved(picture: Levels, by: Array) -> Levels:
     )
 
 
-LEVEL: Final = 3.0
-"""Least mean difference over 3 x 3 points: six times its noise."""
-RADIUS: Final = 10
-"""Points about the peak that count to its centre: the lamp seen near, with the 50 mm lens."""
+LEVEL: Final = 3.0  # least mean difference over 3 x 3 points: six times its noise
+RADIUS: Final = 10  # points about the peak that count to its centre: the lamp seen near, with the 50 mm lens
 
 
 def find_spot(dark_picture: Picture, lit_picture: Picture) -> tuple[float, float] | None:

@@ -33,12 +33,10 @@ from handeye.vision.scan import Scan
 
 TURNS: Final = np.linspace(-40, 40, 9) * DEGREE
 WIDTHS: Final = (0.8, 1.2)
-HEIGHTS: Final = (0.75, 1.25)
-"""Accepted box size, over the range the model gives for all TURNS."""
+HEIGHTS: Final = (0.75, 1.25)  # accepted box size, over the range the model gives for all TURNS
 # All figures above: vision study, section 1.2.
 
-Rectangle = tuple[float, float, float, float]
-"""x, y from, x, y to, part coordinates, m."""
+Rectangle = tuple[float, float, float, float]  # x, y from, x, y to, part coordinates, m
 
 
 def fitting(view: View, part: Part) -> Callable[[BoundingBox], bool]:

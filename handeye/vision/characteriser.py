@@ -89,8 +89,7 @@ class Blob(NamedTuple):
 
     u: float
     v: float
-    width: float
-    """Length of the last chord along the lines."""
+    width: float  # length of the last chord along the lines
     height: float
     bounces: int
 

@@ -13,8 +13,7 @@ from handeye.vision.marks import Disc, Line, Loop, Mark, Point
 Image = NDArray[np.uint8]  # blue, green, red, (height, width, 3)
 
 SCALE: Final = 3
-MAX_COORDINATE: Final = 10_000.0
-"""Limit on coordinates of marks, in picture points."""
+MAX_COORDINATE: Final = 10_000.0  # limit on coordinates of marks, in picture points
 
 
 def annotate(picture: Picture, marks: Sequence[Mark], scale: int = SCALE) -> Image:

@@ -31,10 +31,8 @@ from handeye.vision.characteriser import characterise, fit_circle, rim
 from handeye.vision.hole_search import hole_places
 from handeye.vision.scan import Scan
 
-ABSENT: Final = 2.2
-"""Mean difference, levels, below which there is no gasket."""
-STEP: Final = (1.8, 0.3)
-"""Least step across a border of the gasket: levels, and fraction of its difference."""
+ABSENT: Final = 2.2  # mean difference, levels, below which there is no gasket
+STEP: Final = (1.8, 0.3)  # least step across a border of the gasket: levels, and fraction of its difference
 CENTRE_SHIFT: Final = 0.09 * INCH
 RIM_SHIFT: Final = 0.10 * INCH
 """Most that centre and rim may be off, m. These four: vision study, section 4."""
@@ -42,8 +40,7 @@ BESIDE: Final = 0.3 * INCH  # from a hole's border to where the difference is me
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
 """In the picture before: fraction of the contrast that is a border, and of the face's level that is face."""
-ROUNDS: Final = 2
-"""Searches for the base's largest hole, each starting from the one before."""
+ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the one before
 RAYS: Final = 32
 WINDOW: Final = 9
 """Neighbouring rays whose median counts: a quarter of the rim, wider than an aligning pin hides."""
@@ -61,8 +58,7 @@ class GasketInspection:
     cause: InspectionCause | None  # None: it is on properly
     expected: tuple[tuple[float, float], ...]  # by the base's pose, corrected by its largest hole
     found: tuple[tuple[float, float] | None, ...]  # in the difference
-    shift: float | None
-    """Greatest displacement of a hole's border, m; None if no border is found."""
+    shift: float | None  # greatest displacement of a hole's border, m; None if no border is found
 
     @property
     def ok(self) -> bool:

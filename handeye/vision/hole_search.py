@@ -17,8 +17,7 @@ from handeye.vision.scan import Scan
 
 SIZE_ERROR: Final = 0.22
 RATIO_ERROR: Final = 0.16
-DISTANCE_ERROR: Final = 0.16
-"""Relative, of the distance between the two holes."""
+DISTANCE_ERROR: Final = 0.16  # relative, of the distance between the two holes
 TURN: Final = 50 * DEGREE  # of the line of centres against plan, rad
 # All figures above: vision study, section 1.3.
 
@@ -98,14 +97,12 @@ def wrapped(angle: float) -> float:
 
 
 ELONGATION: Final = (0.6, 1.65)
-SIZES: Final = (0.55, 1.3)
-"""Accepted sizes, over the diameters of the smallest and the largest hole."""
+SIZES: Final = (0.55, 1.3)  # accepted sizes, over the diameters of the smallest and the largest hole
 SEED: Final = 4  # points inside the border where bouncing starts
 
 # All figures above: vision study, sections 1.2 and 1.3.
 
-INNER: Final = 0.25
-"""Start of beams to a hole's border, over its smaller width: half-way to it."""
+INNER: Final = 0.25  # start of beams to a hole's border, over its smaller width: half-way to it
 ANGLES: Final = np.linspace(-TURN, TURN, 7)
 """Angles of beams from the largest hole to the second about its planned direction; no hole fits between two."""
 BEFORE: Final = 0.35 * INCH

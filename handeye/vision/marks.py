@@ -41,8 +41,7 @@ GREEN: Final = (60, 200, 90)
 BLUE: Final = (40, 110, 255)
 BOLD: Final = 2 / 3
 THIN: Final = 1 / 3
-ARM: Final = 4.0
-"""Arm length of a cross, and diameter of a disc, in points."""
+ARM: Final = 4.0  # arm length of a cross, and diameter of a disc, in points
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from handeye.core.pose import Array
 
 Places = NDArray[np.intp]  # indices of points, line by line
-MARGIN: Final = 1
-"""Border points that no beam enters, so that it can be three points wide."""
+MARGIN: Final = 1  # border points that no beam enters, so that it can be three points wide
 
 
 class Scan:

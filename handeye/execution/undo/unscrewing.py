@@ -19,15 +19,12 @@ from handeye.touch.guards import ActiveGuard, FirstOf, Reading, Trip
 
 SPEED: Final = 1.5
 """Over the speed of driving in: a motor that stalls at its speed's torque must give the loosening one."""
-PRESS: Final = 6.0
-"""N on the screw to keep the bit in its slot, as for driving in."""
+PRESS: Final = 6.0  # N on the screw to keep the bit in its slot, as for driving in
 TURN: Final = 0.00127 * 1.5
 """m: a turn and a half of the thread, by which the rise may be less than the descent: its start is not felt."""
-QUIET: Final = 20
-"""Servo periods without rising that show the end; a thread lifts a screw by 3 mm in as many."""
+QUIET: Final = 20  # servo periods without rising that show the end; a thread lifts a screw by 3 mm in as many
 RISING: Final = 2e-4  # m that count as risen
-PATIENCE: Final = 120
-"""Servo periods within which a screw must begin to rise."""
+PATIENCE: Final = 120  # servo periods within which a screw must begin to rise
 
 
 LOWER: Final = 0.002
