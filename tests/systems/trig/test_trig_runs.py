@@ -10,7 +10,8 @@ from trig_bench import low_job, low_script, low_setup
 
 import handeye
 from handeye.core.errors import InvalidInput, Refused
-from handeye.core.variation import WorldSpec
+from handeye.core.faults import Fault
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.stepper import Stepper
@@ -122,10 +123,10 @@ def test_a_loop_is_listed_as_it_is_typed_and_told_with_its_round() -> None:
 
 def test_its_tables_and_plots_name_units_and_axes(whole: Path) -> None:
     trace = read_trace(whole / TRACE)
-    joints, forces, events = tables(trace)
+    joints, forces, events = (table for table in tables(trace) if table.name != "channels")
     assert [c.unit for c in joints.columns if c.name.endswith("_rate")] == [*3 * ["m/s"], *3 * ["rad/s"]]
     assert forces.about.endswith("; the hand's own axes.")
-    assert [panel.unit for panel in plot(trace).panels] == ["deg", "mm", "N"]
+    assert [panel.unit for panel in plot(trace).panels] == ["deg", "mm", "N", "N"]  # force, and its channel
     said = next(c for c in events.columns if c.name == "said").values
     assert "the hand is at (-0.3, 0.5, 60.2) mm, open 48.0 mm" in said
 
@@ -248,10 +249,14 @@ def test_the_script_of_a_job_touches_no_file_on_the_bench_either(
     assert not [*tmp_path.iterdir()]
 
 
-def test_worlds_that_are_drawn_otherwise_than_by_a_seed_are_refused() -> None:
+def test_worlds_with_what_the_bench_does_not_have_are_refused() -> None:
     setup: Setup = low_setup(0, seed=1).setup
-    with pytest.raises(InvalidInput):
-        system_of(setup).check(msgspec.structs.replace(setup, world=WorldSpec(seed=1, level="high")))
+    for world in (
+        WorldSpec(seed=1, overrides=Overrides(without=("camera",))),
+        WorldSpec(seed=1, faults=(Fault(name="camera.dark"),)),
+    ):
+        with pytest.raises(InvalidInput, match=r"^(the world has no quantity|there is no fault) `camera"):
+            system_of(setup).check(msgspec.structs.replace(setup, world=world))
 
 
 @pytest.mark.parametrize(
