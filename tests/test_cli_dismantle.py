@@ -9,7 +9,7 @@ from conftest import Command
 from report_pages import tree
 from short_runs import begin
 
-from handeye.cli import runs as cli_runs
+from handeye.cli import programs
 from handeye.core.resources import plans
 from handeye.judge.finding import at_most
 from handeye.runs.checkpoint_file import decode, encode, read_checkpoint
@@ -207,7 +207,7 @@ def short_pump(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     script = tmp_path / "short.al"
     script.write_text(TAKE, encoding="utf-8")
     (tmp_path / "short.toml").write_bytes((plans() / "water_pump.toml").read_bytes())
-    monkeypatch.setattr(cli_runs, "default_script", lambda: script)
+    monkeypatch.setattr(programs, "default_script", lambda _: script)
     monkeypatch.setattr(WaterPump, "judge", lambda self, truth: {"pin": at_most(0.0, 1.0, "mm", "pin")})
 
 

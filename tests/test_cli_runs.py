@@ -555,7 +555,7 @@ def test_times_are_shown_and_typed_as_since_the_camera_was_calibrated(
     begin = RunningPlan.begin
 
     def later(system: RunningPlan) -> Sequence[AnyEvent]:
-        system.run.drive.brake(2.0)  # stands for the calibration
+        system.context.drive.brake(2.0)  # stands for the calibration
         return begin(system)
 
     monkeypatch.setattr(RunningPlan, "begin", later)
