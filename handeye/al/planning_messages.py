@@ -23,11 +23,13 @@ from handeye.program.diagnosis.reach import (
     InLine,
     InnerCylinder,
     JointLimit,
+    NamedArm,
     OutOfReach,
     TooFast,
     TooNear,
+    named,
+    reach_sentence,
 )
-from handeye.program.diagnosis.reach_text import NamedArm, named, reach_sentence
 from handeye.program.program import Program, SourcePlace, Step
 
 RIDDLE: Final = (

@@ -31,14 +31,13 @@ from handeye.results.outcome import outcome
 from handeye.results.pauses import pause_sentence
 from handeye.results.pictures import annotated_webp
 from handeye.results.result import Result
-from handeye.runs.advance import Pause
+from handeye.runs.advance import AfterSteps, AnyStop, AtStage, DriverFailure, Pause
 from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
 from handeye.runs.exported_state import present_state
 from handeye.runs.folder import TRACE, RunFolder
 from handeye.runs.host_seconds import Meter
 from handeye.runs.operator import Operator, attend, beginnings
 from handeye.runs.setup import plan_of
-from handeye.runs.stops import AfterSteps, AnyStop, AtStage, DriverFailure
 from handeye.runs.undo_orders import stage_began
 from handeye.trace.reading import read_trace_as
 

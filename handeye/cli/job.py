@@ -30,7 +30,7 @@ from handeye.results.judging import findings
 from handeye.results.page import page
 from handeye.results.progress import Progress
 from handeye.results.result import Result, to_json
-from handeye.runs.advance import Pause
+from handeye.runs.advance import AnyStop, Pause
 from handeye.runs.checkpoint_store import CheckpointStore, leave
 from handeye.runs.folder import PICTURES, REPORT, RunFolder, open_new
 from handeye.runs.host_seconds import Meter
@@ -39,7 +39,6 @@ from handeye.runs.operator import Operator, attend, parse_policy
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AnyStop
 from handeye.runs.systems import listing_of
 from handeye.tasks import option
 

@@ -13,8 +13,8 @@ from handeye.core.errors import BadArgument, CannotWrite
 from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
+    from handeye.runs.advance import AnyStop
     from handeye.runs.snapshot import Checkpoint
-    from handeye.runs.stops import AnyStop
     from handeye.runs.system import Listing
 
 Then = Literal["dismantle", "assemble"]
@@ -294,7 +294,7 @@ def _check_live(live: bool, step: bool) -> None:
 def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
     """Stops at which a run ends; breakpoints are only parsed, so that a wrong one is refused before anything moves."""
     from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
-    from handeye.runs.stops import AfterStage, BeforeStep
+    from handeye.runs.advance import AfterStage, BeforeStep
 
     for text in breaks:
         breakpoint(text, listing)
@@ -322,7 +322,7 @@ def _check_order(listing: "Listing", first: str | None, last: str | None) -> Non
 def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
     """Note breaks that lie behind where a run begins; raises Refused if the step to stop at does."""
     from handeye.debugger.breakpoints import breakpoint, is_ahead
-    from handeye.runs.stops import BeforeStep
+    from handeye.runs.advance import BeforeStep
     from handeye.runs.systems import listing_of
 
     for stop in stops:

@@ -52,7 +52,7 @@ class SweepOptions:
 
     def check(self) -> None:
         """Raises InvalidInput if what is wanted cannot be left when the trials have ended."""
-        from handeye.trace.table_files import check_tables
+        from handeye.trace.tables import check_tables
         from handeye.trials.page import PAGE
         from handeye.trials.tables import ROWS as TABLE
 
@@ -143,7 +143,7 @@ def _tell(
     more: Mapping[str, object],
 ) -> None:
     """Leave page and tables, and tell the figures."""
-    from handeye.trace.table_files import csv_bytes, write_tables
+    from handeye.trace.tables import csv_bytes, write_tables
     from handeye.trials.page import PAGE, sweep_page
     from handeye.trials.tables import ROWS as TABLE
     from handeye.trials.tables import tables, trials

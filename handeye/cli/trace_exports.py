@@ -14,7 +14,7 @@ from handeye.core.files import check_place, write_over
 from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
-    from handeye.trace.table_files import Format
+    from handeye.trace.tables import Format
 
 Folder = Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write.")]
 Overwrite = Annotated[bool, Parameter(help="Replace the tables that are in the folder.")]
@@ -66,7 +66,7 @@ def parquet(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) 
 
 
 def _exported(run: Path, output: Path, kind: "Format", *, overwrite: bool) -> int:
-    from handeye.trace.table_files import export_tables
+    from handeye.trace.tables import export_tables
 
     written = export_tables(output, lambda: read_recorded(run).trace, kind, overwrite=overwrite)
     said = ", ".join(f"{table.name} ({counted(table.rows, 'row')})" for table in written)

@@ -107,7 +107,7 @@ def _teach(file: Path, port: int, world: WorldOptions, fault: Faults, camera: st
     """Let positions be taught in a browser; raises InvalidInput if a file or an option cannot be used, or the port
     cannot be had.
     """
-    from handeye.debugger.pace import Pace
+    from handeye.debugger.live import Pace
     from handeye.teaching.teach_commands import TeachSession
     from handeye.view.link import Link
     from handeye.view.server import Server

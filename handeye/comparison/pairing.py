@@ -15,7 +15,7 @@ from handeye.program.events import StepStarted, UndoStarted
 from handeye.report.recorded import RecordedRun
 from handeye.runs.system import Listing, StepFacts
 from handeye.runs.systems import system_named
-from handeye.trace.steps import DoneStep, done_steps
+from handeye.trace.stages import DoneStep, done_steps
 
 
 class Place(Record, frozen=True, kw_only=True):

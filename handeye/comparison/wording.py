@@ -13,7 +13,7 @@ from handeye.core.units import DEGREE, UNITS, Measures
 from handeye.program.events import AnyEvent, StepStarted
 from handeye.program.guards import GuardKind
 from handeye.report.facts.outcome import Kind
-from handeye.trace.quantity_text import quantity_text, values_text
+from handeye.trace.quantities import quantity_text, values_text
 from handeye.trace.sentences import inches, sentence
 
 _CAME_TO: Final[dict[Kind, str]] = {

@@ -2,19 +2,26 @@
 
 import os
 from collections.abc import Iterable
+from operator import index
 from pathlib import Path
+from typing import SupportsIndex
 
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument
-from handeye.core.whole_numbers import whole
+
+
+def whole(given: object) -> int | None:
+    """The argument as a plain whole number; None if it is none, as for True and False."""
+    if isinstance(given, bool) or not isinstance(given, SupportsIndex):
+        return None
+    try:
+        return index(given)
+    except TypeError:  # an array that is not one number alone
+        return None
 
 
 def given_file(given: object, what: str) -> Path:
-    """The path that a file or folder was given by.
-
-    Args:
-        what: what can be given, as the beginning of a sentence.
-    """
+    """The path of a file or folder that a caller gave; `what` begins the sentence of a refusal."""
     if not isinstance(given, (str, os.PathLike)):
         raise BadArgument(f"{what}, not {given!r}")
     name = os.fspath(given)

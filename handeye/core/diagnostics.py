@@ -40,8 +40,7 @@ class MissingMark(Record, frozen=True):
     mark: str
 
 
-Meant = SimilarName | KnownNames | MissingMark
-"""What was probably meant, for a program that mends it."""
+Meant = SimilarName | KnownNames | MissingMark  # what was probably meant, for a program that mends it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -13,7 +13,7 @@ over an unusable file, and for a run that broke down; each carries one clear sen
     │   │   ├── Taken             one of its kind is there, and may not be replaced
     │   │   └── HoldsRun          a folder that holds a run (runs.folder)
     │   ├── Refused               understood, but this machine, system or state does not do it
-    │   │   └── MissingExtra      a package of an extra is not installed (core.extras)
+    │   │   └── MissingExtra      a package of an extra is not installed
     │   └── ScriptError           a script has errors: the diagnostics are with it (api)
     ├── PhysicsFailed             the simulation of a work cell broke down
     ├── CalibrationFailed         the camera could not be calibrated
@@ -119,3 +119,13 @@ ERRORS: Final[dict[int, str]] = {
 }
 """Error numbers a script can test, with what the operator is told. 2 and 23 are the period's. From 50 on it is a
 sense that is not to be believed."""
+
+
+class MissingExtra(Refused):
+    """A package of an extra is not installed."""
+
+    def __init__(self, command: str, package: str, extra: str) -> None:
+        super().__init__(
+            f"`{command}` needs {package}, which is not installed: `pip install {package}` brings it, and so does the "
+            f"extra `{extra}` of handeye"
+        )

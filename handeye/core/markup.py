@@ -7,13 +7,11 @@ from typing import Final
 
 from handeye.core.plain_text import printable
 
-VOID: Final = {"img", "input", "meta"}
-"""Elements of HTML without content."""
+VOID: Final = {"img", "input", "meta"}  # elements of HTML without content
 SHAPES: Final = {"circle", "line", "path", "polygon", "rect"}
 """Elements of drawings without content, which have to say so."""
 
-Content = str | float | None
-"""Markup, text, a number, or nothing."""
+Content = str | float | None  # markup, text, a number, or nothing
 
 
 class Markup(str):

@@ -9,8 +9,7 @@ from handeye.core.pose import Array, Pose
 Box = tuple[float, float, float, float, float, float]
 """Opposite corners in its own frame, m: x, y, z from, then x, y, z to."""
 
-_PARALLEL = 1e-6
-"""Sine below which two edges count as parallel and their cross product gives no axis."""
+_PARALLEL = 1e-6  # sine below which two edges count as parallel and their cross product gives no axis
 
 
 def middles(boxes: Sequence[Box]) -> Array:
@@ -33,12 +32,9 @@ def lowest(X_WA: Pose, boxes: Sequence[Box]) -> Array:
 
 
 def depths(X_BA: Pose, boxes: Sequence[Box], others: Sequence[Box]) -> Array:
-    """Penetration depths of boxes of frame A in others, each with its own frame B.
+    """Penetration depths (N, n, m), in m, of n boxes of frame A in m others, each with its own frame B; 0 if apart.
 
-    Args:
-        X_BA: shape (N, m, 4, 4), for the m others.
-    Returns:
-        shape (N, n, m), m; 0 where they are apart.
+    `X_BA` has shape (N, m, 4, 4).
     """
     a, b = halves(boxes), halves(others)
     R = X_BA[..., :3, :3]
@@ -55,9 +51,8 @@ def _oblique(R: Array, gap: Array, a: Array, b: Array) -> Array:
     """Overlap (m) of K pairs of boxes along the axes of the first and the cross products of their edges.
 
     Args:
-        R: orientation of the first in the second's frame, shape (K, 3, 3).
-        gap: from the second's centre to the first's, shape (K, 3).
-        a, b: half lengths, shape (K, 3).
+        R: orientation of the first in the second's frame, (K, 3, 3).
+        gap: from the second's centre to the first's, (K, 3); `a` and `b` are half lengths, (K, 3).
     """
     own = np.swapaxes(R, -1, -2)
     crossed = np.cross(np.eye(3)[None, :, None], own[:, None]).reshape(-1, 9, 3)

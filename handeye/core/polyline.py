@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from handeye.core.pose import Array
 
-_LEAST: Final = 1e-9
-"""Least norm of an interpolated quaternion: halfway to its opposite it would be zero."""
+_LEAST: Final = 1e-9  # least norm of an interpolated quaternion: halfway to its opposite it would be zero
 
 Rows = NDArray[np.int64]
 Off = Callable[[Rows, Rows, Rows], Array]
@@ -55,13 +54,10 @@ def off_values(values: Array, at: Array, allowed: Array) -> Off:
 
 
 def off_poses(poses: Array, at: Array, *, place: float, turn: float) -> Off:
-    """Deviation of poses.
+    """Deviation of poses over what is allowed: `place` (m) and `turn` (rad).
 
-    Args:
-        poses: position (m), then unit quaternion w, x, y, z, continuous in sign, shape (n, 7).
-        at: parameter of each row, shape (n,), as its time.
-        place: allowed, m.
-        turn: allowed, rad.
+    `poses` are positions (m), then unit quaternions w, x, y, z, continuous in sign, (n, 7); `at` is the time of each
+    row, or another parameter.
     """
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:

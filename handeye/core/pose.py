@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-Pose = NDArray[np.float64]
-"""A homogeneous matrix, shape (4, 4), lengths in metres."""
+Pose = NDArray[np.float64]  # a homogeneous matrix, shape (4, 4), lengths in metres
 
 UPRIGHT = math.radians(2)
 """Within this (rad) of straight down, all turn about the vertical is O, and T is zero."""

@@ -1,12 +1,14 @@
-"""Finds the folders shipped with the package: `scenes`, `plans` and `demo`."""
+"""Finds the folders shipped with the package, `scenes`, `plans` and `demo`, and the user's cache folder."""
 
+import os
+import sys
 from pathlib import Path
+from typing import Final
 
 from handeye.core.errors import BadFile
 
 _PACKAGE = Path(__file__).resolve().parents[1]
-_ROOTS = (_PACKAGE / "_data", _PACKAGE.parent)
-"""In an installed wheel, and in a checkout of the repository."""
+_ROOTS = (_PACKAGE / "_data", _PACKAGE.parent)  # in an installed wheel, and in a checkout of the repository
 
 
 def folder(name: str) -> Path:
@@ -30,3 +32,27 @@ def plans() -> Path:
 def demo() -> Path:
     """A recorded run of the water pump: a thinned trace, its result, and a picture of its end."""
     return folder("demo")
+
+
+VARIABLE: Final = "HANDEYE_CACHE"  # environment variable for another cache folder; empty disables caching
+
+
+def cache_folder() -> Path | None:
+    """The cache folder, which need not exist; None if caching is off or the user has no home."""
+    named = os.environ.get(VARIABLE)
+    if named is not None:
+        return Path(named).absolute() if named else None
+    try:
+        return _of_the_platform()
+    except RuntimeError:  # nobody knows where the home is
+        return None
+
+
+def _of_the_platform() -> Path:
+    if sys.platform == "win32":
+        local = os.environ.get("LOCALAPPDATA")
+        return (Path(local) if local else Path.home() / "AppData" / "Local") / "handeye" / "Cache"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches" / "handeye"
+    named = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    return (named if named.is_absolute() else Path.home() / ".cache") / "handeye"

@@ -48,8 +48,7 @@ UNITS: Final = {
         Unit("%", "ratio", PERCENT),
         Unit("", "ratio", 1.0),
     )
-}
-"""Units by name; the last is that of a plain number."""
+}  # units by name; the last is that of a plain number
 
 
 class Measures(Record, frozen=True, kw_only=True):

@@ -16,6 +16,7 @@ from zlib import crc32
 import msgspec
 import numpy as np
 
+from handeye.core.arguments import whole
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.distributions import Distribution
 from handeye.core.errors import BadArgument, NoSuchName, Refused
@@ -23,7 +24,6 @@ from handeye.core.faults import Fault
 from handeye.core.random_streams import random_numbers
 from handeye.core.record import Record
 from handeye.core.units import UNITS, Unit
-from handeye.core.whole_numbers import whole
 
 DRAWING: Final = 4  # version of the drawing: raised when equal seeds give other worlds
 

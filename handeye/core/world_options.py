@@ -33,11 +33,9 @@ class Measured(Protocol):
 
 
 def overrides(variation: Variation, without: Iterable[str], settings: Iterable[str]) -> Overrides:
-    """Overrides from options; raises BadArgument.
+    """Overrides from options: names to put at their nominal values, and `NAME=VALUE`; raises BadArgument.
 
-    Args:
-        without: quantities and groups to put at their nominal values.
-        settings: `NAME=VALUE` for a quantity or all of a group; the later of two for one quantity counts.
+    A name is that of a quantity or a group; the later of two settings for one quantity counts.
     """
     off = sorted(set(without))
     for name in off:
@@ -88,8 +86,7 @@ def _limits(quantity: Measured) -> str:
     return f"; it can be {low:g} to {high:g}{unit}"
 
 
-StageNumber = Callable[[str], int]
-"""Returns the number, from 1, of a stage as written; raises NoSuchName."""
+StageNumber = Callable[[str], int]  # returns the number, from 1, of a stage as written; raises NoSuchName
 
 
 def faults(catalogue: Catalogue, texts: Iterable[str], stage: StageNumber) -> tuple[Fault, ...]:

@@ -25,8 +25,7 @@ class Ask:
     """Asks in words; the end of input means `abort`."""
 
     lines: Iterator[str]
-    write: Callable[[str], None]
-    """Puts out lines of text; the end of the last one is not in them."""
+    write: Callable[[str], None]  # puts out lines of text; the end of the last one is not in them
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         """The operator's choice."""

@@ -11,8 +11,8 @@ from handeye.core.source import line_name
 from handeye.debugger.listing import Place, named_place
 from handeye.program.graph import reachable
 from handeye.program.stage_names import stage_called, stage_index
+from handeye.runs.advance import AnyStop, AtInstruction, AtLabel, AtLine, AtStage, AtSteps, OnError
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AnyStop, AtInstruction, AtLabel, AtLine, AtStage, AtSteps, OnError
 from handeye.runs.system import Listing
 from handeye.runs.systems import listing_of
 
@@ -21,13 +21,10 @@ _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", r
 
 
 def breakpoint(text: str, listing: Listing) -> AnyStop:
-    """Read a breakpoint.
+    """The breakpoint in a text; raises InvalidInput if there is no such place, or no step can raise such an error.
 
-    Raises InvalidInput if there is nothing of that name, more than one stage, or an error that no step can raise.
-
-    Args:
-        text: `error:23`; a line of the source, or `pins.al:3` (its first step, or the first after it); a label; an
-            instruction word (every step that begins with it); a stage, by its name or a piece of it.
+    It is `error:23`; a line of the source, or `pins.al:3` (its first step, or the first after it); a label; an
+    instruction word (every step that begins with it); or a stage, by its name or a piece of it.
     """
     text = text.strip()
     if not text:

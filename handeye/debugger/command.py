@@ -17,14 +17,10 @@ class Command(Generic[Act]):
     usage: str
     act: Act
     help: str
-    group: str = ""
-    """Heading that it stands under."""
-    short: str = ""
-    """Another word for it."""
-    repeats: bool = False
-    """An empty line after it repeats it."""
-    meanwhile: bool = False
-    """It is allowed while the run goes, too."""
+    group: str = ""  # its heading in help
+    short: str = ""  # its abbreviation
+    repeats: bool = False  # an empty line after it repeats it
+    meanwhile: bool = False  # also allowed while the run goes
 
     @property
     def name(self) -> str:

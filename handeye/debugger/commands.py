@@ -3,6 +3,7 @@
 What each does stands beside it in the table of commands.
 """
 
+import math
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -14,19 +15,18 @@ from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, CannotWrite, NoSuchName, Refused
 from handeye.core.files import check_place
 from handeye.core.plain_text import counted
-from handeye.debugger import experiments
-from handeye.debugger.breakpoints import breakpoint
+from handeye.debugger.breakpoints import breakpoint, meant
 from handeye.debugger.listing import named_place, text_of
-from handeye.debugger.pace import factor
+from handeye.debugger.live import factor
 from handeye.debugger.reply import Break, CommandResult
 from handeye.debugger.session import DebugSession
 from handeye.debugger.views import show, write_picture
 from handeye.program.events import Choice
 from handeye.results.pauses import pause_sentence
-from handeye.runs.advance import Pause
+from handeye.runs.advance import AfterStage, AfterSteps, Pause
 from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
-from handeye.runs.runner import reach
-from handeye.runs.stops import AfterStage, AfterSteps
+from handeye.runs.runner import Runner, reach
+from handeye.runs.system import Settable
 
 LISTED_AROUND: Final = 8  # lines that `list` shows before and after one
 
@@ -171,7 +171,7 @@ def picture(session: DebugSession, rest: str) -> CommandResult:
 
 
 def experiment(session: DebugSession, rest: str) -> CommandResult:
-    experiments.experiment(session.runner, rest)
+    _set(session.runner, rest)
     return CommandResult()
 
 
@@ -238,3 +238,49 @@ def leave(session: DebugSession, _: str) -> CommandResult:
     if path is None:
         return CommandResult(said="nothing was saved")
     return CommandResult(file=str(path), said=f"saved to {path}")
+
+
+MAX_NUMBER: Final = 1000.0
+
+
+def _set(runner: Runner, text: str) -> None:
+    """Set something: its kind, its name and numbers, as in `saved H 0 0 .1`. Raises InvalidInput if the system has no
+    such thing, or these are not the numbers for it."""
+    kind, _, rest = text.strip().partition(" ")
+    settables = runner.system.settables()
+    settable = settables.get(kind.casefold())
+    if settable is None:
+        known = " or ".join(f"`set {name} {each.usage}`" for name, each in settables.items())
+        raise BadArgument(f"an _set is {known}" if known else "nothing can be set in this run")
+    if runner.trouble is not None:
+        raise Refused("no _set is possible here; go back first")
+    name, numbers = _read(rest, settable, kind.casefold())
+    values = tuple(number * unit for number, unit in zip(numbers, settable.units, strict=False))
+    runner.experiment(kind.casefold(), name, values + settable.present(name)[len(values) :])
+
+
+def _read(text: str, settable: Settable, kind: str) -> tuple[str, list[float]]:
+    """The name and the numbers, brackets and commas left out."""
+    name, *words = re.sub(r"[\[\](),]", " ", text).split() or [""]
+    if not name or len(words) not in (settable.fewest, len(settable.units)):
+        raise BadArgument(f"write an _set as `set {kind} {settable.usage}`")
+    numbers = [_number(word) for word in words]
+    return _known(name, settable), numbers
+
+
+def _number(word: str) -> float:
+    try:
+        value = float(word)
+    except ValueError:
+        value = math.nan
+    if not abs(value) <= MAX_NUMBER:
+        raise BadArgument(f"{quoted(word)} is not a number from {-MAX_NUMBER:g} to {MAX_NUMBER:g}")
+    return value
+
+
+def _known(name: str, settable: Settable) -> str:
+    """The name as the program has it."""
+    for choice in (name, name.upper()):
+        if choice in settable.names:
+            return choice
+    raise NoSuchName(f"the program has no {settable.noun} {quoted(name)}{meant(name, settable.names)}")

@@ -9,8 +9,7 @@ from msgspec import UNSET
 from handeye.core.plain_text import counted, one_line
 from handeye.core.source import line_name
 from handeye.debugger.listing import excerpt_lines
-from handeye.debugger.reply import CommandResult, Reply
-from handeye.debugger.step_summary import StepSummary
+from handeye.debugger.reply import CommandResult, Reply, StepSummary
 from handeye.debugger.view_records import (
     PartPose,
     PartShown,
@@ -165,5 +164,4 @@ _LINES: Final[dict[str, Callable[[Any], Sequence[str]]]] = {
     "positions": _positions,
     "tasks": _tasks,
     "state": lambda state: [f"{name} {value}" for name, value in state.items()],
-}
-"""Lines of text of each field; its title is its name without the unit."""
+}  # lines of text of each field; its title is its name without the unit

@@ -13,8 +13,7 @@ from handeye.core.source import Source, line_name
 from handeye.debugger.view_records import TaskView
 from handeye.runs.system import Listing
 
-Place = tuple[str, int]
-"""A required file, or the script itself if that is empty, and a line of it."""
+Place = tuple[str, int]  # a required file, or the script itself if that is empty, and a line of it
 _PLACE: Final = re.compile(r"(?:(?P<file>[^:]+):)?(?P<line>[0-9]{1,9})")
 
 
@@ -22,8 +21,7 @@ class ListedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
     """A step, by its number in the plan."""
 
     step: int
-    file: str = ""
-    """The required file its line is in; empty: the script itself."""
+    file: str = ""  # the required file its line is in; empty: the script itself
     line: int
     text: str
 
@@ -33,8 +31,7 @@ class ListedStage(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     number: int
     name: str
-    file: str = ""
-    """The required file it begins in; empty: the script itself."""
+    file: str = ""  # the required file it begins in; empty: the script itself
     lines: tuple[int, int] | None
     """First and last line of its steps there, those of macros only if it has no others; None if it has no steps."""
     steps: tuple[ListedStep, ...]
@@ -46,10 +43,8 @@ class SourceLine(Record, frozen=True, kw_only=True, omit_defaults=True):
     file: str = ""
     line: int
     text: str
-    here: bool
-    """The run stands at it."""
-    tasks: tuple[str, ...] = ()
-    """Tasks that stand at it, of a system that has several."""
+    here: bool  # the run stands at it
+    tasks: tuple[str, ...] = ()  # tasks that stand at it, of a system that has several
 
 
 def listing(program: Listing) -> tuple[ListedStage, ...]:

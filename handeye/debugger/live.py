@@ -1,19 +1,76 @@
-"""A run while it goes: its steps are printed as they begin, and lines typed meanwhile are answered at once."""
+"""A run while it goes: its pace, its steps printed as they begin, lines typed meanwhile answered at once."""
 
+import re
+import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import msgspec
 
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadArgument
 from handeye.core.plain_text import one_line
 from handeye.debugger.formatting import told_row
-from handeye.debugger.reply import UnderWay
-from handeye.debugger.step_summary import StepSummary, step_summaries
+from handeye.debugger.reply import StepSummary, UnderWay, step_summaries
 from handeye.execution.servo import ServoPeriod
 from handeye.program.events import AnyEvent, StepStarted
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
+
+FREE: Final = "free"  # as fast as it goes
+SLOWEST: Final = 0.25
+FASTEST: Final = 100.0
+_LATE_S: Final = (
+    0.1  # up to which a run catches up; one that is later, as after a picture, goes on from there
+)
+
+
+@dataclass(slots=True, eq=False)
+class Pace(Observer):
+    """Keeps a run from going faster than `factor` times the wall clock."""
+
+    factor: float | None = None  # simulated seconds per second; None: as fast as it goes
+    clock: Callable[[], float] = time.monotonic
+    sleep: Callable[[float], None] = time.sleep
+    _kept: tuple[float, float, float] | None = field(default=None, init=False)
+    """The factor that is kept, and since when by the wall clock and by the cell's, s."""
+
+    def __str__(self) -> str:
+        if self.factor is None:
+            return "as fast as it goes"
+        return "as fast as the clock" if self.factor == 1 else f"{self.factor:g} times as fast as the clock"
+
+    def tick(self, period: ServoPeriod) -> None:
+        if self.factor is None:
+            self._kept = None
+        else:
+            self._keep(self.factor, period.sensed.time)
+
+    def _keep(self, factor: float, time: float) -> None:
+        """Wait until a time of the cell has come."""
+        now = self.clock()
+        if self._kept is None or self._kept[0] != factor or time < self._kept[2]:
+            self._kept = factor, now, time
+        _, since, begun = self._kept
+        early = since + (time - begun) / factor - now
+        if early > 0:
+            self.sleep(early)
+        elif early < -_LATE_S:
+            self._kept = factor, now, time
+
+
+def factor(text: str) -> float | None:
+    """Read a pace: `1x`, `4x`, `.5x`, or `free`, which is None; raises InvalidInput if it is none."""
+    if text.casefold() == FREE:
+        return None
+    number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())
+    if number is None or not SLOWEST <= float(number[1]) <= FASTEST:
+        raise BadArgument(
+            f"pace takes `1x`, `4x`, another number from {SLOWEST:g}x to {FASTEST:g}x, or `{FREE}`, not {quoted(text)}"
+        )
+    return float(number[1])
+
 
 _OUTCOME_INDENT: Final = 8  # columns, where it has a line of its own
 
@@ -22,12 +79,9 @@ _OUTCOME_INDENT: Final = 8  # columns, where it has a line of its own
 class Live:
     """The terminal of a run while it goes."""
 
-    typed: Callable[[], str | None]
-    """A line that was typed already; None: there is none."""
-    put: Callable[[str], None]
-    """Puts out a piece of a line."""
+    typed: Callable[[], str | None]  # a line that was typed already; None: there is none
+    put: Callable[[str], None]  # puts out a piece of a line
     width: int
-    """Columns of a line."""
 
 
 @dataclass(slots=True, eq=False)
@@ -67,15 +121,11 @@ class LiveText(Observer):
     """Prints each step as it begins, and its outcome when the next begins, on the same line where there is room."""
 
     runner: Runner
-    write: Callable[[str], None]
-    """Puts out a line, without its end."""
-    put: Callable[[str], None]
-    """Puts out a piece of a line."""
+    write: Callable[[str], None]  # puts out a line, without its end
+    put: Callable[[str], None]  # puts out a piece of a line
     width: int
-    told: int = 0
-    """Events printed so far."""
-    _open: str = ""
-    """Text of a line that has not ended."""
+    told: int = 0  # events printed so far
+    _open: str = ""  # text of a line that has not ended
 
     def begin(self) -> None:
         """Print what happens from now on."""

@@ -1,14 +1,97 @@
-"""Answer of the stepper to a command, as one plain record: programs read it as JSON, people as text."""
+"""The stepper's reply to a command, a record for programs and people, with a summary of each step that was done."""
+
+from collections.abc import Iterable, Sequence
+from typing import Final
 
 from msgspec import UNSET, UnsetType
 
+from handeye.core.plain_text import one_line
 from handeye.core.record import Record
+from handeye.core.units import Measures
 from handeye.debugger.listing import SourceLine
-from handeye.debugger.step_summary import StepSummary
 from handeye.debugger.view_records import Shown, TaskView
+from handeye.program import events as happened
 from handeye.program.events import AnyEvent
-from handeye.runs.advance import Pause
-from handeye.runs.stops import AnyStop
+from handeye.runs.advance import AnyStop, Pause
+from handeye.runs.system import Listing
+from handeye.trace.sentences import sentence
+
+_BETWEEN: Final = (
+    happened.StageStarted,
+    happened.OperatorAnswered,
+    happened.ExperimentMade,
+    happened.LineTyped,
+    happened.UndoOrdered,
+)  # events between two steps
+_SILENT: Final = (happened.StepStarted, happened.StepFinished, happened.CameraBusy)
+"""Events in a step that are summarized differently, or not at all."""
+
+
+class StepSummary(Record, frozen=True, kw_only=True):
+    """A step that was done, or something else between two steps."""
+
+    line: int | None  # line of the source; None between steps
+    file: str = ""  # the required file that line is in; empty: the script itself
+    text: str
+    outcome: str
+
+
+def step_summaries(
+    events: Iterable[AnyEvent], program: Listing, measures: Measures
+) -> tuple[StepSummary, ...]:
+    """Summarize some events, whole steps."""
+    groups: list[list[AnyEvent]] = [[]]
+    for event in events:
+        if isinstance(event, (happened.StepStarted, *_BETWEEN)):
+            groups.append([event])
+        elif not isinstance(event, (happened.StageFinished, happened.UndoEnded)):
+            groups[-1].append(event)
+    return tuple(_summary(group, program, measures) for group in groups[1:])
+
+
+def _summary(group: Sequence[AnyEvent], program: Listing, measures: Measures) -> StepSummary:
+    first = group[0]
+    if isinstance(first, happened.StepStarted):
+        outcome, text = _outcome(group, first, program, measures), one_line(first.text)
+        if isinstance(first, happened.UndoStarted):
+            text = f"undo {text}"
+        return StepSummary(line=first.line, file=first.file, text=text, outcome=outcome)
+    return StepSummary(line=None, text=sentence(first, measures), outcome="")
+
+
+def _outcome(
+    group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures
+) -> str:
+    """The outcome of a step, in words."""
+    said = []
+    for event in group:
+        if isinstance(event, happened.ErrorTested):
+            said.append(f"{sentence(event)}: {_onward(event, step, program)}")
+        elif isinstance(event, happened.OperatorCalled) and event.error is not None:
+            said.append("the operator is called")
+        elif not isinstance(event, _SILENT):
+            said.append(sentence(event, measures))
+    busy = sum(event.seconds for event in group if isinstance(event, happened.CameraBusy))
+    if busy:
+        said.append(f"the camera took {busy:.1f} s")
+    return "; ".join(said) or _end(group, step, program, measures)
+
+
+def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Listing) -> str:
+    """Next line after a test."""
+    ways = program.steps[step.step].ways
+    onward = ways[-1] if event.occurred else ways[0]
+    return "to the end" if onward is None else f"continue at line {program.steps[onward].place}"
+
+
+def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures) -> str:
+    """End of a step without other events; empty for one that took no time."""
+    last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
+    if last is None or last.time == step.time:
+        return ""
+    if program.steps[step.step].needs == "hand" and last.gap is not None:
+        return f"gap {measures.distance(last.gap)}"
+    return "" if last.hand is None else f"hand at {measures.place(last.hand)}"
 
 
 class Break(Record, frozen=True, kw_only=True):
@@ -22,15 +105,12 @@ class CommandResult(Record, frozen=True, kw_only=True):
     """Result of a command; fields with nothing to say are left out."""
 
     said: str | UnsetType = UNSET
-    """A sentence or more."""
-    pause: Pause | None = None
-    """Why the run pauses, if the command made it go."""
+    pause: Pause | None = None  # why the run pauses, if the command made it go
     source: tuple[SourceLine, ...] | UnsetType = UNSET
     """The script around the line where the run stands, or around one that was asked for."""
     show: Shown | UnsetType = UNSET
     breaks: tuple[Break, ...] | UnsetType = UNSET
-    file: str | UnsetType = UNSET
-    """File that was written."""
+    file: str | UnsetType = UNSET  # file that was written
 
 
 class UnderWay(Record, frozen=True, kw_only=True):
@@ -58,18 +138,12 @@ class Reply(CommandResult, frozen=True, kw_only=True):
     """The stage under way, or the one about to begin; None after the last."""
     stage_number: int | None
     """From 1."""
-    step: int | None
-    """The step to be done next; None if the run cannot go on by itself."""
+    step: int | None  # the step to be done next; None if the run cannot go on by itself
     line: int | None
     text: str | None
     """Its statement."""
-    script: str = ""
-    """The required file its line is in; empty: the script itself."""
-    tasks: tuple[TaskView, ...] | UnsetType = UNSET
-    """Places of the tasks of a system that has several."""
-    did: tuple[StepSummary, ...] = ()
-    """Steps that were done, in words."""
-    events: tuple[AnyEvent, ...] = ()
-    """Events that have happened, in full."""
-    error: str | None = None
-    """Why the command was not carried out."""
+    script: str = ""  # the required file its line is in; empty: the script itself
+    tasks: tuple[TaskView, ...] | UnsetType = UNSET  # places of the tasks of a system that has several
+    did: tuple[StepSummary, ...] = ()  # steps that were done, in words
+    events: tuple[AnyEvent, ...] = ()  # events that have happened, in full
+    error: str | None = None  # why the command was not carried out

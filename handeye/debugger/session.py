@@ -8,17 +8,16 @@ from typing import Final, Literal
 from handeye.core.errors import Refused
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.listing import Place, SourceLine, excerpt
-from handeye.debugger.pace import Pace
+from handeye.debugger.live import Pace
 from handeye.debugger.reply import Break
 from handeye.debugger.views import task_views
 from handeye.execution.servo import Halted
 from handeye.program.events import StepStarted
-from handeye.runs.advance import Pause, advance, ended
+from handeye.runs.advance import AnyStop, ByHand, Pause, ReversalEnd, advance, ended
 from handeye.runs.observer import Observer
 from handeye.runs.operator import beginnings
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AnyStop, ByHand, ReversalEnd
 from handeye.runs.system import Listing
 
 LINES_AROUND: Final = 2  # of the script, before and after the one where the run pauses
@@ -36,29 +35,22 @@ class DebugSession:
         keep: Callable[[Checkpoint], Path | None],
         pictures: Path | None,
     ) -> None:
-        """Take a run in hand.
+        """Take a run in hand, to stop at `stops` besides breakpoints.
 
-        Args:
-            stops: conditions to stop at besides breakpoints.
-            kept: the newest checkpoint on disk at a position or before it.
-            keep: writes a checkpoint to where the run's are kept; None: they are kept nowhere.
-            pictures: folder that the last picture is kept in when it is shown; None: nowhere.
+        `kept` finds the newest checkpoint on disk at a position or before it; `keep` writes one to where the run keeps
+        them, if it does; `pictures` is the folder for the last picture when it is shown.
         """
         self.runner = runner
         self.stops = stops
         self.kept = kept
         self.keep = keep
         self.pictures = pictures
-        self.breaks: dict[int, AnyStop] = {}
-        """Breakpoints by number; a number is never used twice."""
+        self.breaks: dict[int, AnyStop] = {}  # breakpoints by number; a number is never used twice
         self.over = False
         self.pace = Pace()
-        self.output = Observer()
-        """Prints what the run does while it goes on."""
-        self.input = Observer()
-        """Takes lines typed while it goes on, or back."""
-        self.going: Literal["on", "back"] | None = None
-        """The way in which the run goes; None: it pauses."""
+        self.output = Observer()  # prints what the run does while it goes on
+        self.input = Observer()  # takes lines typed while it goes on, or back
+        self.going: Literal["on", "back"] | None = None  # the way in which the run goes; None: it pauses
         self._pause_asked = False
         self._set = 0
         self._begun = tuple(runner.events)
@@ -99,12 +91,9 @@ class DebugSession:
         return self._go(stops, steps)
 
     def have_undone(self, left: int, *, halts: bool = False) -> Pause:
-        """Have the arm undo executed steps until `left` remain.
+        """Have the arm undo executed steps until `left` remain; with `halts` the run ends there.
 
-        Raises InvalidInput if so much was not executed, or the cell cannot go on.
-
-        Args:
-            halts: the run ends there; otherwise the program can go on.
+        Raises InvalidInput if so many were not executed, or the cell cannot go on.
         """
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")

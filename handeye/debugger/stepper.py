@@ -11,14 +11,12 @@ from handeye.core.errors import HandeyeError, Refused
 from handeye.debugger.command_table import MEANWHILE, find
 from handeye.debugger.formatting import as_json, as_text
 from handeye.debugger.live import LineInput, Live, LiveJson, LiveText
-from handeye.debugger.reply import CommandResult, Reply
+from handeye.debugger.reply import CommandResult, Reply, step_summaries
 from handeye.debugger.session import DebugSession
-from handeye.debugger.step_summary import step_summaries
 from handeye.debugger.views import task_views
-from handeye.runs.advance import Pause
+from handeye.runs.advance import AnyStop, Pause
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AnyStop
 
 
 class Stepper:
@@ -34,20 +32,14 @@ class Stepper:
         keep: Callable[[Checkpoint], Path | None] = lambda _: None,
         pictures: Path | None = None,
     ) -> None:
-        """Take a run in hand; raises InvalidInput if there is no such place to stop.
+        """Take a run in hand; raises InvalidInput if one of `breaks`, as typed after `break`, is no place to stop.
 
-        Args:
-            breaks: places to stop, as after `break`.
-            stops: other reasons to stop.
-            kept: the newest checkpoint on disk at a position or before it, for going far back.
-            keep: writes a checkpoint to where those of the run are kept; None: they are kept nowhere.
-            pictures: folder that the last picture is kept in when it is shown; None: nowhere.
+        The other arguments are those of `DebugSession`.
         """
         self.session = DebugSession(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
         for text in breaks:
             self.session.add_break(text)
-        self.repeated: str | None = None
-        """Line that an empty one on a terminal repeats."""
+        self.repeated: str | None = None  # line that an empty one on a terminal repeats
         self.refused = False
         """A command was refused; those typed after the run ended do not count, since its end cannot be foreseen."""
 
@@ -132,17 +124,14 @@ def interact(
     most: int | None = None,
     live: Live | None = None,
 ) -> Pause:
-    """Carry out commands, one a line, until the session is left; the end of input means `quit`.
+    """Carry out commands, one a line, until the session is left; returns why the run pauses. No more lines mean `quit`.
 
     Args:
-        write: puts out lines of text; the end of the last one is not in them.
-        json: answer each command with one JSON object on one line, and say nothing else.
-        prompt: somebody is asked for each line: an empty one says again what last made the run go.
-        most: steps that are told of a long way; None: all.
-        live: tell each line as it begins, and hear what is said while the run goes.
-
-    Returns:
-        Why the run pauses.
+        write: prints lines of text, given without the final newline.
+        json: answer each command with one JSON object on one line, and print nothing else.
+        prompt: a person is asked for each line: an empty one repeats what last made the run go.
+        most: steps to print of a long way; None: all.
+        live: print each step as it begins, and answer what is typed while the run goes.
     """
     face = as_json if json else partial(as_text, most=most)
     told = None if live is None else _attend(stepper, live, write, json=json, echoed=prompt)

@@ -14,8 +14,7 @@ class JointView(Record, frozen=True, kw_only=True):
 
     name: str
     value: float
-    unit: str
-    """`deg` or `in`."""
+    unit: str  # `deg` or `in`
 
 
 class HandView(Record, frozen=True, kw_only=True):
@@ -60,8 +59,7 @@ class PositionView(Record, frozen=True, kw_only=True):
 
     at: Six
     of: str | None
-    moved: bool
-    """Put elsewhere by `HERE`, or for an experiment."""
+    moved: bool  # put elsewhere by `HERE`, or for an experiment
 
 
 class PictureShown(Record, frozen=True, kw_only=True):
@@ -75,14 +73,11 @@ class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
     """Place of one of several tasks."""
 
     task: str
-    step: int
-    """The step that it does next."""
-    file: str = ""
-    """The required file its line is in; empty: the script itself."""
+    step: int  # the step that it does next
+    file: str = ""  # the required file its line is in; empty: the script itself
     line: int
     text: str
-    waits_for: str = ""
-    """What it waits for, in words; empty: its turn."""
+    waits_for: str = ""  # what it waits for, in words; empty: its turn
 
 
 class Shown(Record, frozen=True, kw_only=True):
@@ -104,5 +99,4 @@ class Shown(Record, frozen=True, kw_only=True):
     picture: PictureShown | UnsetType | None = UNSET
     positions: dict[str, PositionView] | UnsetType = UNSET
     tasks: tuple[TaskView, ...] | UnsetType = UNSET
-    state: dict[str, Any] | UnsetType = UNSET
-    """The rest of a system's state, which has no view of its own."""
+    state: dict[str, Any] | UnsetType = UNSET  # the rest of a system's state, which has no view of its own

@@ -16,11 +16,10 @@ from handeye.runs.runner import Runner
 
 
 def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
-    """Views of a run; raises InvalidInput if there is no such topic, or the picture cannot be written.
+    """Views of a run by topics, or their beginnings; all but `positions` if `what` is empty.
 
-    Args:
-        what: topics, or their beginnings, one after the other; all but `positions` if empty.
-        pictures: folder that the last picture goes to as a file; None: nothing is written.
+    `pictures` is the folder that the last picture is written to, if any. Raises InvalidInput if there is no such topic,
+    or the picture cannot be written.
     """
     known = {**runner.kind.topics, **({"tasks": ("tasks", task_views)} if task_views(runner) else {})}
     names = [_topic(word, known) for word in what.split()] or [n for n in known if n != "positions"]

@@ -41,19 +41,16 @@ class SystemEvent(Event, frozen=True, kw_only=True):
 class RunStarted(Event, frozen=True, kw_only=True):
     """The working phase begins; all that the events after it depend on, but for what the operator does."""
 
-    system: str = "program"
-    """The kind of system that carries it out."""
+    system: str = "program"  # the kind of system that carries it out
     program: str
     steps: int
-    plan: str
-    """Digest of the plan."""
+    plan: str  # digest of the plan
     arm: str
     arm_digest: str
     world: WorldSpec
     task: str = "water_pump"
     """Its name."""
-    camera: Renderer
-    """How pictures are made."""
+    camera: Renderer  # how pictures are made
     versions: dict[str, str]
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts replaced by code of the caller, with the names of that code."""
@@ -102,8 +99,7 @@ class StepFinished(Event, frozen=True, kw_only=True):
     """A step ended; where the hand is by the arm's own sensors (m), and the finger gap (m)."""
 
     step: int
-    hand: tuple[float, float, float] | None
-    """None: the system has no hand."""
+    hand: tuple[float, float, float] | None  # None: the system has no hand
     planned: tuple[float, float, float] | None
     """Where a motion was planned to end (m); a guard or a measured world ends it elsewhere."""
     gap: float | None
@@ -127,8 +123,7 @@ class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
     """The arm has measured its joints and weighed its links before the working phase; `seconds` are simulated."""
 
     joints: tuple[JointFriction, ...]
-    links: tuple[float, ...] = ()
-    """Weight of each link as found, over the model's; empty: not weighed."""
+    links: tuple[float, ...] = ()  # weight of each link as found, over the model's; empty: not weighed
     seconds: float
 
 
@@ -152,8 +147,7 @@ class ErrorRaised(Event, frozen=True, kw_only=True):
     """An action raised an error."""
 
     number: int
-    cause: Cause | None
-    """Its cause this time; None: the error says all."""
+    cause: Cause | None  # the cause this time; None: the error says all
 
 
 class ErrorTested(Event, frozen=True, kw_only=True):
@@ -220,20 +214,16 @@ class PartInspected(Event, frozen=True, kw_only=True):
 
     part: str
     ok: bool
-    cause: InspectionCause | None
-    """Why it is not as it should be; None: it is."""
+    cause: InspectionCause | None  # why it is not as it should be; None: it is
 
 
 class PartMatched(Event, frozen=True, kw_only=True):
     """Vision saw how far a part stands in one picture as in another."""
 
     part: str
-    ok: bool
-    """It does."""
-    off: float
-    """Displacement against its surroundings, m."""
-    unlike: float
-    """Share of it, from 0 to 1, that looks different."""
+    ok: bool  # it has not moved
+    off: float  # displacement against its surroundings, m
+    unlike: float  # share of it, from 0 to 1, that looks different
 
 
 class CameraStarted(Event, frozen=True, kw_only=True):
@@ -256,8 +246,7 @@ class CameraBusy(Event, frozen=True, kw_only=True):
 class OperatorCalled(Event, frozen=True, kw_only=True):
     """Brakes are set and the operator is called, with the program's own message, an error, or a cause."""
 
-    message: str = ""
-    """The program's own words."""
+    message: str = ""  # the program's own words
     error: int | None = None
     cause: Cause | None = None
 
@@ -272,8 +261,7 @@ class OperatorAnswered(Event, frozen=True, kw_only=True):
 class ExperimentMade(Event, frozen=True, kw_only=True):
     """A person at the stepper changed what the program remembers (m, rad): the run is no longer the plan's alone."""
 
-    what: str
-    """Its kind: `saved`, `position`, or another that the system has."""
+    what: str  # `saved`, `position`, or another that the system has
     name: str
     value: tuple[float, ...]
 
@@ -282,8 +270,7 @@ class LineTyped(Event, frozen=True, kw_only=True):
     """A person typed a line at the console of a system, for one of its tasks: the run is no longer the plan's alone."""
 
     text: str
-    task: str = ""
-    """Name of the task it was typed to; empty: the only one, or the one that reads the console."""
+    task: str = ""  # the task it was typed to; empty: the only one, or the one that reads the console
 
 
 class PanicStopped(Event, frozen=True, kw_only=True):
@@ -301,23 +288,20 @@ class UndoOrdered(Event, frozen=True, kw_only=True):
     """Reversal ordered: the arm undoes executed steps until `left` remain."""
 
     left: int
-    halts: bool
-    """The run ends there; else the program can go on."""
+    halts: bool  # the run ends there; else the program can go on
     asked_by: AskedBy = "person"
 
 
 class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
     """The arm begins to undo a step, or the rounds of a loop that led back to it."""
 
-    steps: int = 1
-    """Executed steps that are undone at once."""
+    steps: int = 1  # executed steps that are undone at once
 
 
 class UndoFinished(StepFinished, frozen=True, kw_only=True):
     """A step is undone."""
 
-    force: float
-    """Greatest force on the hand meanwhile, N."""
+    force: float  # greatest force on the hand meanwhile, N
 
 
 class StageUndone(Event, frozen=True, kw_only=True):

@@ -9,20 +9,18 @@ from handeye.core.entries import entries, entry_of_file, loaded, refusal
 from handeye.core.record import Record
 from handeye.core.source import Source
 from handeye.program.diagnosis.plan_findings import PlanFinding
-from handeye.program.diagnosis.reach_text import NamedArm
+from handeye.program.diagnosis.reach import NamedArm
 from handeye.program.program import Program
 from handeye.program.taught import Taught
 
-Compiled = tuple[Program | None, list[Diagnostic]]
-"""A program, None if there are errors, and diagnostics."""
+Compiled = tuple[Program | None, list[Diagnostic]]  # a program, None if there are errors, and diagnostics
 
 
 class Language(Record, frozen=True, kw_only=True):
     """A scripting language."""
 
     name: str  # as stored in programs and plans
-    read: Callable[[Path], Source]
-    """Reads a script with all it requires; raises InvalidInput."""
+    read: Callable[[Path], Source]  # reads a script with all it requires; raises InvalidInput
     compile: Callable[[Source, Taught], Compiled]
     phrase: Callable[[Program, NamedArm, Iterable[PlanFinding]], list[Diagnostic]]
     """Diagnostics for planning findings, at their places in the text."""
@@ -32,7 +30,6 @@ class OwnLanguage(ABC):
     """A language that a system has for files of its own: what commands and editors are answered about a text of it."""
 
     system: str
-    """Name of the system."""
 
     @abstractmethod
     def check(self, source: Source) -> list[Diagnostic]:

@@ -13,25 +13,18 @@ Natural = Annotated[int, msgspec.Meta(ge=0)]
 class TaskPlace(NamedTuple):
     """Where one task of a system stands."""
 
-    task: str
-    """Its name; empty: that of the only one."""
-    step: int
-    """The step that it does next."""
-    waits_for: str = ""
-    """What it waits for, in words; empty: its turn."""
+    task: str  # empty: the only one
+    step: int  # the step that it does next
+    waits_for: str = ""  # what it waits for, in words; empty: its turn
 
 
 class SystemState(MutableRecord, kw_only=True):
     """Base of the states of systems: where it is among its steps."""
 
-    at: Natural | None = 0
-    """The step to do next; None when the program has ended or the operator was called."""
-    stage: Natural | None = None
-    """The stage under way; None between two stages."""
-    stopped: OperatorCalled | None = None
-    """The call of the operator that has not been answered."""
-    onward: Natural | None = None
-    """After a stop: the step that would have been next."""
+    at: Natural | None = 0  # the step to do next; None when the program has ended or the operator was called
+    stage: Natural | None = None  # the stage under way; None between two stages
+    stopped: OperatorCalled | None = None  # the call of the operator that has not been answered
+    onward: Natural | None = None  # after a stop: the step that would have been next
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:

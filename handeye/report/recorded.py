@@ -6,7 +6,7 @@ from functools import cached_property
 from handeye.planfile.plan import Plan
 from handeye.program.program import Program
 from handeye.results.result import Result
-from handeye.trace.planned import plan_of
+from handeye.trace.reading import plan_of
 from handeye.trace.trace import Trace
 
 

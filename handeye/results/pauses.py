@@ -4,9 +4,8 @@ from handeye.core.errors import ERRORS
 from handeye.core.plain_text import counted
 from handeye.core.source import line_name
 from handeye.program.diagnosis.cause_text import call_sentence
-from handeye.runs import stops
-from handeye.runs.advance import Pause
-from handeye.runs.stops import AnyStop
+from handeye.runs import advance as stops
+from handeye.runs.advance import AnyStop, Pause
 
 
 def pause_sentence(pause: Pause) -> str:

@@ -1,4 +1,4 @@
-"""Advance a run step by step until it pauses; states worth keeping go to the observers."""
+"""Advance a run step by step until it ends or a stop condition pauses it; states worth keeping go to the observers."""
 
 from collections.abc import Callable, Sequence
 from typing import Literal
@@ -6,9 +6,131 @@ from typing import Literal
 from handeye.core.record import Record
 from handeye.execution.servo import Halted
 from handeye.program.diagnosis.causes import Cause
+from handeye.program.events import AnyEvent, ErrorRaised, StageFinished, UndoEnded
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Snapshot
-from handeye.runs.stops import AfterSteps, AnyStop, PauseRequest
+
+
+class StopCondition(Record, frozen=True, kw_only=True, tag_field="stop", tag=True):
+    """Base of the conditions; one by itself never pauses a run."""
+
+    def met_before(self, runner: Runner) -> bool:
+        """Pause before the step that is next."""
+        return False
+
+    def met_after(self, events: Sequence[AnyEvent]) -> bool:
+        """Pause after a step in which these events happened."""
+        return False
+
+
+class AtSteps(StopCondition, frozen=True, kw_only=True):
+    """Pause before any of some steps, given by their numbers."""
+
+    steps: tuple[int, ...]
+
+    def met_before(self, runner: Runner) -> bool:
+        return runner.at in self.steps
+
+
+class AtLine(AtSteps, frozen=True, kw_only=True):
+    """Pause before the steps on a line of the source, or of a required file."""
+
+    file: str
+    line: int
+
+
+class AtLabel(AtSteps, frozen=True, kw_only=True):
+    """Pause before the steps that a label stands before."""
+
+    label: str
+
+
+class AtInstruction(AtSteps, frozen=True, kw_only=True):
+    """Pause before the steps that begin with an instruction word."""
+
+    word: str
+
+
+class BeforeStep(AtSteps, frozen=True, kw_only=True):
+    """Pause before one step."""
+
+    @property
+    def step(self) -> int:
+        """Its number."""
+        return self.steps[0]
+
+
+class AtStage(StopCondition, frozen=True, kw_only=True):
+    """Pause when a stage, given by its index and name, is about to begin."""
+
+    stage: int
+    name: str
+
+    def met_before(self, runner: Runner) -> bool:
+        return runner.between_stages and runner.next is not None and runner.next.stage == self.stage
+
+
+class OnError(StopCondition, frozen=True, kw_only=True):
+    """Pause after the step that raised an error."""
+
+    number: int
+
+    def met_after(self, events: Sequence[AnyEvent]) -> bool:
+        return any(isinstance(event, ErrorRaised) and event.number == self.number for event in events)
+
+
+class AfterStage(StopCondition, frozen=True, kw_only=True):
+    """Pause when a stage, given by its index and name, has ended."""
+
+    stage: int
+    name: str
+
+    def met_before(self, runner: Runner) -> bool:
+        last = runner.events[-1]
+        return isinstance(last, StageFinished) and last.stage == self.name
+
+
+class ReversalEnd(StopCondition, frozen=True, kw_only=True, tag="Undone"):
+    """Pause when the arm has undone as much as was ordered."""
+
+    def met_before(self, runner: Runner) -> bool:
+        return isinstance(runner.events[-1], UndoEnded)
+
+
+class AfterSteps(StopCondition, frozen=True, kw_only=True):
+    """Pause after a number of steps, which the caller counts."""
+
+    count: int
+
+
+class PauseRequest(StopCondition, frozen=True, kw_only=True, tag="Asked"):
+    """Pause because a person asked for it during the run."""
+
+
+class ByHand(StopCondition, frozen=True, kw_only=True):
+    """Pause because a person left the run as it was."""
+
+
+class DriverFailure(StopCondition, frozen=True, kw_only=True, tag="BrokenOff"):
+    """Pause because the program that drives the run failed."""
+
+    exception: str  # class name
+
+
+AnyStop = (
+    AtLine
+    | AtLabel
+    | AtInstruction
+    | BeforeStep
+    | AtStage
+    | OnError
+    | AfterStage
+    | ReversalEnd
+    | AfterSteps
+    | PauseRequest
+    | ByHand
+    | DriverFailure
+)
 
 
 class Pause(Record, frozen=True, kw_only=True):
@@ -16,22 +138,14 @@ class Pause(Record, frozen=True, kw_only=True):
 
     kind: Literal["end", "operator", "trouble", "break", "panic"]
     """The program ended, called the operator, cannot go on; a stop condition was met; the panic button."""
-    done: int = 0
-    """Steps done since the run went on."""
-    next: int | None = None
-    """The step to be done next; None if the run cannot go on by itself."""
-    met: AnyStop | None = None
-    """The stop condition, if one was met."""
-    error: int | None = None
-    """The error that the operator is called for."""
-    cause: Cause | None = None
-    """Cause of that error, or of a call for none."""
-    message: str = ""
-    """The program's own words to the operator, or those of the cell that cannot go on."""
-    undone: bool = False
-    """It ended where the arm has undone what it was to undo."""
-    back: bool = False
-    """The panic button was hit on the way back in time."""
+    done: int = 0  # steps done since the run went on
+    next: int | None = None  # the step to be done next; None if the run cannot go on by itself
+    met: AnyStop | None = None  # the stop condition, if one was met
+    error: int | None = None  # the error that the operator is called for
+    cause: Cause | None = None  # cause of that error, or of a call for none
+    message: str = ""  # the program's own words to the operator, or those of the cell that cannot go on
+    undone: bool = False  # it ended where the arm has undone what it was to undo
+    back: bool = False  # the panic button was hit on the way back in time
 
 
 def advance(
@@ -42,8 +156,7 @@ def advance(
 ) -> Pause:
     """Do `steps` steps, or all that are left, but at least one before a stop condition counts.
 
-    Args:
-        asked: asked after each step whether to pause there.
+    `asked` is called after each step: True pauses there.
     """
     done = 0
     while not runner.ended:

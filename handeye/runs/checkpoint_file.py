@@ -32,41 +32,33 @@ MAGIC: Final = "handeye-checkpoint"
 VERSION: Final = 4
 ENDING: Final = ".checkpoint"
 CHECKPOINT: Final = Kind("checkpoint", f"{MAGIC} ".encode())
-LARGEST: Final = 1 << 28
-"""Bytes of a state, decompressed: a hundred times what a run of the water pump needs."""
+LARGEST: Final = 1 << 28  # bytes of a state, decompressed: a hundred times what a run of the water pump needs
 
 
 class Head(Record, frozen=True, kw_only=True):
     """Summary of a checkpoint, for people and for finding the right one."""
 
-    system: str = "program"
-    """The kind of system that carries the run out."""
+    system: str = "program"  # the kind of system that carries the run out
     program: str
-    plan: str
-    """Digest of the plan."""
+    plan: str  # digest of the plan
     arm: str
     arm_digest: str
     world: WorldSpec
     camera: str
     versions: dict[str, str]
-    position: int
-    """Steps done; -1: not begun."""
+    position: int  # steps done; -1: not begun
     stage: str | None
-    between_stages: bool
-    """The next step begins the stage."""
+    between_stages: bool  # the next step begins the stage
     time: float | None
     """s on the cell's clock."""
-    touched: bool
-    """People had interfered with the run: it is not what the plan alone makes of it."""
+    touched: bool  # people had interfered with the run: it is not what the plan alone makes of it
     task: str
-    judged: bool = False
-    """The referee is to look at what came out."""
+    judged: bool = False  # the referee is to look at what came out
     limits: dict[str, float] | UnsetType = UNSET
     """Limits that its findings stand against in the place of its own."""
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts that code took the place of, with its names: the run goes on only with parts of the same names."""
-    without: tuple[Sense, ...] | UnsetType = UNSET
-    """Senses that the program does without."""
+    without: tuple[Sense, ...] | UnsetType = UNSET  # senses that the program does without
 
 
 class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):

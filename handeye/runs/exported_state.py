@@ -27,11 +27,9 @@ class ExportedState:
     moment: MomentKind
     truth: Truth
     program: str | None = None
-    """Name of the program that was carried out."""
     steps: int = 0
     """Steps done."""
-    stage: str | None = None
-    """The stage under way, or the one to come."""
+    stage: str | None = None  # the stage under way, or the one to come
 
 
 def initial_state(world: WorldSpec, name: str = DEFAULT) -> ExportedState:
@@ -40,10 +38,9 @@ def initial_state(world: WorldSpec, name: str = DEFAULT) -> ExportedState:
 
 
 def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
-    """The state a run has left, and a sentence for each checkpoint that cannot be read.
+    """The state that a run left, and a sentence for each checkpoint that cannot be read.
 
-    Args:
-        path: the folder of the run, whose newest sound checkpoint is taken; or a checkpoint.
+    `path` is a checkpoint, or a run's folder, of which the newest sound one is taken.
     """
     if not path.is_dir():
         return _exhibit(path, read_checkpoint(path)), []

@@ -78,11 +78,7 @@ class RunFolder(Observer):
     def watch(
         self, runner: Runner, start: Checkpoint, *, again: bool, meter: Meter | None = None
     ) -> "RunFolder":
-        """Observe a run that begins, or with `again` resumes, from `start`.
-
-        Args:
-            meter: measures what the run costs the host; by default from now on.
-        """
+        """Observe a run that begins, or with `again` resumes, from `start`; `meter` counts its host time."""
         if (self.path / RESULT).is_dir():  # it would be found out when the run is over
             raise CannotWrite(f"{self.path / RESULT} cannot be written: it is a folder")
         self._runner, self._meter = runner, meter or Meter(before=self.spent)
@@ -207,8 +203,7 @@ class RunFolder(Observer):
 def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFolder:
     """A folder for a run that begins at `start`; raises CannotWrite if something would be lost.
 
-    Args:
-        overwrite: replace the run that is in the folder once this one moves.
+    With `overwrite` the run in the folder is replaced once this one moves.
     """
     _refuse_others(path)
     if not overwrite:

@@ -14,8 +14,7 @@ from handeye.core.host_time import HostTimer
 from handeye.core.record import Record
 from handeye.runs.runner import Runner
 
-_LARGEST = 10_000
-"""Bytes of the file."""
+_LARGEST = 10_000  # bytes of the file
 
 
 class HostSeconds(Record, frozen=True, kw_only=True):
@@ -23,15 +22,12 @@ class HostSeconds(Record, frozen=True, kw_only=True):
 
     planning_cpu_s: float = 0.0
     """0: the plan was there already."""
-    vision_cpu_s: float = 0.0
-    """With what was undone later."""
+    vision_cpu_s: float = 0.0  # with what was undone later
     run_cpu_s: float = 0.0
     run_wall_s: float = 0.0
     """From the start of the process, or the call from Python, to the verdict; waiting for people included."""
-    from_step: int = 0
-    """Steps done before the first session that is counted."""
-    from_clock_s: float = 0.0
-    """The cell's clock at that moment."""
+    from_step: int = 0  # steps done before the first session that is counted
+    from_clock_s: float = 0.0  # the cell's clock at that moment
 
 
 @dataclass(slots=True, kw_only=True)

@@ -21,10 +21,9 @@ from handeye.program.events import (
     UndoStarted,
 )
 from handeye.program.stage_names import stage_index
-from handeye.runs.advance import Pause, advance, keep, paused_before
+from handeye.runs.advance import AnyStop, Pause, advance, keep, paused_before
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AnyStop
 from handeye.runs.undo_orders import stage_began
 
 
@@ -47,11 +46,7 @@ class Operator(Protocol):
     """A person or a rule that says how to go on."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """How to go on with a run that called the operator.
-
-        Args:
-            refused: why the last answer to this call could not be carried out.
-        """
+        """How to go on with a run that called the operator; `refused`: why the last answer was impossible."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,8 +90,7 @@ class UnwindOnce:
     Like `Retry` it goes by the events of the run.
     """
 
-    stage: int | None = None
-    """None: that which has failed."""
+    stage: int | None = None  # None: that which has failed
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         """How to go on."""
@@ -129,11 +123,7 @@ def _of_this_part(runner: Runner) -> Sequence[AnyEvent]:
 
 
 def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:
-    """The operator that `abort`, `retry:N`, `unwind` or `unwind:STAGE` names; None for `ask`, which takes a person.
-
-    Args:
-        stages: names of the stages.
-    """
+    """The operator that `abort`, `retry:N`, `unwind` or `unwind:STAGE` names; None for `ask`, which takes a person."""
     if text == "abort":
         return Abort()
     if text == "ask":
@@ -159,8 +149,7 @@ def attend(
 ) -> Pause:
     """Go on until the run pauses in a way that the operator does not settle.
 
-    Args:
-        kept: the newest checkpoint on disk with at most that many steps done, for going back.
+    `kept` finds the newest checkpoint on disk with at most that many steps done, for going back.
     """
     refused: str | None = None
     while True:

@@ -15,18 +15,15 @@ from handeye.touch.spiral import SearchPattern
 if TYPE_CHECKING:
     from handeye.cell.rendering import RendererMaker
 
-NEEDED: Final = ("search", "camera")
-"""Parts that decide a run; the referee decides nothing of it."""
+NEEDED: Final = ("search", "camera")  # parts that decide a run; the referee decides nothing of it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
     """Replacements for the parts that decide a run; None: handeye's own."""
 
-    search: SearchPattern | None = None
-    """The places that a search tries."""
-    camera: RendererMaker | None = None
-    """Maker of pictures."""
+    search: SearchPattern | None = None  # the places that a search tries
+    camera: RendererMaker | None = None  # maker of pictures
 
     @property
     def names(self) -> dict[str, str]:
@@ -65,5 +62,4 @@ def name_of(code: Any) -> str:
     return f"{named.__module__}.{named.__qualname__}"
 
 
-OWN: Final = Parts()
-"""All parts are handeye's own."""
+OWN: Final = Parts()  # all parts are handeye's own

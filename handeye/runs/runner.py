@@ -47,8 +47,7 @@ if TYPE_CHECKING:
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.snapshot_cell import SnapshotCell
 
-RECENT: Final = 400
-"""Steps whose states are kept in memory; of older ones those at the beginning of stages."""
+RECENT: Final = 400  # steps whose states are kept in memory; of older ones those at the beginning of stages
 
 
 def reach(first: int) -> str:
@@ -75,17 +74,14 @@ class Runner:
             halt: the panic button, asked every servo period; Halted is raised if it is hit during calibration.
             viewed: called for each view of a camera calibration with its number and their count.
             observers: makes the observers, once the cell is built and before anything happens in it.
-            parts: replaced parts of the run.
             calibrate: calibrate the camera anew, whatever is kept of an earlier run.
         """
         parts.check(start.setup.replaced)
         self.setup = start.setup
-        self.listing = listing_of(start.setup)
-        """Stages and steps of what is carried out."""
+        self.listing = listing_of(start.setup)  # stages and steps of what is carried out
         self.vision = Stopwatch(time.process_time)
         """Processor time that vision has taken since this object took the run up, undone steps included."""
-        self.kind = system_of(start.setup)
-        """The system that carries it out, as a value."""
+        self.kind = system_of(start.setup)  # the system that carries it out, as a value
         self.system: RunningSystem = self.kind.build(
             start.setup,
             Surroundings(
@@ -102,12 +98,10 @@ class Runner:
         """Everything that has happened and was not undone."""
         self.position = 0
         """Steps done."""
-        self.history: list[Snapshot] = []
-        """States to go back to, the present one last."""
+        self.history: list[Snapshot] = []  # states to go back to, the present one last
         self.started = 0.0
         """The clock when this object took the run up, or the system began to prepare it: what it has not simulated."""
-        self.first = 0
-        """Steps that were done then."""
+        self.first = 0  # steps done by then
         self.observers: list[Observer] = []
         self._broken: str | None = None
         begun = () if start.snapshot is not None else self.system.begin()
@@ -257,12 +251,7 @@ class Runner:
         self._settle()
 
     def order_reversal(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
-        """From now on each step has the arm undo one that was executed, until `left` are left.
-
-        Args:
-            halts: the run ends there; otherwise the program can go on.
-            asked_by: who wants it.
-        """
+        """Each step now has the arm undo an executed one, until `left` are left; the run ends there if `halts`."""
         self.require("undo")
         self.system.reverse(Undoing(left=left, halts=halts, asked_by=asked_by))
         self._settle()
@@ -298,8 +287,7 @@ class Runner:
     def back_to(self, position: int, kept: Callable[[int], Checkpoint | None] = lambda _: None) -> None:
         """Return to where `position` steps were done: from the nearest kept state, and forward from there.
 
-        Args:
-            kept: the newest checkpoint on disk with at most that many steps done, for what is no longer in memory.
+        `kept` finds the newest checkpoint on disk with at most that many steps done, for what is no longer in memory.
         """
         if not 0 <= position <= self.position:
             raise BadArgument(f"cannot go back to {position} steps done")

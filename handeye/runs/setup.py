@@ -13,21 +13,16 @@ from handeye.tasks import DEFAULT
 class Setup(Record, frozen=True, kw_only=True):
     """Everything that decides a run without interference."""
 
-    system: str = PLANNED
-    """Name of the system that carries it out."""
-    plan: Record
-    """Plan that is carried out: a `Plan` where it is one of motions."""
+    system: str = PLANNED  # name of the system that carries it out
+    plan: Record  # plan that is carried out: a `Plan` where it is one of motions
     world: WorldSpec
-    camera: str
-    """How to make pictures: `auto`, `gl` or `ray`."""
-    judged: bool = False
-    """The referee is to look at what came out. It decides nothing of the run."""
+    camera: str  # how to make pictures: `auto`, `gl` or `ray`
+    judged: bool = False  # the referee is to look at what came out. It decides nothing of the run.
     limits: dict[str, float] = msgspec.field(default_factory=dict)
     """Limits that findings of the task's referee stand against in the place of its own, in their units."""
     replaced: dict[str, str] = msgspec.field(default_factory=dict)
     """Parts replaced by code of the caller, with the names of that code."""
-    without: tuple[Sense, ...] = ()
-    """Senses that the program does without, in the order of `SENSES`."""
+    without: tuple[Sense, ...] = ()  # senses that the program does without, in the order of `SENSES`
 
     @property
     def task(self) -> str:

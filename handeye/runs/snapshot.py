@@ -18,20 +18,16 @@ class Snapshot(Record, frozen=True, kw_only=True):
 
     position: Annotated[int, msgspec.Meta(ge=0)]
     """Steps done since the run began."""
-    happened: Annotated[int, msgspec.Meta(ge=0)]
-    """Events until then, undone ones not counted."""
-    cell: CellState | None
-    """None: the system acts on no simulated cell."""
+    happened: Annotated[int, msgspec.Meta(ge=0)]  # events until then, undone ones not counted
+    cell: CellState | None  # None: the system acts on no simulated cell
     state: SystemState
-    """State of the system."""
 
 
 class Checkpoint(Record, frozen=True, kw_only=True):
     """All that is needed to take up a run: here, on another day, on another computer."""
 
     setup: Setup
-    snapshot: Snapshot | None = None
-    """None: the run has not begun."""
+    snapshot: Snapshot | None = None  # None: the run has not begun
     events: tuple[AnyEvent, ...] = ()
     """Everything that has happened and was not undone."""
 

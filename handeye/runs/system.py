@@ -138,15 +138,11 @@ class Settable:
     """Something that a person can set in a paused run."""
 
     noun: str
-    usage: str
-    """Form of the words after its kind: `NAME x y z`."""
+    usage: str  # form of the words after its kind: `NAME x y z`
     names: tuple[str, ...]
-    units: tuple[float, ...]
-    """SI units in one of the units that people give each number in."""
-    fewest: int
-    """Numbers that have to be given; the others stay as they are."""
-    present: Callable[[str], tuple[float, ...]]
-    """The values of a name as they are, SI."""
+    units: tuple[float, ...]  # SI units in one of the units that people give each number in
+    fewest: int  # numbers that have to be given; the others stay as they are
+    present: Callable[[str], tuple[float, ...]]  # the values of a name as they are, SI
 
 
 class RunningSystem(Protocol):
@@ -189,19 +185,12 @@ class RunningSystem(Protocol):
         return None
 
     def begin(self) -> Sequence[AnyEvent]:
-        """Prepare the first step; the events that begin the run, `RunStarted` first.
-
-        Raises:
-            Halted: the panic button was hit.
-        """
+        """Prepare the first step; the events that begin the run, `RunStarted` first. Raises Halted if the panic button
+        was hit."""
 
     def step(self) -> None:
-        """Do one step: the unit that is done again when it is interrupted.
-
-        Raises:
-            Halted: the panic button was hit.
-            PhysicsFailed: its cell broke down.
-        """
+        """Do one step: the unit that is done again when it is interrupted. Raises Halted if the panic button was hit;
+        PhysicsFailed if its cell broke down."""
 
     def answer(self, choice: Choice) -> None:
         """Go on after the operator was called."""
@@ -250,11 +239,8 @@ class RunningSystem(Protocol):
         return {}
 
     def restore(self, state: SystemState) -> None:
-        """Go on from a copy of a state; its cell is as it was then.
-
-        Raises:
-            InvalidInput: it is not a state of what is carried out.
-        """
+        """Go on from a copy of a state; its cell is as it was then. Raises InvalidInput if it is not a state of what is
+        carried out."""
 
     @property
     def shown(self) -> Mapping[str, Any]:
@@ -263,22 +249,15 @@ class RunningSystem(Protocol):
         return shown
 
     def type_line(self, text: str, task: str) -> None:
-        """Give a task a line typed at the console, and emit `LineTyped` before all that comes of it.
-
-        Raises:
-            InvalidInput: this system has no console, or no such task; nothing has happened then.
-        """
+        """Give a task a line typed at the console, and emit `LineTyped` before all that comes of it. Raises
+        InvalidInput if this system has no console, or no such task; nothing has happened then."""
         raise Refused("this system has no console to type at")
 
     def settables(self) -> Mapping[str, Settable]:
         """Things that a person can set, by kind."""
 
     def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        """Set something; SI.
-
-        Raises:
-            InvalidInput: there is no such thing, or the value does not fit it.
-        """
+        """Set something; SI; raises InvalidInput if there is no such thing, or the value does not fit it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -286,17 +265,13 @@ class Surroundings:
     """Callbacks that a system is given by the run that drives it."""
 
     emit: Callable[[AnyEvent], None]
-    watch: Callable[[ServoPeriod], None]
-    """Told of every servo period."""
-    halt: Callable[[], bool]
-    """The panic button, asked at every servo period."""
+    watch: Callable[[ServoPeriod], None]  # called for every servo period
+    halt: Callable[[], bool]  # the panic button, asked at every servo period
     viewed: Callable[[int, int], None] = lambda *_: None
     """Told of each view in which the camera is calibrated: its number, of how many."""
-    vision: Stopwatch = field(default_factory=Stopwatch)
-    """Processor time of vision."""
+    vision: Stopwatch = field(default_factory=Stopwatch)  # processor time of vision
     parts: Parts = OWN
-    calibrate: bool = False
-    """Calibrate anew, whatever is kept."""
+    calibrate: bool = False  # calibrate anew, whatever is kept
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -305,17 +280,14 @@ class StepperWords:
 
     about: tuple[str, ...] = (
         "The program is carried out a step at a time; the arrow stands before the next one.",
-    )
-    """Lines on what a step is."""
+    )  # lines on what a step is
     places: tuple[str, ...] = (
         "PLACE is a line, a label, the first word of a step, or a stage. WHAT is one of",
-    )
-    """Lines on what can be said for PLACE and WHAT; the topics follow."""
+    )  # lines on what can be said for PLACE and WHAT; the topics follow
     units: str = "those of the system"
     commands: Mapping[str, str] = field(default_factory=dict)
     """Help on commands that do something of their own, by usage."""
-    without: tuple[str, ...] = ("picture",)
-    """Names of commands that do nothing."""
+    without: tuple[str, ...] = ("picture",)  # names of commands that do nothing
 
 
 Topics = Mapping[str, tuple[str, Callable[["Runner"], Any]]]
@@ -323,15 +295,13 @@ Topics = Mapping[str, tuple[str, Callable[["Runner"], Any]]]
 PLAIN: Final[Topics] = {
     "time": ("time_s", lambda runner: runner.elapsed),
     "state": ("state", lambda runner: runner.system.shown),
-}
-"""Topics of any system."""
+}  # topics of any system
 
 
 class System(ABC):
     """What a system offers: how its plans are written and read, what its state is, how it is built and spoken of."""
 
-    name: str
-    """That of its entry."""
+    name: str  # its entry's
     plan: type[Record]
     state: type[SystemState]
     words: StepperWords = StepperWords()
@@ -404,11 +374,8 @@ class System(ABC):
         return go()
 
     def files(self, runner: Runner, pause: Pause, result: Any) -> Mapping[str, bytes]:
-        """Files that a run leaves in its folder beside those of every run, by the names that its entry has.
-
-        Args:
-            result: the run's `handeye.results.result.Result`.
-        """
+        """Files that a run leaves in its folder beside those of every run, by the names that its entry has. `result`:
+        the run's `handeye.results.result.Result`."""
         return {}
 
     def page(self, folder: Path) -> bytes | None:

@@ -15,8 +15,7 @@ import numpy as np
 
 from handeye.arm import robots
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.entries import entries, refusal
-from handeye.core.entry_points import entry_points
+from handeye.core.entries import entries, entry_points, refusal
 from handeye.core.errors import BadArgument, InvalidInput, NoSuchName, Refused
 from handeye.tasks.interface import AnyTask, Task
 

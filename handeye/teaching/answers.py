@@ -11,7 +11,7 @@ from handeye.core.diagnostics import Diagnostic, as_json, has_errors, render
 from handeye.core.record import Record
 from handeye.core.source import Source
 from handeye.debugger.formatting import shown_lines, summary_lines
-from handeye.debugger.step_summary import StepSummary, step_summaries
+from handeye.debugger.reply import StepSummary, step_summaries
 from handeye.debugger.view_records import Shown
 from handeye.planning.planner import PlannedScript
 from handeye.results.pauses import pause_sentence

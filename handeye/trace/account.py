@@ -14,8 +14,7 @@ from handeye.trace.sentences import inches, measures_of, sentence
 
 ASTRAY: Final = 0.02 * INCH
 """A motion that ends farther than this from where it was to end is worth a word; free ones end nearer."""
-_BENEATH: Final = " " * 20
-"""Before what came of a step."""
+_BENEATH: Final = " " * 20  # indents the outcome of a step
 
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
@@ -32,22 +31,16 @@ def account(events: Sequence[AnyEvent]) -> list[str]:
 class _Teller:
     """Writes the account from the events."""
 
-    _origin: float
-    """The cell's clock when the run began, s."""
+    _origin: float  # the cell's clock when the run began, s
     lines: list[str] = field(default_factory=list)
     _task: str = ""
-    _heading: int | None = None
-    """The line with the heading of the stage under way, once there is one."""
-    _begun: float = 0.0
-    """When that stage began, s."""
-    _camera: float = 0.0
-    """Seconds of it that the camera's mechanism took."""
-    _shift: Array | None = None
-    """Offset of the goal of the present step from its planned place, m."""
+    _heading: int | None = None  # the line with the heading of the stage under way, once there is one
+    _begun: float = 0.0  # when that stage began, s
+    _camera: float = 0.0  # seconds of it that the camera's mechanism took
+    _shift: Array | None = None  # offset of the goal of the present step from its planned place, m
     _off: Array = field(default_factory=lambda: np.zeros(3))
     """Offset of the end of the last motion from its planned end, m; a straight one begins from there."""
-    _tested: str | None = None
-    """The answer to a test, until it is known where the program goes on."""
+    _tested: str | None = None  # the answer to a test, until it is known where the program goes on
 
     def clock(self, event: AnyEvent) -> str:
         """The time of an event in a column: seconds since the run began."""

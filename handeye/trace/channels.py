@@ -19,18 +19,15 @@ from google.protobuf.message import Message
 
 from handeye.program.event_reading import event_type
 from handeye.program.events import CommonEvent
-from handeye.trace.hand_message import hand_schema
-from handeye.trace.machine_channels import channels_schema
+from handeye.trace.hand_message import channels_schema, hand_schema
 
 FORMAT: Final = "handeye trace"
-VERSION: Final = 3
-"""Version of the format; a reader reads its own."""
+VERSION: Final = 3  # version of the format; a reader reads its own
 METADATA: Final = "handeye"
 """Name of the metadata record that says what the file is and what the run depended on."""
 THINNED: Final = "thinned"
 """Key of that record in files that hold some of the servo periods of the run, not all."""
-PLAN: Final = "plan.json"
-"""Name of the attachment with the plan."""
+PLAN: Final = "plan.json"  # name of the attachment with the plan
 PACKED_PLAN: Final = "plan.json.zst"
 """Its name in a thinned trace, where it is packed: as it is, it would be a quarter of the file."""
 
@@ -46,8 +43,7 @@ ANNOTATIONS: Final = "/camera/annotations"
 MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND, MACHINES, ANNOTATIONS)
 """Channels recorded beside the events: how it was at a moment."""
 
-WORLD: Final = "world"
-"""Name of the frame W, parent of all others."""
+WORLD: Final = "world"  # name of the frame W, parent of all others
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,8 +111,7 @@ CHANNELS: Final = (
         schema_encoding="jsonschema",
         schema=channels_schema(),
     ),
-)
-"""All channels, in the order of their numbers in the file, which begin with 1."""
+)  # all channels, in the order of their numbers in the file, which begin with 1
 
 
 @cache

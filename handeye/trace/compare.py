@@ -6,21 +6,17 @@ from itertools import zip_longest
 
 from handeye.tasks import known
 from handeye.trace.channels import EVENTS, JOINTS, LOG, MOMENTS
-from handeye.trace.quantities import differing
-from handeye.trace.quantity_text import quantity_text, values_text
+from handeye.trace.quantities import differing, quantity_text, values_text
 from handeye.trace.records import RawMessage, until
 from handeye.trace.sentences import sentence
 from handeye.trace.trace import Trace
 
 
 def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:
-    """One sentence that names the first difference of two traces; None if they say the same.
+    """One sentence that names the first difference of two traces, however they are packed; None if they say the same.
 
-    How the files are packed does not matter, only what is in them.
-
-    Args:
-        events: compare only that many events, and what came before and between them.
-        unseen: of that many events, from the first on, compare nothing that was recorded beside them.
+    Only the first `events` events and what came before and between them are compared, and nothing recorded beside the
+    first `unseen` of them.
     """
     if a.plan != b.plan:
         return "the traces are of different plans"
@@ -41,8 +37,7 @@ class _SoFar:
 
     events: int = 0
     periods: int = 0
-    last: int = 0
-    """When the last servo period ended, ns."""
+    last: int = 0  # when the last servo period ended, ns
 
     def period(self, message: RawMessage) -> None:
         """Go on to the servo period of a message."""

@@ -7,18 +7,14 @@ from typing import Literal
 import msgspec
 
 from handeye.core.errors import BadFile, InvalidInput
-from handeye.core.files import read_whole
-from handeye.core.line_file import LineFile
+from handeye.core.files import LineFile, read_whole
 from handeye.program.event_reading import EventReader
 from handeye.program.events import AnyEvent, WentBack, to_line
 
 
 def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
-    """The events in a file, those undone later included; raises BadFile if a line is cut short or no event.
-
-    Args:
-        growing: leave out a last line that is cut short.
-    """
+    """The events in a file, those undone later included; raises BadFile if a line is cut short or no event. `growing`:
+    leave out a last line that is cut short."""
     text = read_whole(path)
     if growing:
         text = text[: text.rfind(b"\n") + 1]

@@ -12,7 +12,7 @@ from handeye.core.pose import Array
 from handeye.program.guards import GuardKind
 from handeye.trace.hand_message import Axes, GuardMessage, HandMessage, read_hand
 from handeye.trace.records import RawMessage
-from handeye.trace.steps import Span
+from handeye.trace.stages import Span
 
 NO_VECTOR: Final = (np.nan, np.nan, np.nan)
 

@@ -1,4 +1,4 @@
-"""Force, gap and guards of a servo period as JSON: no typed message of robotics tools has force and moment."""
+"""Servo periods as JSON: force, gap and guards of the hand, which no typed message has, and channels of machines."""
 
 from typing import Annotated, Any, Final
 
@@ -9,11 +9,12 @@ from msgspec import UNSET, UnsetType
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.execution.servo import ServoPeriod
+from handeye.ports.axes import Channel
+from handeye.ports.workcell import Sensed
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard
 
-PLACES: Final = 6
-"""Decimal places of all figures, as of a trip in its event: a micrometre, a micronewton."""
+PLACES: Final = 6  # decimal places of all figures, as of a trip in its event: a micrometre, a micronewton
 
 
 class Axes(Record, frozen=True, kw_only=True):
@@ -32,8 +33,7 @@ class GuardMessage(Record, frozen=True, kw_only=True):
     """A guard that watches."""
 
     guard: Annotated[GuardKind, msgspec.Meta(extra_json_schema={"type": "string"})]
-    limit: float
-    """N, N m, or finger switches as a mask."""
+    limit: float  # N, N m, or finger switches as a mask
     axis: Axes | UnsetType = UNSET
     """Unit vector along which it looks at the force, or about which at the moment; none: it looks at neither."""
 
@@ -41,22 +41,14 @@ class GuardMessage(Record, frozen=True, kw_only=True):
 class HandMessage(Record, frozen=True, kw_only=True, omit_defaults=True):
     """Force, gap and guards of the hand at the end of a servo period."""
 
-    estimated: bool
-    """Force and moment are estimated; else there are none here."""
-    force: Axes | UnsetType = UNSET
-    """Force of the hand on the world, N."""
-    moment: Axes | UnsetType = UNSET
-    """Moment of the hand on the world about its tool centre point, N m."""
-    gap: float
-    """Opening of the fingers, m."""
-    finger_1: bool
-    """The switch in the finger on the +y side of the hand frame."""
-    finger_2: bool
-    """The switch in the other."""
-    driver_torque: float
-    """Torque of the screwdriver's motor by its current, N m."""
+    estimated: bool  # force and moment are estimated; else there are none here
+    force: Axes | UnsetType = UNSET  # force of the hand on the world, N
+    moment: Axes | UnsetType = UNSET  # moment of the hand on the world about its tool centre point, N m
+    gap: float  # opening of the fingers, m
+    finger_1: bool  # the switch in the finger on the +y side of the hand frame
+    finger_2: bool  # the switch in the other
+    driver_torque: float  # torque of the screwdriver's motor by its current, N m
     guards: tuple[GuardMessage, ...] = ()
-    """Active guards."""
 
 
 _encoder: Final = msgspec.json.Encoder()
@@ -120,3 +112,38 @@ def _axes(vector: Array) -> Axes:
 def rounded(value: float) -> float:
     """A figure to `PLACES` decimal places."""
     return round(value, PLACES) + 0.0  # no negative zero
+
+
+class ChannelValues(Channel, frozen=True, kw_only=True, omit_defaults=True):
+    """A channel and its values."""
+
+    values: tuple[float, ...]
+
+
+class ChannelsMessage(Record, frozen=True, kw_only=True):
+    """The channels of all machines at the end of a servo period."""
+
+    channels: tuple[ChannelValues, ...]
+
+
+_channels_encoder: Final = msgspec.json.Encoder()
+_channels_decoder: Final = msgspec.json.Decoder(ChannelsMessage)
+
+
+def channels_message(sensed: Sensed) -> bytes:
+    """The message for a servo period."""
+    told = [
+        ChannelValues(**msgspec.structs.asdict(channel), values=tuple(map(rounded, values)))
+        for channel, values in sensed.channels.items()
+    ]
+    return _channels_encoder.encode(ChannelsMessage(channels=tuple(told)))
+
+
+def channels_schema() -> bytes:
+    """JSON schema of the messages."""
+    return in_one_piece(ChannelsMessage)
+
+
+def decoded_channels(data: bytes) -> tuple[ChannelValues, ...]:
+    """The channels of the message in some bytes; raises DecodeError if it is none."""
+    return _channels_decoder.decode(data).channels

@@ -26,10 +26,8 @@ from handeye.trace.channels import (
     nanoseconds,
 )
 
-CHUNK: Final = 1 << 20
-"""Bytes of messages after which a chunk is closed."""
-_HARDEST: Final = 19
-"""Level at which a plan is packed: a tenth of its size, in some tenths of a second."""
+CHUNK: Final = 1 << 20  # bytes of messages after which a chunk is closed
+_HARDEST: Final = 19  # level at which a plan is packed: a tenth of its size, in some tenths of a second
 
 
 @dataclass(slots=True)
@@ -63,10 +61,8 @@ class GrowingFile:
     def __init__(self, file: Path) -> None:
         """Make or empty a file."""
         self.file = file
-        self.uneven = False
-        """A chunk ends where it would not have ended by itself."""
-        self.broken = False
-        """Something could not be written; the file ends there."""
+        self.uneven = False  # a chunk ends where it would not have ended by itself
+        self.broken = False  # something could not be written; the file ends there
         self.released = False
         self._pending = 0  # bytes in the chunk in progress
         with self._complaining():
@@ -76,8 +72,7 @@ class GrowingFile:
     def begin(self, head: RunStarted, plan: bytes, *, thinned: bool = False) -> None:
         """Write what stands before all messages: what the file is, the plan, the channels.
 
-        Args:
-            thinned: the file will hold some of the servo periods of the run, not all.
+        `thinned`: the file will hold only some of the run's servo periods.
         """
         said = msgspec.to_builtins(head)
         said["seed"], said["world"] = head.world.seed, msgspec.json.encode(head.world).decode()
@@ -104,11 +99,7 @@ class GrowingFile:
                 self._writer.register_channel(channel.topic, channel.encoding, schema)
 
     def write(self, topic: str, time: int, data: bytes, *, boundary: bool = False) -> None:
-        """Write a message; `time` in ns. Nothing is written any more once something could not be.
-
-        Args:
-            boundary: a run may be resumed after it: a chunk ends there.
-        """
+        """Write a message (`time` in ns), or nothing after a failed write; a chunk ends at a `boundary`."""
         if self.broken:
             return
         with self._complaining():

@@ -7,8 +7,7 @@ from typing import Any, Final
 
 from msgspec.structs import replace
 
-from handeye.core.errors import Refused
-from handeye.core.extras import MissingExtra
+from handeye.core.errors import MissingExtra, Refused
 from handeye.core.files import Kind
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE
@@ -17,8 +16,7 @@ from handeye.program.events import AnyEvent, SystemEvent
 from handeye.program.stage_names import stage_index
 from handeye.tasks import known_any
 from handeye.trace.sentences import measures_of
-from handeye.trace.stages import Stage
-from handeye.trace.steps import Span
+from handeye.trace.stages import Span, Stage
 from handeye.trace.trace import Trace
 
 
@@ -27,10 +25,8 @@ class Curve:
     """Values of a quantity against time."""
 
     name: str
-    times: Array
-    """s since the run began, shape (n,)."""
-    values: Array
-    """In the unit of the panel, shape (n,); NaN: there is none."""
+    times: Array  # s since the run began, shape (n,)
+    values: Array  # in the unit of the panel, shape (n,); NaN: there is none
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -59,8 +55,7 @@ class Plot:
     begin: float
     """s since the run began."""
     end: float
-    stages: tuple[Stage, ...]
-    """Times since the run began."""
+    stages: tuple[Stage, ...]  # times since the run began
     panels: tuple[Panel, ...]
     marks: tuple[Mark, ...]
 
@@ -72,16 +67,11 @@ _MARKED: Final[Mapping[str, type[AnyEvent]]] = {
     "saved": happened.Saved,
     "picture": happened.PictureTaken,
     "operator": happened.OperatorCalled,
-}
-"""Events that are marked, by what they are called."""
+}  # events that are marked, by what they are called
 
 
 def plot(trace: Trace, stage: str | None = None) -> Plot:
-    """A plot of a trace.
-
-    Args:
-        stage: a stage alone: its number among those that were carried out, its name, or a piece of it.
-    """
+    """A plot of a trace, or of one `stage` given by its number among those carried out, its name, or a piece of it."""
     begin, end = trace.covers if stage is None else _covers(trace, stage)
     rows = Span(begin, end).rows(trace.times)
     if rows.start == rows.stop:
@@ -170,14 +160,12 @@ KINDS: Final = {
     ".png": Kind("PNG picture", rb"\x89PNG", ending=".png"),
     ".svg": Kind("SVG drawing", rb"<\?xml|<svg ", ending=".svg"),
     ".pdf": Kind("PDF drawing", rb"%PDF", ending=".pdf"),
-}
-"""Kinds of files that a plot can be written to, by the ends of their names."""
+}  # kinds of files that a plot can be written to, by the ends of their names
 _UNDATED: Final[dict[str, dict[str, Any]]] = {
     ".png": {"Software": None},
     ".svg": {"Date": None},
     ".pdf": {"CreationDate": None},
-}
-"""Metadata that would date a file or name its maker, left out."""
+}  # metadata that would date a file or name its maker, left out
 _STYLE: Final[dict[Any, Any]] = {
     "svg.hashsalt": "handeye",
     "font.size": 8.0,
@@ -186,8 +174,7 @@ _STYLE: Final[dict[Any, Any]] = {
 }
 _WIDTH_IN, _PANEL_IN, _EVENTS_IN = 11.0, 2.2, 1.1
 _DPI: Final = 120
-_LEAST_GAP: Final = 0.025
-"""Between names of stages, as a share of the width."""
+_LEAST_GAP: Final = 0.025  # between names of stages, as a share of the width
 _OVER: Final = "data", "axes fraction"
 _BANDS: Final = ("#f2f2f2", "#ffffff")
 """Behind every other stage."""

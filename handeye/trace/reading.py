@@ -1,4 +1,4 @@
-"""Reads traces from disk. A file that is not whole, not sound or not ours is refused with one sentence."""
+"""Reads traces from disk, and their plans. One that is not whole, not sound or not ours is refused in one sentence."""
 
 import re
 from collections import Counter
@@ -8,9 +8,11 @@ from typing import Final, TypeVar
 import msgspec
 from mcap.writer import MCAP0_MAGIC
 
+from handeye.core.entries import entry_named, require
 from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole
-from handeye.planfile.store import written_digest
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import decode, written_digest
 from handeye.program.event_reading import EventReader
 from handeye.program.events import RunStarted
 from handeye.trace.channels import EVENTS, FORMAT, THINNED, VERSION
@@ -26,8 +28,7 @@ TRACE: Final = Kind("trace", re.escape(MCAP0_MAGIC), ending=".mcap")
 def read_trace(path: Path, *, lenient: bool = False) -> Trace:
     """The trace in a file; raises BadFile if it is not whole, sound, of this version, and of its plan.
 
-    Args:
-        lenient: read what is sound of a trace that was not written to its end.
+    `lenient`: read what is sound of a trace that was not written to its end.
     """
     return read_trace_as(Trace, path, lenient=lenient)
 
@@ -85,3 +86,16 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
     if start.plan is None:
         raise DamagedTrace("has no plan in it")
     return start.plan, int(version), THINNED in start.metadata
+
+
+def plan_of(trace: Trace) -> Plan:
+    """The plan that was carried out; raises InvalidInput if it is not sound, or the system follows none."""
+    require(trace.head.system, "plans", trace.name)
+    return decode(trace.plan, f"the plan in {trace.name}")
+
+
+def stage_names(trace: Trace) -> tuple[str, ...]:
+    """The stages of the program; of a system that follows no plan of motions, those that began."""
+    if "plans" in entry_named(trace.head.system).can:
+        return plan_of(trace).program.stages
+    return tuple(dict.fromkeys(stage.name for stage in trace.stages))

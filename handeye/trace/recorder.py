@@ -37,8 +37,7 @@ def part(path: Path) -> Path:
 class PictureSource:
     """Pictures of a program and marks on them, asked for when an event is about one."""
 
-    picture: Callable[[str], Picture]
-    """The picture of a name, as it was taken last."""
+    picture: Callable[[str], Picture]  # the picture of a name, as it was taken last
     found: Callable[[], tuple[str, Sequence[Mark]]]
     """Name of the picture that the step under way has found something in, and the marks of that."""
 
@@ -62,11 +61,7 @@ class Recorder:
     ) -> None:
         """Begin a trace; what another run left unfinished at its place is replaced.
 
-        Args:
-            looks: the pictures of the program.
-            plan: the bytes of `plan.json`.
-            old: a trace to resume, whole or not, and the events it is to begin with; see `resumed`.
-            prefix: those events.
+        `plan` is the content of `plan.json`; `old` a trace to resume, whole or not, that begins with events `prefix`.
         """
         self._path, self._frames, self._looks, self._plan = path, frames, looks, plan
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []
@@ -90,9 +85,8 @@ class Recorder:
     ) -> "Recorder":
         """Resume the trace that a broken-off run left, after its event number `events`.
 
-        Args:
-            prefix: the events so far. Those that the trace has lost are written again, without what happened between
-                them; if it is the trace of another run, or there is none, that is all of them.
+        Of `prefix`, the events so far, those that the trace has lost are written again, without what happened between
+        them; if it is the trace of another run, or there is none, that is all of them.
         """
         prefix = prefix[:events]
         left = [read_whole(file) for file in (part(path), path) if file.exists()]

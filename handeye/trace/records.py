@@ -21,8 +21,7 @@ from zstandard import ZstdDecompressor, ZstdError, frame_content_size
 from handeye.program.events import Event, to_line
 from handeye.trace.channels import EVENTS, METADATA, PACKED_PLAN, PLAN
 
-_HEAD: Final = struct.Struct("<BQ")
-"""Before every record: what it is, and its length."""
+_HEAD: Final = struct.Struct("<BQ")  # before every record: what it is, and its length
 _DATA_END: Final = _HEAD.size + 4
 _FOOTER: Final = _HEAD.size + 20
 _TROUBLE: Final = (McapError, ZstdError, ValueError, KeyError, struct.error, MemoryError, OverflowError)
@@ -112,8 +111,7 @@ def _unpacked(data: bytes) -> bytes:
 def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]:
     """The messages of a file, in the order they were written, as far as whole chunks go.
 
-    Args:
-        lenient: end before a damaged chunk, which else raises DamagedTrace.
+    A damaged chunk raises DamagedTrace, or ends them if `lenient`.
     """
     topics: dict[int, str] = {}
     for opcode, body in _records(data):

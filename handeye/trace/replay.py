@@ -14,7 +14,7 @@ from handeye.ports.camera import Picture
 from handeye.program.event_reading import EventReader
 from handeye.program.events import AnyEvent, PictureTaken, StageFinished, StageStarted, StepStarted
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, PICTURE
-from handeye.trace.machine_channels import decoded_channels
+from handeye.trace.hand_message import decoded_channels
 from handeye.trace.messages import GAP, LEVEL, Poses
 from handeye.trace.records import RawMessage
 
@@ -26,8 +26,7 @@ class TakenPicture:
     time: float
     """s"""
     name: str
-    picture: Picture
-    """Levels 0 to 15, shape (rows, columns), uint8."""
+    picture: Picture  # levels 0 to 15, shape (rows, columns), uint8
 
 
 def read_pictures(messages: Iterable[RawMessage]) -> Iterator[TakenPicture]:
@@ -97,12 +96,9 @@ class ChannelCurve:
     """One component of a channel against time."""
 
     name: str
-    unit: str
-    """SI; empty: a switch or a count."""
-    times: Array
-    """Ends of the servo periods, shape (n,), s on the cell's clock."""
-    values: Array
-    """Shape (n,)."""
+    unit: str  # SI; empty: a switch or a count
+    times: Array  # ends of the servo periods, shape (n,), s on the cell's clock
+    values: Array  # (n,)
 
 
 def read_channels(messages: Iterable[RawMessage]) -> tuple[ChannelCurve, ...]:

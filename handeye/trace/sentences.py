@@ -52,8 +52,7 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.StageUndone: Log.INFO,
     happened.UndoEnded: Log.INFO,
     happened.RunFinished: Log.INFO,
-}
-"""Events that a person would log, and how much they matter."""
+}  # events that a person would log, and how much they matter
 
 
 def level_of(event: Event) -> Log.Level.ValueType | None:
@@ -66,8 +65,7 @@ _CAMERA: Final = {
     "aim": "turns to its aim",
     "focus": "is focused",
 }
-_WAITING: Final = {"digitise": "the picture"}
-"""For what the arm waits if not for the camera's mechanism."""
+_WAITING: Final = {"digitise": "the picture"}  # for what the arm waits if not for the camera's mechanism
 _CHOICES: Final = {
     "proceed": "to proceed",
     "retry": "to retry the stage",
@@ -80,8 +78,7 @@ _ASKING: Final[dict[happened.AskedBy, str]] = {
     "program": "the program has the arm undo",
     "job": "the job has the arm undo",
 }
-_PLACES: Final = ("saved", "position")
-"""Kinds of experiments whose values are differences or places."""
+_PLACES: Final = ("saved", "position")  # kinds of experiments whose values are differences or places
 
 
 def measures_of(task: str) -> Measures:
@@ -104,12 +101,7 @@ def renderer_name(renderer: Renderer) -> str:
 
 
 def sentence(event: Event, measures: Measures = INCHES) -> str:
-    """Tell what happened, without the time.
-
-    Args:
-        measures: the units in which the end of a step and events of the system's own are told; all else is in those of
-            the arm language.
-    """
+    """What happened, without the time; `measures` are for the end of a step and the system's own events."""
     match event:
         case happened.RunStarted():
             pictures = "" if event.camera.method == "none" else f", pictures by {renderer_name(event.camera)}"

@@ -1,9 +1,12 @@
-"""The stages of a run as they were carried out."""
+"""The stages and steps of a run as they were carried out."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Final, Literal
 
+import numpy as np
+
+from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.program.events import (
     AnyEvent,
@@ -12,10 +15,62 @@ from handeye.program.events import (
     StageFinished,
     StageStarted,
     StageUndone,
+    StepFinished,
     StepStarted,
     UndoEnded,
     UndoStarted,
 )
+
+CLOCKS = 1e-4
+"""s that the clock of the events, which is rounded, may be off that of the servo periods; far less than a period."""
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A time from when something began to when it ended, s."""
+
+    begin: float
+    end: float
+
+    def rows(self, times: Array) -> slice:
+        """The servo periods of it, which end at some times, shape (n,)."""
+        first, last = np.searchsorted(times, [self.begin + CLOCKS, self.end + CLOCKS]).tolist()
+        return slice(first, last)
+
+
+@dataclass(slots=True)
+class DoneStep:
+    """A step as it was carried out."""
+
+    started: StepStarted
+    events: list[AnyEvent] = field(default_factory=list)
+    """Everything that happened in it, its end included, if it came to that."""
+
+    @property
+    def finished(self) -> bool:
+        """It came to its end."""
+        return bool(self.events) and isinstance(self.events[-1], StepFinished)
+
+    @property
+    def span(self) -> Span:
+        """The time it took; one that was broken off ends with the run."""
+        return Span(self.started.time, self.events[-1].time if self.finished else np.inf)
+
+
+def done_steps(events: Iterable[AnyEvent]) -> Iterator[DoneStep]:
+    """The steps in the order in which they were carried out."""
+    step: DoneStep | None = None
+    for event in events:
+        if isinstance(event, StepStarted):
+            step = DoneStep(event)
+        elif step is not None:
+            step.events.append(event)
+            if step.finished:
+                yield step
+                step = None
+    if step is not None:
+        yield step
+
 
 BROKEN_OFF: Final = "broken off"
 Status = Literal["done", "stopped", "skipped", "broken off", "turned"]
@@ -28,11 +83,9 @@ class Stage(Record, frozen=True, kw_only=True):
     name: str
     begin: float
     """s"""
-    end: float
-    """s; of one that was broken off, the time of the last event."""
+    end: float  # s; of one that was broken off, the time of the last event
     status: Status
-    back: bool = False
-    """The arm undid what was done in it."""
+    back: bool = False  # the arm undid what was done in it
 
 
 def stages(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
@@ -69,8 +122,7 @@ class _Walk:
     found: list[Stage] = field(default_factory=list)
     _done: list[str] = field(default_factory=list)
     """Stages that were begun and are not undone; the last one is the one under way, or the last that was."""
-    _begun: float | None = None
-    """When the stage under way was begun or come back to; None: none is under way."""
+    _begun: float | None = None  # when the stage under way was begun or come back to; None: none is under way
     _back: bool = False
 
     def go(self, event: AnyEvent) -> None:

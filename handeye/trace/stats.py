@@ -13,26 +13,19 @@ from handeye.core.plain_text import printable
 from handeye.program import events as happened
 from handeye.program.events import AnyEvent, Event
 
-BROKEN_OFF = "interrupted"
-"""Status of a stage whose end was not recorded."""
+BROKEN_OFF = "interrupted"  # status of a stage whose end was not recorded
 
 
 class Figures(msgspec.Struct, kw_only=True):
     """Figures of a part of a run."""
 
-    seconds: float = 0.0
-    """Simulated, s."""
-    camera_s: float = 0.0
-    """Share of these that the camera's mechanism took, s."""
+    seconds: float = 0.0  # simulated, s
+    camera_s: float = 0.0  # share of these that the camera's mechanism took, s
     steps: int = 0
-    motions: int = 0
-    """Steps that moved the arm."""
-    guards: int = 0
-    """Motions that a force or torque ended."""
-    errors: dict[int, int] = msgspec.field(default_factory=dict)
-    """Count of each error number."""
-    places: int = 0
-    """Places that searches went on to."""
+    motions: int = 0  # steps that moved the arm
+    guards: int = 0  # motions that a force or torque ended
+    errors: dict[int, int] = msgspec.field(default_factory=dict)  # count of each error number
+    places: int = 0  # places that searches went on to
     pictures: int = 0
 
     def add(self, event: Event) -> None:
@@ -58,8 +51,7 @@ class StageFigures(Figures, kw_only=True):
     """Figures of a stage; one that was done more than once is counted together."""
 
     stage: str
-    status: str = BROKEN_OFF
-    """Its last end: done, stopped, skipped, or broken off."""
+    status: str = BROKEN_OFF  # how it last ended: done, stopped, skipped, or broken off
 
 
 class Statistics(msgspec.Struct, kw_only=True):
@@ -70,16 +62,11 @@ class Statistics(msgspec.Struct, kw_only=True):
     operator: int
     """Calls of the operator."""
     experiments: int
-    messages: dict[str, int]
-    """On each channel of the trace."""
+    messages: dict[str, int]  # on each channel of the trace
 
 
 def statistics(events: Sequence[AnyEvent], messages: dict[str, int]) -> Statistics:
-    """The figures of a run.
-
-    Args:
-        messages: how many there are on each channel of its trace.
-    """
+    """The figures of a run, with the number of `messages` on each channel of its trace."""
     total = Figures()
     for event in events:
         total.add(event)
@@ -94,8 +81,7 @@ def statistics(events: Sequence[AnyEvent], messages: dict[str, int]) -> Statisti
     )
 
 
-NARROW: Final = 60
-"""Columns of a terminal that has no room for a table."""
+NARROW: Final = 60  # columns of a terminal that has no room for a table
 _HEADS: Final = ("time", "camera", "steps", "stops", "tries", "errors")
 
 

@@ -22,10 +22,8 @@ class Column:
 
     name: str
     about: str
-    unit: str = ""
-    """SI; empty: none."""
-    values: Values
-    """One for each row; NaN or an empty text: there is none."""
+    unit: str = ""  # SI; empty: none
+    values: Values  # one for each row; NaN or an empty text: there is none
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -21,8 +21,7 @@ from handeye.trace.records import RawMessage
 from handeye.trace.trace import Trace
 from handeye.trace.writing import BOUNDARIES
 
-PLACE_M: Final = 2e-3
-"""Allowed deviation of a body."""
+PLACE_M: Final = 2e-3  # allowed deviation of a body
 TURN_RAD: Final = radians(1)
 FELT: Final = {
     GuardKind.FORCE: 1.0,
@@ -30,10 +29,8 @@ FELT: Final = {
     GuardKind.MOMENT: 0.04,
     GuardKind.TORQUE: 0.04,
     GuardKind.TOUCH: 0.5,
-}
-"""Allowed deviation of the reading of a guard: N, N m, or switches."""
-LONGEST_GAP_S: Final = 10.0
-"""Between two periods, whatever stands still: the second hand of a clock goes on."""
+}  # allowed deviation of the reading of a guard: N, N m, or switches
+LONGEST_GAP_S: Final = 10.0  # between two periods, whatever stands still: the second hand of a clock goes on
 _NOWHERE: Final = np.array([0, 0, -1e3, 1, 0, 0, 0], dtype=np.float64)
 """Where a body is that is not there: far from where any is."""
 

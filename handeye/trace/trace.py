@@ -28,14 +28,12 @@ from handeye.trace.replay import (
     read_motion,
     read_pictures,
 )
-from handeye.trace.stages import Stage, stages, stages_both_ways
-from handeye.trace.steps import done_steps
+from handeye.trace.stages import Stage, done_steps, stages, stages_both_ways
 
 if TYPE_CHECKING:
     from handeye.trace.table import Table
 
-SHOWN: Final = 0.01
-"""s to which times are shown; what is typed is as exact as that."""
+SHOWN: Final = 0.01  # s to which times are shown; what is typed is as exact as that
 Read = TypeVar("Read")
 
 

@@ -12,7 +12,6 @@ from handeye.ports.camera import Picture
 from handeye.program.event_reading import EventReader
 from handeye.program.events import Event, PictureTaken, RunStarted, StageFinished, StepStarted
 from handeye.trace import messages
-from handeye.trace.annotations import annotations
 from handeye.trace.channels import (
     ANNOTATIONS,
     EVENTS,
@@ -26,21 +25,18 @@ from handeye.trace.channels import (
     nanoseconds,
 )
 from handeye.trace.frames import Frames, Mask
-from handeye.trace.hand_message import hand_message
-from handeye.trace.machine_channels import channels_message
+from handeye.trace.hand_message import channels_message, hand_message
 from handeye.trace.mcap_writer import GrowingFile
-from handeye.trace.messages import Poses
+from handeye.trace.messages import Poses, annotations
 from handeye.trace.records import RawMessage, event_data
 from handeye.trace.sentences import level_of, measures_of, sentence
 from handeye.vision.marks import Mark
 
-MOVED: Final = 1e-6
-"""Change of a pose (m, or of a component of its quaternion) that is worth writing down."""
+MOVED: Final = 1e-6  # change of a pose (m, or of a component of its quaternion) that is worth writing down
 PUT_AWAY: Final = -1.0
 """Height (m) below which parts lie that have become something else; the floor is higher."""
 
-BOUNDARIES: Final = (RunStarted, StageFinished)
-"""Events after which a run may be taken up again."""
+BOUNDARIES: Final = (RunStarted, StageFinished)  # events after which a run may be taken up again
 
 
 class TraceWriter:
@@ -52,8 +48,7 @@ class TraceWriter:
 
     def __init__(self, file: GrowingFile, frames: Frames, plan: bytes) -> None:
         self.file, self._frames, self._plan = file, frames, plan
-        self.events = 0
-        """Number of events written."""
+        self.events = 0  # number of events written
         self.head: RunStarted | None = None
         self._measures = INCHES
         self._reader = EventReader()

@@ -4,8 +4,7 @@ from collections.abc import Generator, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from typing import Any, Final
 
-from handeye.core.errors import Refused
-from handeye.core.extras import MissingExtra
+from handeye.core.errors import MissingExtra, Refused
 from handeye.core.versions import code_digest
 from handeye.trials.sweep import Case, Engine, GuardedWork
 from handeye.trials.workers import TRIES, Answer

@@ -14,12 +14,11 @@ from handeye.program.diagnosis.causes import UndoResisted
 from handeye.program.events import UndoFinished, UndoStarted
 from handeye.results.finishing import finished
 from handeye.results.result import Result
-from handeye.runs.advance import advance
+from handeye.runs.advance import AfterStage, advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AfterStage
 from handeye.tasks import task
 from handeye.tasks.interface import Disturbance
 from handeye.trials.assembly import brakes_hold

@@ -8,8 +8,7 @@ import msgspec
 
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadFile, CannotWrite
-from handeye.core.files import read_whole
-from handeye.core.line_file import LineFile
+from handeye.core.files import LineFile, read_whole
 from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec

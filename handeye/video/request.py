@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from handeye.cell.photograph import LARGEST, SMALLEST
+from handeye.core.arguments import whole
 from handeye.core.errors import BadArgument
-from handeye.core.whole_numbers import whole
 
 SECONDS: Final = 14.0  # default duration
 LONGEST: Final = 600.0  # s

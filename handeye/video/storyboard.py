@@ -14,7 +14,7 @@ from handeye.program.events import StepFinished
 from handeye.program.stage_names import stage_index
 from handeye.report.facts.seen import SeenPicture
 from handeye.report.page.figures import clock
-from handeye.trace.planned import stage_names
+from handeye.trace.reading import stage_names
 from handeye.trace.stages import BROKEN_OFF, Stage
 from handeye.trace.trace import SHOWN, Trace
 from handeye.video.captions import Caption

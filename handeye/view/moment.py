@@ -19,7 +19,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.system import Listing, RunningSystem
 from handeye.trace.frames import Frames, NoFrames
 from handeye.trace.messages import Poses
-from handeye.trace.steps import done_steps
+from handeye.trace.stages import done_steps
 
 NEWS = PictureTaken | happened.PartSeen | happened.PartInspected | happened.PartMatched | happened.ErrorRaised
 """Events after which there is another picture, or more on it."""

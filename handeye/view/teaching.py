@@ -8,8 +8,7 @@ import msgspec
 
 from handeye.arm.model import ArmModel
 from handeye.core.markup import Markup, element
-from handeye.debugger.live import LineInput
-from handeye.debugger.pace import Pace
+from handeye.debugger.live import LineInput, Pace
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.teaching.answers import Answer, text

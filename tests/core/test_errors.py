@@ -5,7 +5,7 @@ import re
 import handeye
 from handeye.api.diagnostic import ScriptError
 from handeye.core import errors
-from handeye.core.extras import MissingExtra
+from handeye.core.errors import MissingExtra
 from handeye.runs.folder import HoldsRun
 
 ELSEWHERE = (ScriptError, MissingExtra, HoldsRun)

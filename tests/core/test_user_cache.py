@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from handeye.core.user_cache import cache_folder
+from handeye.core.resources import cache_folder
 
 HOME = {"HOME": "/home/ann", "USERPROFILE": "/home/ann"}
 

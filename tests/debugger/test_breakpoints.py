@@ -8,9 +8,8 @@ from handeye.core.errors import InvalidInput
 from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
 from handeye.planfile.plan import Plan
 from handeye.results.pauses import pause_sentence
-from handeye.runs.advance import advance
+from handeye.runs.advance import AfterStage, AnyStop, BeforeStep, advance
 from handeye.runs.runner import Runner
-from handeye.runs.stops import AfterStage, AnyStop, BeforeStep
 
 MACRO = """\
 DEFINE TWICE

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from handeye.core.errors import InvalidInput
-from handeye.debugger.pace import Pace, factor
+from handeye.debugger.live import Pace, factor
 
 
 class WoundClock:

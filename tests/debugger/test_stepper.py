@@ -18,8 +18,7 @@ from handeye.core.pose import hand, hand_angles
 from handeye.core.units import INCH, OUNCE_FORCE
 from handeye.debugger.command_table import COMMANDS
 from handeye.debugger.formatting import as_text
-from handeye.debugger.live import LineInput
-from handeye.debugger.pace import Pace
+from handeye.debugger.live import LineInput, Pace
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper, interact
 from handeye.execution.state import Shot, VisionResult
@@ -34,12 +33,12 @@ from handeye.program.events import (
 )
 from handeye.program.guards import GuardKind
 from handeye.results.pauses import pause_sentence, stop_name
+from handeye.runs.advance import AtLabel, ByHand
 from handeye.runs.checkpoint_file import read_checkpoint, write_checkpoint
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AtLabel, ByHand
 from handeye.systems.stanford.topics import TOPICS
 from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.vision.base import GeneralLocation

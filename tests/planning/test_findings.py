@@ -20,8 +20,7 @@ from handeye.program.diagnosis.plan_findings import (
     TooHeavy,
     TooWeak,
 )
-from handeye.program.diagnosis.reach import OutOfReach
-from handeye.program.diagnosis.reach_text import NamedArm
+from handeye.program.diagnosis.reach import NamedArm, OutOfReach
 from handeye.program.language import language_of
 from handeye.program.program import Program
 from handeye.program.taught import Taught

@@ -15,13 +15,12 @@ from short_runs import GRASP, begin, history, plan_of
 from handeye.core.errors import InvalidInput
 from handeye.planfile.store import write_plan
 from handeye.program.events import AnyEvent, WentBack
-from handeye.runs.advance import advance
+from handeye.runs.advance import AfterStage, advance
 from handeye.runs.checkpoint_file import encode
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import RunFolder, open_again, open_new
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AfterStage
 from handeye.trace.eventlist import Journal, effective, read_events
 
 pytestmark = pytest.mark.slow

@@ -18,12 +18,11 @@ from handeye.program.events import (
     UndoOrdered,
 )
 from handeye.results.pauses import pause_sentence
-from handeye.runs.advance import Pause
+from handeye.runs.advance import AfterStage, Pause
 from handeye.runs.observer import Observer
 from handeye.runs.operator import Abort, Back, Retry, UnwindOnce, attend, beginnings, parse_policy
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AfterStage
 
 SEARCHED = AfterStage(stage=1, name="search in the air")
 

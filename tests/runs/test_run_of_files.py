@@ -14,8 +14,8 @@ from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper
 from handeye.planfile.plan import Plan
 from handeye.results.pauses import stop_name
+from handeye.runs.advance import AtSteps
 from handeye.runs.runner import Runner
-from handeye.runs.stops import AtSteps
 
 FILES = {
     "lib/hand.al": '        STAGE   "hand"\n        OPEN    .5\nLH:     OPEN    .4\n',

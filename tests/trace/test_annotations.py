@@ -5,7 +5,7 @@ import pytest
 from google.protobuf.message import DecodeError
 from recordings import MARKS
 
-from handeye.trace.annotations import annotations, read_annotations
+from handeye.trace.messages import annotations, read_annotations
 from handeye.vision.marks import Disc, Line, Loop, Mark
 
 TAKEN = 12_345_678_901

@@ -12,8 +12,7 @@ from handeye.program.events import (
     PictureTaken,
 )
 from handeye.program.guards import GuardKind
-from handeye.trace.quantities import QuantityDifference, Value, differing_events
-from handeye.trace.quantity_text import quantity_text, values_text
+from handeye.trace.quantities import QuantityDifference, Value, differing_events, quantity_text, values_text
 
 
 @pytest.mark.parametrize(

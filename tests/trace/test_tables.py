@@ -16,8 +16,7 @@ from handeye.core.errors import InvalidInput
 from handeye.trace.reading import read_trace
 from handeye.trace.sentences import sentence
 from handeye.trace.table import MAX_CELL_CHARS, SHOWN_ROWS, Column, Table
-from handeye.trace.table_files import csv_bytes
-from handeye.trace.tables import tables
+from handeye.trace.tables import csv_bytes, tables
 from handeye.trace.trace import Trace
 
 

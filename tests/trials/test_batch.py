@@ -21,7 +21,7 @@ from handeye.program.events import AnyEvent, ErrorRaised, SearchAdvanced, StepSt
 from handeye.program.taught import load_taught
 from handeye.results.result import Check
 from handeye.tasks import task
-from handeye.trace.table_files import check_tables, csv_bytes, write_tables
+from handeye.trace.tables import check_tables, csv_bytes, write_tables
 from handeye.trials.comparing import paired
 from handeye.trials.figures import Figures
 from handeye.trials.figures import figures as figures_of

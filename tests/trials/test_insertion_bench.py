@@ -19,7 +19,7 @@ from handeye.runs.scripts import taught_beside
 from handeye.systems.stanford import executor_run as programs
 from handeye.tasks.insertion.task import INSERTION as TASK
 from handeye.touch.spiral import spiral
-from handeye.trace.table_files import csv_bytes
+from handeye.trace.tables import csv_bytes
 from handeye.trials.figures import figures
 from handeye.trials.insertion import (
     GENTLE,

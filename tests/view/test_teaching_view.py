@@ -12,7 +12,7 @@ import pytest
 from conftest import Command
 from repl_sessions import workplace
 
-from handeye.debugger.pace import Pace
+from handeye.debugger.live import Pace
 from handeye.program.taught import Taught, load_taught
 from handeye.teaching.teach_commands import TeachSession
 from handeye.teaching.teacher import Teacher

@@ -13,8 +13,7 @@ from recordings import record
 
 from handeye.trace.reading import read_trace
 from handeye.trace.table import Table
-from handeye.trace.table_files import export_tables
-from handeye.trace.tables import tables
+from handeye.trace.tables import export_tables, tables
 
 NAMES = ("joints", "forces", "events")
 

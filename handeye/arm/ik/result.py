@@ -10,8 +10,7 @@ import numpy as np
 from handeye.arm.model import ArmModel, Joint
 from handeye.core.pose import Array
 from handeye.program.diagnosis.causes import ArmNames, BeyondArm
-from handeye.program.diagnosis.reach import JointLimit, OutOfReach, ReachFailure
-from handeye.program.diagnosis.reach_text import reach_sentence
+from handeye.program.diagnosis.reach import JointLimit, OutOfReach, ReachFailure, reach_sentence
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,7 +7,7 @@ from handeye.core.plain_text import distinct_digits
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.diagnosis import causes as c
 from handeye.program.diagnosis.causes import Cause
-from handeye.program.diagnosis.reach_text import reach_sentence
+from handeye.program.diagnosis.reach import reach_sentence
 from handeye.program.guards import GuardKind
 
 

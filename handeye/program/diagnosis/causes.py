@@ -3,8 +3,7 @@
 from typing import Literal
 
 from handeye.core.record import Record, Vector3
-from handeye.program.diagnosis.reach import ReachFailure
-from handeye.program.diagnosis.reach_text import NamedArm
+from handeye.program.diagnosis.reach import NamedArm, ReachFailure
 from handeye.program.guards import GuardKind
 
 LargeHole = Literal["largest", "second"]  # holes that vision locates a part by
@@ -322,8 +321,7 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
     """The record that the step left for its reversal cannot be used."""
 
 
-SightCause = NoOutline | OutsidePicture | NoHoles
-"""Causes for which vision does not find a part."""
+SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part
 SenseCause = (
     SwitchesClosed | SwitchesOpen | GapAstray | GapStill | ForceInAir | JointSensesApart | CurrentSilent
     | PictureRepeated | PictureBlank

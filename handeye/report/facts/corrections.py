@@ -11,7 +11,7 @@ from handeye.program.events import Adjusted, PartSeen, Restored, Saved, SearchAd
 from handeye.program.operation import Operation, Use
 from handeye.report.recorded import RecordedRun
 from handeye.trace.account import ASTRAY
-from handeye.trace.steps import DoneStep, done_steps
+from handeye.trace.stages import DoneStep, done_steps
 
 
 class Mover(StrEnum):

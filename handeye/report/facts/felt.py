@@ -11,7 +11,7 @@ from handeye.program.events import GuardTripped, StageStarted, StepStarted
 from handeye.program.guards import GuardKind
 from handeye.report.recorded import RecordedRun
 from handeye.trace.forces import Forces
-from handeye.trace.steps import DoneStep, done_steps
+from handeye.trace.stages import DoneStep, done_steps
 
 
 class Trip(NamedTuple):

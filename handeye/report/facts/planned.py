@@ -15,7 +15,7 @@ from handeye.program.events import (
 )
 from handeye.report.recorded import RecordedRun
 from handeye.trace.account import ASTRAY
-from handeye.trace.steps import DoneStep, done_steps
+from handeye.trace.stages import DoneStep, done_steps
 
 
 class EndReason(StrEnum):

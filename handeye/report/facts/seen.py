@@ -9,9 +9,9 @@ from handeye.core.errors import BadFile
 from handeye.ports.camera import Picture
 from handeye.program.events import ErrorRaised, PartInspected, PartMatched, PartSeen, PictureTaken
 from handeye.report.recorded import RecordedRun
-from handeye.trace.annotations import read_annotations
 from handeye.trace.channels import ANNOTATIONS, nanoseconds
-from handeye.trace.steps import DoneStep, done_steps
+from handeye.trace.messages import read_annotations
+from handeye.trace.stages import DoneStep, done_steps
 from handeye.vision.marks import Mark
 
 Finding = PartSeen | PartInspected | PartMatched | ErrorRaised

@@ -22,7 +22,7 @@ from handeye.report.page.plots import bar, drawing
 from handeye.report.recorded import RecordedRun
 from handeye.tasks import known
 from handeye.tasks.interface import HistoricalTiming
-from handeye.trace.planned import stage_names
+from handeye.trace.reading import stage_names
 from handeye.trace.stats import Figures, StageFigures, statistics
 
 _WIDE: Final = 300.0

@@ -17,7 +17,7 @@ from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.core.files import read_whole, write_whole
 from handeye.core.packed import packed, sealed, unpacked
 from handeye.core.record import Record
-from handeye.core.user_cache import cache_folder
+from handeye.core.resources import cache_folder
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.systems.stanford.conditions import Conditions

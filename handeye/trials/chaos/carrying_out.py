@@ -13,14 +13,13 @@ from handeye.execution.servo import ServoPeriod
 from handeye.program.events import OperatorAnswered, OperatorCalled
 from handeye.results.outcome import outcome
 from handeye.results.result import to_json
-from handeye.runs.advance import Pause, keep, paused_before
+from handeye.runs.advance import Pause, StopCondition, keep, paused_before
 from handeye.runs.folder import EVENTS, RESULT, open_again, open_new
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.operator import Operator, OperatorChoice, attend
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import StopCondition
 from handeye.trials.assembly import brakes_hold
 from handeye.trials.chaos.schedule import Answer, Break, Schedule
 

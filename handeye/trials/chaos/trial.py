@@ -7,10 +7,9 @@ from pathlib import Path
 from handeye.core.record import Record
 from handeye.program.events import OperatorAnswered, StageFinished
 from handeye.results.judging import findings_so_far
-from handeye.runs.advance import advance
+from handeye.runs.advance import StopCondition, advance
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import StopCondition
 from handeye.runs.systems import listing_of
 from handeye.tasks import any_task
 from handeye.trials.chaos.carrying_out import ReachedPosition, ScheduleRun, ScheduleRunner

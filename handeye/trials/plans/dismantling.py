@@ -9,12 +9,11 @@ from handeye.judge.finding import all_right
 from handeye.program.events import UndoFinished
 from handeye.results.finishing import finished
 from handeye.results.judging import findings
-from handeye.runs.advance import Pause, advance
+from handeye.runs.advance import AfterStage, Pause, advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AfterStage
 from handeye.trials.assembly import FinishedRun
 from handeye.trials.plans.distributions import margin_details
 from handeye.trials.plans.row import APART, Row

@@ -9,8 +9,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, WholeNumber, complain, note, put_json, say, screen
 from handeye.cli.panic_button import PanicButton
-from handeye.core.errors import BadArgument, InvalidInput, Refused
-from handeye.core.extras import MissingExtra
+from handeye.core.errors import BadArgument, InvalidInput, MissingExtra, Refused
 from handeye.systems.trig.cli.jobs import bucket, palletise
 
 if TYPE_CHECKING:

@@ -153,13 +153,7 @@ class AxesArm(TrigArm):
         self._wait(self._limits.grasping)
 
     def _obstacle(self, tare: Array, speed: Array, limit: float) -> Obstacle | None:
-        """The obstacle that stops the arm: a force on the finger, or an axis left behind.
-
-        Args:
-            tare: force felt before, N.
-            speed: last commanded axis speeds, shape (n,).
-            limit: allowed force, N.
-        """
+        """What stops the arm: a force over `limit` (N) beyond `tare`, or an axis left behind; `speed` is (n,)."""
         found = self._resistance(tare, limit) or self._left_behind(speed)
         if found is not None:
             self._stand()
