@@ -7,20 +7,28 @@ from msgspec.structs import replace
 
 from handeye.al.checks.names import check_names
 from handeye.al.checks.program_checks import CompiledScript, check_whole
-from handeye.al.lower import Lowered, lower
+from handeye.al.lower import lower
 from handeye.al.lower_statement import position
 from handeye.al.macros import as_called, expand
 from handeye.al.parser import parse_whole
 from handeye.al.statements import by_word, named_vectors, used_names, with_vectors
-from handeye.al.syntax import Name, Script
-from handeye.al.syntax_check import MISSING
 from handeye.core.diagnostics import LIMIT, Diagnostic, arranged, has_errors, problem
 from handeye.core.source import Source, Span
-from handeye.program.program import Position, Program
+from handeye.program.program import Program
 from handeye.program.taught import Taught
 
-LANGUAGE: Final = "wave"
-"""Name of the language in programs and plans: that of the arm program of 1973."""
+# Part of the text is missing, so that its definitions would be reported as unknown.
+MISSING: Final = ("unreadable-file", "too-much-required")
+_OF_OTHERS: Final = (*MISSING, "require-circle", "required-twice")
+LANGUAGE: Final = "wave"  # name of the language in programs and plans: that of the arm program of 1973
+
+
+def check_form(source: Source) -> list[Diagnostic]:
+    """Syntax errors of a text alone, whatever it requires; required texts are read for macro names."""
+    found = parse_whole(source)[1]
+    lost = ("unknown-instruction",) if any(d.code in MISSING for d in found) else ()
+    left_out = {*_OF_OTHERS, *lost}
+    return [d for d in found if d.code not in left_out and not source.find(d.primary.span.start)[0].key]
 
 
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
@@ -41,10 +49,13 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     found += check_names(statements, words, used, taught)
     vectors = named_vectors(words)
     placed = [replace(item, statement=with_vectors(item.statement, vectors)) for item in placed]
-    lowered = lower(placed, source, found.append, inner=_inner_labels(script))
+    bodies = (macro.body for macro in script.macros.values())
+    inner = {label.text: label for body in bodies for statement in body for label in statement.labels}
+    lowered = lower(placed, source, found.append, inner=inner)
     found = _without_lost_labels(source, found)
     if not lowered.steps and not has_errors(found):
-        found.append(_empty())
+        nothing = "the program has no instruction to carry out"
+        found.append(problem("empty-program", nothing, Span(start=0, end=0)))
     if has_errors(found):  # what follows would tell a mistake twice, as what it leads to
         return None, arranged(found)
     positions = {**taught.positions, **dict(map(position, words.get("TRANS", ())))}
@@ -53,12 +64,9 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         lowered=lowered,
     )  # fmt: skip
     found += check_whole(whole, taught, positions)
-    program = None if has_errors(found) else _program(source, lowered, positions, taught)
-    return program, arranged(found)
-
-
-def _program(source: Source, lowered: Lowered, positions: dict[str, Position], taught: Taught) -> Program:
-    return Program(
+    if has_errors(found):
+        return None, arranged(found)
+    program = Program(
         name=PurePath(source.name).stem,
         language=LANGUAGE,
         source=source.text,
@@ -70,12 +78,7 @@ def _program(source: Source, lowered: Lowered, positions: dict[str, Position], t
         held=dict(taught.held),
         required={text.key: text.text for text in source.required},
     )
-
-
-def _inner_labels(script: Script) -> dict[str, Name]:
-    """The labels of macros, called or not."""
-    bodies = (macro.body for macro in script.macros.values())
-    return {label.text: label for body in bodies for statement in body for label in statement.labels}
+    return program, arranged(found)
 
 
 def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagnostic]:
@@ -98,8 +101,3 @@ def _word(source: Source, diagnostic: Diagnostic) -> str:
     span = diagnostic.primary.span
     text, start = source.find(span.start)
     return text.text[start : start + span.end - span.start]
-
-
-def _empty() -> Diagnostic:
-    message = "the program has no instruction to carry out"
-    return problem("empty-program", message, Span(start=0, end=0))

@@ -1,11 +1,14 @@
-"""Definitions of instructions: operands, their units, and their role in the flow."""
+"""Definitions of instructions: operands of each kind, their units, and their role in the flow."""
 
 from enum import Enum, StrEnum
 from typing import Final
 
-from handeye.al.syntax import Value
+from msgspec.structs import replace
+
+from handeye.al.syntax import Name, Number, Value, Vector
 from handeye.core import units
 from handeye.core.record import Record
+from handeye.ports import camera
 
 MAX_NUMBER: Final = 1e6  # keeps squares of numbers finite
 ANY: Final = "numbers in a program go up to a million"
@@ -122,3 +125,63 @@ class Instruction(Record, frozen=True, kw_only=True):
     def usage(self) -> str:
         """The instruction with its operands."""
         return " ".join((self.op, *(operand.shown for operand in self.operands)))
+
+
+MAX_GAP_IN: Final = round(units.GAP / units.INCH, 2)
+LENSES_MM: Final = tuple(lens / units.MILLIMETRE for lens in camera.LENSES)
+MAX_STEP_IN: Final = 1.0
+
+
+def number(
+    name: str, unit: OperandUnit, low: float = -MAX_NUMBER, *, optional: bool = False, ours: bool = False
+) -> Operand:
+    """A number in a unit, perhaps with a minimum."""
+    why = f"it must be at least {low:g} {unit.name}" if low > -MAX_NUMBER else ANY
+    return Operand(name=name, takes=(Number,), units=(unit,), low=low, why=why, optional=optional, ours=ours)
+
+
+def count(name: str, low: float, high: float, why: str, *, word: str = "") -> Operand:
+    """A whole number in a range; after a keyword of ours it is optional."""
+    plain = number(name, ONE, low, optional=bool(word), ours=bool(word))
+    return replace(plain, high=high, why=why, whole=True, word=word)
+
+
+def gap(name: str, *, optional: bool = False, ours: bool = False) -> Operand:
+    """An opening of the hand."""
+    why = f"the hand opens from 0 to {MAX_GAP_IN:g} in"
+    return replace(number(name, IN, 0.0, optional=optional, ours=ours), high=MAX_GAP_IN, why=why)
+
+
+def vector(**components: OperandUnit) -> Operand:
+    """A vector, with a letter and a unit for each component."""
+    name, units = f"[{' '.join(components)}]", tuple(components.values())
+    return Operand(name=name, takes=(Vector,), units=units, components=tuple(components))
+
+
+def named_vector(unit: OperandUnit) -> Operand:
+    """A vector of three components in one unit, or the name of one."""
+    return replace(vector(x=unit, y=unit, z=unit), takes=(Vector, Name), refers=Refers.VECTOR)
+
+
+def name_of(name: str, refers: Refers) -> Operand:
+    """The name of something of a kind."""
+    return Operand(name=name, takes=(Name,), refers=refers)
+
+
+def word(word: str, *, optional: bool = True, ours: bool = True) -> Operand:
+    """A keyword, optional or not."""
+    return Operand(name="", takes=(), word=word, optional=optional, ours=ours)
+
+
+MOMENT: Final = Operand(
+    name="moment", takes=(Vector, Name), units=(OZ_IN,) * 3, optional=True, nil=True, refers=Refers.VECTOR
+)
+ERROR: Final = count("error", 1, 63, "errors have numbers from 1 to 63")
+LENS: Final = Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES_MM)
+_STEP_WHY = f"a step is {MIN_POSITIVE:g} to {MAX_STEP_IN:g} in: a search extends several to each side"
+SEARCH_STEP: Final = replace(number("step", IN, MIN_POSITIVE), high=MAX_STEP_IN, why=_STEP_WHY)
+STEPS: Final = count("number", 1, 20, "a search extends 1 to 20 steps to each side", word="STEPS")
+TIMES: Final = count("number", 1, 100, "a stage is undone 1 to 100 times", word="TIMES")
+ALONG: Final = Operand(
+    name="direction", takes=(Number,), units=(DEG,), word="ALONG", optional=True, ours=True
+)

@@ -16,8 +16,7 @@ from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.source import LARGEST, Source, Span, read_source
 
 REQUIRE: Final = "REQUIRE"
-MAX_FILES: Final = 100
-"""Limit on required files; their total size is limited to `LARGEST` characters."""
+MAX_FILES: Final = 100  # limit on required files; their total size is limited to `LARGEST` characters
 _LINE: Final = re.compile(rf"^.*\b{REQUIRE}\b.*$", re.ASCII | re.IGNORECASE | re.MULTILINE)
 
 Read = Callable[[str], str]

@@ -16,8 +16,7 @@ from handeye.al.syntax import Operand, Statement, Value
 from handeye.core.diagnostics import Diagnostic, Label
 from handeye.core.source import Located, Span
 
-Call = tuple[int, ...]
-"""Path of nested macro calls that a statement comes from; () is the main text."""
+Call = tuple[int, ...]  # path of nested macro calls that a statement comes from; () is the main text
 _BRACED: Final = re.compile(r"\{([A-Za-z_]\w*)\}", re.ASCII)  # a parameter in a text
 
 

@@ -10,10 +10,8 @@ from handeye.al.definition import Operand, Refers
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Name, Script, Statement, Value, Vector
 
-ByWord = Mapping[str, Sequence[Statement]]
-"""Statements by instruction or macro, in text order."""
-Used = Mapping[Refers, Sequence[Name]]
-"""Names by the kind of thing they refer to."""
+ByWord = Mapping[str, Sequence[Statement]]  # statements by instruction or macro, in text order
+Used = Mapping[Refers, Sequence[Name]]  # names by the kind of thing they refer to
 _NAMED = {
     i.op: [(place, operand.refers) for place, operand in enumerate(i.operands) if Name in operand.takes]
     for i in INSTRUCTIONS.values()
@@ -55,8 +53,7 @@ def pairs(statement: Statement) -> Iterable[tuple[Operand, Value | None]]:
     return zip(INSTRUCTIONS[statement.word.text].operands, statement.operands, strict=True)
 
 
-Vectors = Mapping[str, tuple[float, ...]]
-"""Components by name, in the unit of the operand."""
+Vectors = Mapping[str, tuple[float, ...]]  # components by name, in the unit of the operand
 _TAKE_NAMES: Final = {
     i.op for i in INSTRUCTIONS.values() if any(operand.refers is Refers.VECTOR for operand in i.operands)
 }

@@ -6,9 +6,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from handeye.al.compiler import check_form
 from handeye.al.formatter import format_text
 from handeye.al.includes import read_script
-from handeye.al.syntax_check import check_form
 from handeye.cli.common import note, put, say, show
 from handeye.core.diagnostics import has_errors, quoted, suggestion
 from handeye.core.errors import BadArgument, BadFile

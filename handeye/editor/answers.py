@@ -209,16 +209,14 @@ _ANSWERS: Final[dict[str, Callable[..., Any]]] = {
     lsp.TEXT_DOCUMENT_FORMATTING: _format,
     lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL: _symbols,
     lsp.TEXT_DOCUMENT_CODE_ACTION: _code_actions,
-}
-"""Handlers of requests and notifications."""
+}  # handlers of requests and notifications
 _OF_ALL: Final = {
     lsp.TEXT_DOCUMENT_DID_OPEN,
     lsp.TEXT_DOCUMENT_DID_CHANGE,
     lsp.TEXT_DOCUMENT_DID_CLOSE,
     lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES,
     lsp.TEXT_DOCUMENT_COMPLETION,
-}
-"""What is answered about texts in languages of other systems, too."""
+}  # what is answered about texts in languages of other systems, too
 _OPTIONS: Final[dict[str, Any]] = {
     lsp.TEXT_DOCUMENT_CODE_ACTION: lsp.CodeActionOptions(code_action_kinds=[lsp.CodeActionKind.QuickFix]),
     lsp.TEXT_DOCUMENT_RENAME: lsp.RenameOptions(prepare_provider=True),

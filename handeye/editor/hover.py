@@ -31,8 +31,7 @@ SI: Final = {
     "oz": ("N", 1.0),
     "oz-in": ("N m", 1.0),
     "rpm": ("rad/s", 1.0),
-}
-"""For each unit as written: the other unit shown, and its SI value."""
+}  # for each unit as written: the other unit shown, and its SI value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,8 +8,8 @@ from lsprotocol import types as lsp
 from pygls.uris import from_fs_path, to_fs_path
 from pygls.workspace import Workspace
 
+from handeye.al.compiler import check_form
 from handeye.al.includes import led_by
-from handeye.al.syntax_check import check_form
 from handeye.core.diagnostics import Diagnostic, arranged
 from handeye.core.errors import InvalidInput
 from handeye.core.source import Source, Span, line_name, read_source

@@ -8,8 +8,7 @@ from lsprotocol import types as lsp
 from handeye.core.diagnostics import Diagnostic
 from handeye.core.source import Source, Span
 
-Units = Callable[[str], int]
-"""Number of code units of a text in the agreed encoding."""
+Units = Callable[[str], int]  # number of code units of a text in the agreed encoding
 _UNNECESSARY: Final = {
     "unreachable-code",
     "unused-label",
@@ -17,8 +16,7 @@ _UNNECESSARY: Final = {
     "unused-parameter",
     "unused-position",
     "unused-vector",
-}
-"""Codes of superfluous code, which editors show paler."""
+}  # codes of superfluous code, which editors show paler
 
 
 def position(source: Source, offset: int, units: Units) -> lsp.Position:

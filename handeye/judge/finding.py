@@ -44,8 +44,7 @@ class Finding:
         return self.value - self.limit if self.relation == "at most" else self.limit - self.value
 
 
-Findings = Mapping[str, Finding]
-"""By the names of the points."""
+Findings = Mapping[str, Finding]  # by the names of the points
 
 
 def at_most(value: float, limit: float, unit: str, subject: str, *, caution: bool = False) -> Finding:

@@ -19,10 +19,8 @@ from handeye.core.entries import entries, entry_points, refusal
 from handeye.core.errors import BadArgument, InvalidInput, NoSuchName, Refused
 from handeye.tasks.interface import AnyTask, Task
 
-DEFAULT: Final = "water_pump"
-"""The task that is meant where none is named."""
-GROUP: Final = "handeye.tasks"
-"""Entry points of this group name tasks of other packages."""
+DEFAULT: Final = "water_pump"  # the task that is meant where none is named
+GROUP: Final = "handeye.tasks"  # entry points of this group name tasks of other packages
 ELSEWHERE: Final = "HANDEYE_TASKS"
 """Environment variable: more tasks as MODULE:NAME, separated by spaces. `--task` adds its own, for child processes."""
 _BUILT_IN: Final = {
@@ -36,8 +34,7 @@ _HINT: Final = (
 Kind = Literal["ours", "registered", "others"]
 """Where tasks come from: handeye, this program or `--task`, entry points."""
 _REGISTERED: Final[dict[str, AnyTask]] = {}
-_WORDS: Final[dict[str, str]] = {}
-"""What `--task` said of those that it has made known, by their names."""
+_WORDS: Final[dict[str, str]] = {}  # what `--task` said of those that it has made known, by their names
 
 
 def register(task: AnyTask) -> None:

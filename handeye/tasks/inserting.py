@@ -15,31 +15,24 @@ if TYPE_CHECKING:
 
 CLEARANCE: Final = 0.114
 """Diameter of the hole over that of what goes into it, mm: that of Factory's peg (docs/insertion.md)."""
-CHAMFER: Final = 1.0
-"""Width of the chamfer, mm, as at the holes of the pump's base."""
-SPREAD: Final = 1.0
-"""Sigma of the error of the hole's place along each axis, mm: as in Factory."""
+CHAMFER: Final = 1.0  # width of the chamfer, mm, as at the holes of the pump's base
+SPREAD: Final = 1.0  # sigma of the error of the hole's place along each axis, mm: as in Factory
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Witnessed:
     """The truth of an insertion, which the program never knows."""
 
-    peak: float
-    """Greatest resultant of all contacts between the two in any physics step, N."""
-    first: float | None
-    """Time of the first contact, s on the cell's clock."""
-    seated: float | None
-    """Time at which it was first seated, s on the cell's clock."""
-    right: bool
-    """Whether it is seated now."""
+    peak: float  # greatest resultant of all contacts between the two in any physics step, N
+    first: float | None  # time of the first contact, s on the cell's clock
+    seated: float | None  # time at which it was first seated, s on the cell's clock
+    right: bool  # whether it is seated now
 
 
 class Inserting(Task):
     """A task of one hole; its programs fetch what goes into it in their first stage."""
 
-    programs: Mapping[str, str]
-    """Script files among the plans, by the name of their search."""
+    programs: Mapping[str, str]  # script files among the plans, by the name of their search
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:

@@ -36,26 +36,22 @@ class CameraSetup(Record, frozen=True, kw_only=True):
     """The television camera of a cell as the program knows it before it is calibrated."""
 
     drawing: CameraModel
-    looks: tuple[CalibrationLook, ...]
-    """How the arm shows its lamp to it, in order."""
+    looks: tuple[CalibrationLook, ...]  # how the arm shows its lamp to it, in order
 
 
 class HistoricalTiming(Record, frozen=True, kw_only=True):
     """How long the same work took in its day, s."""
 
     year: int
-    program: str
-    """The program that these are the times of."""
-    times: Mapping[str, float]
-    """By the names `planning`, `manipulation`, `lens` and `vision`."""
+    program: str  # the program that these are the times of
+    times: Mapping[str, float]  # by the names `planning`, `manipulation`, `lens` and `vision`
 
 
 class ExportedScene(Record, frozen=True, kw_only=True):
     """A scene for other programs, with what they are told about it."""
 
     spec: mujoco.MjSpec
-    about: str
-    """Markdown: its names, and how it differs from the cell."""
+    about: str  # Markdown: its names, and how it differs from the cell
     parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """Names of bodies that can be exported on their own, by the name of the whole they make."""
     densities: Mapping[str, float] = field(default_factory=dict)
@@ -66,21 +62,16 @@ class Disturbance(Record, frozen=True, kw_only=True):
     """A change of the cell between what the arm did and its reversal."""
 
     name: str
-    meaning: str
-    """What is changed, in a sentence."""
-    make: Callable[[SimulatedCell], None]
-    """Makes the change in a cell."""
-    after: int | None = None
-    """Number of the stage after which it is made; None: the last."""
+    meaning: str  # what is changed, in a sentence
+    make: Callable[[SimulatedCell], None]  # makes the change in a cell
+    after: int | None = None  # number of the stage after which it is made; None: the last
 
 
 class Words(Record, frozen=True, kw_only=True):
     """Words for the product of a task."""
 
-    product: str
-    """The product with its article: `the pump`."""
-    done: str
-    """Sentence for a product that is finished and right."""
+    product: str  # the product with its article: `the pump`
+    done: str  # sentence for a product that is finished and right
     apart: str = "Everything is back where the run found it."
     """Sentence for a run of which the arm has undone everything."""
 
@@ -92,13 +83,10 @@ class AnyTask(ABC):
     words: Words
     camera: str = "studio"
     """The camera of the scene that shows all of it to people: pictures are taken by it where none is named."""
-    photographs: tuple[str, ...] = ()
-    """Cameras of the scene whose view of the end is kept for people."""
+    photographs: tuple[str, ...] = ()  # cameras of the scene whose view of the end is kept for people
 
-    force_axes: str = "world axes"
-    """The axes along which forces of the hand are given."""
-    measures: Measures = INCHES
-    """The units in which its runs are shown to people."""
+    force_axes: str = "world axes"  # the axes along which forces of the hand are given
+    measures: Measures = INCHES  # the units in which its runs are shown to people
     holds_from: Mapping[str, int] = MappingProxyType({})
     """Stages of its own program after which findings must hold before its end, by how their names begin."""
 

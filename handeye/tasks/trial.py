@@ -16,10 +16,8 @@ exactly."""
 class Attempt(Record, frozen=True, kw_only=True):
     """One attempt and its outcome."""
 
-    seed: int
-    """Seed of the world."""
-    number: int
-    """Index of the attempt in that world, from 0."""
+    seed: int  # seed of the world
+    number: int  # index of the attempt in that world, from 0
 
 
 A = TypeVar("A", bound=Attempt)
@@ -29,19 +27,15 @@ A = TypeVar("A", bound=Attempt)
 class Count:
     """Counts over many attempts."""
 
-    figures: Mapping[str, object]
-    """Counts by their names, as JSON has them."""
-    lines: tuple[str, ...]
-    """The same as lines of text."""
-    wrong: int
-    """Attempts in which something wrong was taken for right."""
+    figures: Mapping[str, object]  # counts by their names, as JSON has them
+    lines: tuple[str, ...]  # the same as lines of text
+    wrong: int  # attempts in which something wrong was taken for right
 
 
 class Trial(ABC, Generic[A]):
     """Something that can be tried without a program."""
 
-    attempt: type[A]
-    """The class of its attempts."""
+    attempt: type[A]  # the class of its attempts
 
     @abstractmethod
     def attempts(self, world: WorldSpec, number: int, *, camera: str, known: Known) -> Iterator[A]:

@@ -22,19 +22,13 @@ from handeye.teaching.workplace import Workplace
 class LineResult(Record, frozen=True, kw_only=True):
     """Result of a line; fields with nothing to say are left out."""
 
-    said: str | UnsetType = UNSET
-    """A sentence or more."""
-    did: tuple[StepSummary, ...] | UnsetType = UNSET
-    """Steps that were done, in words."""
-    pause: Pause | UnsetType = UNSET
-    """Why the arm pauses, if it went."""
+    said: str | UnsetType = UNSET  # a sentence or more
+    did: tuple[StepSummary, ...] | UnsetType = UNSET  # steps that were done, in words
+    pause: Pause | UnsetType = UNSET  # why the arm pauses, if it went
     show: Shown | UnsetType = UNSET
-    lines: tuple[str, ...] | UnsetType = UNSET
-    """Lines that are collected, or listed."""
-    file: str | UnsetType = UNSET
-    """File that was written."""
-    error: str | UnsetType = UNSET
-    """Why the line was not carried out."""
+    lines: tuple[str, ...] | UnsetType = UNSET  # lines that are collected, or listed
+    file: str | UnsetType = UNSET  # file that was written
+    error: str | UnsetType = UNSET  # why the line was not carried out
 
 
 NOTHING: Final = LineResult()
@@ -45,13 +39,11 @@ NO_TEXT: Final = Source(name="", text="")
 class Answer:
     """The answer to a line."""
 
-    time: float
-    """s on the cell's clock since the camera was set up."""
+    time: float  # s on the cell's clock since the camera was set up
     typed: str = ""
     said: LineResult = NOTHING
     source: Source = NO_TEXT
-    diagnostics: Sequence[Diagnostic] = ()
-    """Findings in the source."""
+    diagnostics: Sequence[Diagnostic] = ()  # findings in the source
 
     @property
     def refused(self) -> bool:

@@ -32,14 +32,10 @@ class Repl:
     """A session of the arm program: a cell, and the functions collected so far."""
 
     workplace: Workplace
-    folder: Path
-    """Folder of the programs for `DO NAME`."""
-    called: str = _ANSWERS
-    """Advice when the operator was called."""
-    functions: list[str] = field(default_factory=list)
-    """The lines collected."""
-    over: bool = False
-    """The user has left."""
+    folder: Path  # folder of the programs for `DO NAME`
+    called: str = _ANSWERS  # advice when the operator was called
+    functions: list[str] = field(default_factory=list)  # the lines collected
+    over: bool = False  # the user has left
 
     def hear(self, line: str) -> Answer:
         """Carry out a command, or collect a function."""

@@ -29,8 +29,7 @@ class TeachSession:
 
     teacher: Teacher
     over: bool = False
-    warned: bool = False
-    """The user was warned of unsaved names."""
+    warned: bool = False  # the user was warned of unsaved names
 
     def hear(self, line: str) -> Answer:
         """Carry out a line; one that is wrong changes nothing."""

@@ -47,12 +47,9 @@ class Teacher:
 
     workplace: Workplace
     file: Path
-    saved: str
-    """The text of the file."""
-    text: str = field(init=False)
-    """The same, with the names given since."""
-    afloat: bool = False
-    """The brakes are off, and gravity is borne."""
+    saved: str  # the text of the file
+    text: str = field(init=False)  # the same, with the names given since
+    afloat: bool = False  # the brakes are off, and gravity is borne
     _before: list[_Named | None] = field(default_factory=list)
     """States that `undo` restores: of names, or (None) of the cell."""
 

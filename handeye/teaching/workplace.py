@@ -72,10 +72,8 @@ class Workplace:
         self.runner = Runner(start, halt=halt, observers=observers, calibrate=calibrate)
         if self.runner.trouble is not None:
             raise Refused(self.runner.trouble)
-        self.begun = beginning(self.runner.events)
-        """The cell's clock when the first run began, s."""
-        self.before: list[Checkpoint] = []
-        """States to go back to, the newest last."""
+        self.begun = beginning(self.runner.events)  # the cell's clock when the first run began, s
+        self.before: list[Checkpoint] = []  # states to go back to, the newest last
 
     @classmethod
     def at(

@@ -8,8 +8,7 @@ from http import HTTPStatus
 from typing import Final
 from urllib.parse import parse_qs
 
-HOST: Final = "127.0.0.1"
-"""The only interface that the server listens on."""
+HOST: Final = "127.0.0.1"  # the only interface that the server listens on
 PAGE: Final = "/"
 LIVE: Final = "/live"
 NOTHING: Final = "there is nothing here"

@@ -89,18 +89,12 @@ FIGURES: Final = 5  # before the joints: time, gap, and the three of the force
 class Moment:
     """The cell at the end of a servo period."""
 
-    time: float
-    """s since the run began."""
-    gap: float
-    """Between the fingers, m."""
-    force: Array | None
-    """Force of the hand on the world, shape (3,), N; None: it is not estimated."""
-    joints: Array
-    """Shape (n,), rad and m."""
-    channels: Array
-    """Components of the system's channels, shape (k,), SI; NaN: nothing was sensed yet."""
-    poses: Poses
-    """Poses of all bodies, shape (m, 7): place (m), quaternion w, x, y, z; NaN: not there."""
+    time: float  # s since the run began
+    gap: float  # between the fingers, m
+    force: Array | None  # force of the hand on the world, shape (3,), N; None: it is not estimated
+    joints: Array  # shape (n,), rad and m
+    channels: Array  # components of the system's channels, shape (k,), SI; NaN: nothing was sensed yet
+    poses: Poses  # poses of all bodies, shape (m, 7): place (m), quaternion w, x, y, z; NaN: not there
 
     @cached_property
     def packed(self) -> bytes:
@@ -126,8 +120,7 @@ class Newest(Observer):
         self._gap = np.nan
         self.parts = tuple(
             (part, channel.unit) for channel in runner.system.channels for part in channel.parts
-        )
-        """Names and units of the components of its channels."""
+        )  # names and units of the components of its channels
         self._channels: Array = np.full(len(self.parts), np.nan)
         self.moment = self._now(None)
         self.television = television(runner)

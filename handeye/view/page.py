@@ -29,12 +29,9 @@ class Face:
     title: str
     controls: Sequence[Markup]
     aside: Markup
-    listener: str
-    """Noun for the listener: `stepper`."""
-    script: str
-    """The file with its script."""
-    facts: dict[str, Any] = field(default_factory=dict)
-    """Facts for its script."""
+    listener: str  # noun for the listener: `stepper`
+    script: str  # the file with its script
+    facts: dict[str, Any] = field(default_factory=dict)  # facts for its script
 
 
 def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:

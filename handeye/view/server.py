@@ -55,8 +55,7 @@ class Viewer:
     """A connected browser."""
 
     connection: ServerConnection
-    waiting: deque[str] = field(default_factory=deque)
-    """Messages that are not sent yet."""
+    waiting: deque[str] = field(default_factory=deque)  # messages that are not sent yet
 
 
 class Server:

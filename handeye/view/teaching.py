@@ -133,8 +133,7 @@ class Watch:
     """The observers of a workplace as it goes from plan to plan, each with a runner of its own."""
 
     def __init__(self, link: Link, pace: Pace) -> None:
-        self.newest: Newest | None = None
-        """None: no cell was built yet."""
+        self.newest: Newest | None = None  # None: no cell was built yet
         self._pace = pace
         self._ear = LineInput(link.come, lambda line: link.tell(_refused(line)))
 

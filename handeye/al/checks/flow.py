@@ -175,27 +175,30 @@ class _Flow:
             elif operation.number not in raised[number] and operation.number in ERRORS:
                 yield number, self.never_raised(number, operation.number, actions[number], raised[number])
             elif operation.number in raised[number] and self.skips_test(operation, number, raised):
-                yield number, self.no_effect(number, operation.number)
+                message = f"with error {operation.number} the program continues as without an error"
+                skips = f"`{self.word(number).text}` skips only the test below"
+                help = f"{skips}: write a test and a `JUMP` for each error"
+                yield number, self.problem("test-of-no-effect", number, message, help=help)
 
     def rounds(self) -> Iterator[Finding]:
         """Searches and counts that repeat the same round."""
         reported: dict[int, Span] = {}
-        for stale in stale_rounds(self.graph):
-            word = self.word(stale.jump).text
-            if stale.cause is None:
+        for jump, cause in stale_rounds(self.graph):
+            word = self.word(jump).text
+            if cause is None:
                 message = "no `MOVE` comes between the label and this `AOJ`: every round tries the same place"
                 help = "a `MOVE` after the label would go to the next place"
-                yield stale.jump, self.problem("search-stands-still", stale.jump, message, help=help)
+                yield jump, self.problem("search-stands-still", jump, message, help=help)
                 continue
-            if reported.setdefault(stale.cause, self.span(stale.jump)) != self.span(stale.jump):
+            if reported.setdefault(cause, self.span(jump)) != self.span(jump):
                 continue  # one search may have several jumps back
-            begin = self.word(stale.cause)
+            begin = self.word(cause)
             message = f"`{word}` jumps back to before the `{begin.text}`: every round starts anew"
             help = f"put the label after the `{begin.text}`"
-            is_search = self.graph.at(stale.cause, Search) is not None
+            is_search = self.graph.at(cause, Search) is not None
             code = "search-begun-anew" if is_search else "count-begun-anew"
-            cause = Label(span=begin.span, text="this starts anew")
-            yield stale.jump, self.problem(code, stale.jump, message, cause, help=help)
+            there = Label(span=begin.span, text="this starts anew")
+            yield jump, self.problem(code, jump, message, there, help=help)
 
     def vain(self) -> Iterator[Finding]:
         """Stops and checks with only one possible outcome."""
@@ -249,13 +252,6 @@ class _Flow:
             return False
         return any(self.graph.at(case, kind) for kind in (Jump, Wait))
 
-    def no_effect(self, number: int, error: int) -> Diagnostic:
-        message = f"with error {error} the program continues as without an error"
-        help = (
-            f"`{self.word(number).text}` skips only the test below: write a test and a `JUMP` for each error"
-        )
-        return self.problem("test-of-no-effect", number, message, help=help)
-
     def never_raised(self, number: int, error: int, actions: set[int], raised: set[int]) -> Diagnostic:
         words = {self.word(n).text for n in actions}
         who = f"`{words.pop()}`" if len(words) == 1 else "what comes before"
@@ -290,21 +286,12 @@ class _Flow:
         return problem(code, message, self.word(number).span, *secondary, notes=notes, help=help)
 
 
-@dataclass(frozen=True, slots=True)
-class StaleRound:
-    """A step that jumps back to repeat the same round; `cause` restarts the search or count, or None if nothing moves
-    on.
-    """
-
-    jump: int
-    cause: int | None
-
-
+StaleRound = tuple[int, int | None]  # the step that jumps back, and what restarts its search or count
 Circles = Callable[[], list[set[int]]]
 
 
 def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
-    """Yield the jumps of searches and counts that can never finish by themselves."""
+    """The jumps that repeat the same round of a search or count; the cause is None if nothing moves on."""
     circles = cache(graph.circles)  # asked for only where something looks wrong
     searches, moves = set(graph.which(Search)), set(graph.which(Move))
     places = searches | moves
@@ -312,8 +299,10 @@ def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
         target = graph.steps[jump].next
         yield from _anew(graph, circles, jump, target, searches)
         if graph.leads(target, jump, without=places) and circles()[jump].isdisjoint(moves):
-            yield StaleRound(jump, None)
-    assigns = _assigns(graph)
+            yield (jump, None)
+    assigns: dict[str, set[int]] = {}
+    for number, assign in graph.each(Assign):
+        assigns.setdefault(assign.counter, set()).add(number)
     for jump, count in graph.each(Countdown):
         yield from _anew(graph, circles, jump, count.positive, assigns.get(count.counter, set()))
 
@@ -325,12 +314,4 @@ def _anew(
     if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):
         return
     if target in circles()[jump]:
-        yield StaleRound(jump, min(circles()[jump] & begins))
-
-
-def _assigns(graph: Graph) -> dict[str, set[int]]:
-    """Steps that set each counter."""
-    assigns: dict[str, set[int]] = {}
-    for number, assign in graph.each(Assign):
-        assigns.setdefault(assign.counter, set()).add(number)
-    return assigns
+        yield jump, min(circles()[jump] & begins)

@@ -1,6 +1,6 @@
 """Checks of names: each must refer to a position, part, picture, saved difference or error number that exists."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
 from handeye.al.definition import AXES, NIL, Refers
@@ -13,15 +13,6 @@ from handeye.core.diagnostics import LIMIT, Diagnostic, Label, alternatives, nam
 from handeye.core.errors import ERRORS
 from handeye.program.taught import Taught
 
-_CODES = {
-    Refers.POSITION: "unknown-position",
-    Refers.PART: "unknown-part",
-    Refers.TARGET: "unknown-target",
-    Refers.PICTURE: "unknown-picture",
-    Refers.VECTOR: "unknown-vector",
-    Refers.COUNTER: "unknown-counter",
-    Refers.SAVED: "never-saved",
-}
 _BUILT_IN_VECTORS = {**dict.fromkeys(AXES, "is an axis of the table"), NIL: "stands for no vector"}
 _MESSAGES = {
     Refers.POSITION: "position {} is neither taught nor defined by `TRANS`",
@@ -39,7 +30,10 @@ def check_names(
     statements: Sequence[Statement], words: ByWord, used: Used, taught: Taught
 ) -> list[Diagnostic]:
     """Diagnostics for names, macros included, that are unknown or defined twice."""
-    declared = {op: _declared(words.get(op, ())) for op in _DECLARING}
+    declared = {
+        op: [name for s in words.get(op, ()) if s.operands and isinstance(name := s.operands[0], Name)]
+        for op in _DECLARING
+    }
     known = _known(declared, taught)
     unknown = [
         (name, refers) for refers, there in known.items() for name in used[refers] if name.text not in there
@@ -53,8 +47,15 @@ def check_names(
     warnings = [u for u in unknown if u[1] is Refers.SAVED][:LIMIT]
     found = [_unknown(name, refers, known) for name, refers in errors + warnings]
     found += swapped
-    found += _error_numbers(words)
-    return found + _twice(declared["TRANS"], taught) + _vectors_twice(declared["VECT"])
+    found += [
+        _unknown_error(number)
+        for test in SKIPS
+        for statement in words.get(test, ())
+        for number in statement.operands
+        if isinstance(number, Number) and int(number.value) not in ERRORS
+    ]
+    found += _twice("position", declared["TRANS"], dict.fromkeys(taught.positions, "is taught"))
+    return [*found, *_twice("vector", declared["VECT"], _BUILT_IN_VECTORS)]
 
 
 def _swapped(statements: Sequence[Statement], known: dict[Refers, set[str]]) -> Iterator[Diagnostic]:
@@ -79,21 +80,6 @@ def _swapped(statements: Sequence[Statement], known: dict[Refers, set[str]]) -> 
             )
 
 
-def _error_numbers(words: ByWord) -> list[Diagnostic]:
-    return [
-        _unknown_error(number)
-        for test in SKIPS
-        for statement in words.get(test, ())
-        for number in statement.operands
-        if isinstance(number, Number) and int(number.value) not in ERRORS
-    ]
-
-
-def _declared(statements: Iterable[Statement]) -> list[Name]:
-    """First operands that are names."""
-    return [name for s in statements if s.operands and isinstance(name := s.operands[0], Name)]
-
-
 def _known(declared: dict[str, list[Name]], taught: Taught) -> dict[Refers, set[str]]:
     by = {op: {name.text for name in names} for op, names in declared.items()}
     positions = by["TRANS"] | by["HERE"] | set(taught.positions)
@@ -108,48 +94,19 @@ def _known(declared: dict[str, list[Name]], taught: Taught) -> dict[Refers, set[
     }
 
 
-def _twice(names: list[Name], taught: Taught) -> list[Diagnostic]:
-    found = []
+def _twice(what: str, names: list[Name], taken: Mapping[str, str]) -> Iterator[Diagnostic]:
+    """Errors for names that are defined again; `taken` says of some why they are not free."""
     first: dict[str, Name] = {}
     for name in names:
-        before = first.setdefault(name.text, name)
-        notes: tuple[str, ...] = ()
-        secondary: tuple[Label, ...] = ()
-        if name.text in taught.positions:
-            notes = (f"{quoted(name.text)} is taught",)
-        elif before is not name:
-            secondary = (Label(span=before.span, text="first defined here"),)
-        else:
-            continue
-        found.append(
-            problem(
-                "position-twice",
-                f"position {quoted(name.text)} is defined twice",
+        before, why = first.setdefault(name.text, name), taken.get(name.text)
+        if why is not None or before is not name:
+            yield problem(
+                f"{what}-twice",
+                f"{what} {quoted(name.text)} is defined twice",
                 name.span,
-                *secondary,
-                notes=notes,
+                *(() if why else (Label(span=before.span, text="first defined here"),)),
+                notes=(f"{quoted(name.text)} {why}",) if why else (),
             )
-        )
-    return found
-
-
-def _vectors_twice(names: list[Name]) -> list[Diagnostic]:
-    found = []
-    first: dict[str, Name] = {}
-    for name in names:
-        before = first.setdefault(name.text, name)
-        taken = _BUILT_IN_VECTORS.get(name.text)
-        if taken is not None or before is not name:
-            found.append(
-                problem(
-                    "vector-twice",
-                    f"vector {quoted(name.text)} is defined twice",
-                    name.span,
-                    *(() if taken else (Label(span=before.span, text="first defined here"),)),
-                    notes=(f"{quoted(name.text)} {taken}",) if taken else (),
-                )
-            )
-    return found
 
 
 def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagnostic:
@@ -158,6 +115,7 @@ def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagn
         message = f"{quoted(name.text)} follows a number"
         return problem("unit-written", message, name.span, *uses(name), help=unit_help)
     message = _MESSAGES[refers].format(quoted(name.text))
+    code = "never-saved" if refers is Refers.SAVED else f"unknown-{refers.name.lower()}"
     meant = alternatives(name.text, known[refers])
     help = names_sentence(meant)
     other = next((kind for kind, names in known.items() if name.text in names), None)
@@ -165,7 +123,7 @@ def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagn
         help, meant = f"{quoted(name.text)} is a {other.value}; `SAVE` saves a difference", None
     elif other is not None:
         message = f"{quoted(name.text)} is a {other.value}, not a {refers.value}"
-    return problem(_CODES[refers], message, name.span, *uses(name), help=help, meant=meant)
+    return problem(code, message, name.span, *uses(name), help=help, meant=meant)
 
 
 def _unknown_error(number: Number) -> Diagnostic:

@@ -40,7 +40,9 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
                     lost[statement] = name
     for statement, name in lost.items():
         if statement not in right:
-            yield _never_saved(name, first[name.text])
+            message = f"no `SAVE` of {quoted(name.text)} comes before this `RESTORE`: the goal is not shifted"
+            here = Label(span=first[name.text].span, text="it is saved only here")
+            yield problem("never-saved", message, name.span, here, *uses(name))
 
 
 def _follows(graph: Graph, move: int, name: str) -> bool:
@@ -82,13 +84,6 @@ def _saved(graph: Graph, bits: dict[int, int]) -> list[int | None]:
         ahead = changed.find(True, number + 1)
         number = ahead if ahead >= 0 else changed.find(True)
     return before
-
-
-def _never_saved(name: Name, save: Name) -> Diagnostic:
-    message = f"no `SAVE` of {quoted(name.text)} comes before this `RESTORE`: the goal is not shifted"
-    here = Label(span=save.span, text="it is saved only here")
-    secondary = (here, *uses(name))
-    return problem("never-saved", message, name.span, *secondary)
 
 
 def _name(statement: Statement) -> Name:

@@ -27,12 +27,9 @@ class Witness(PhysicsStepper):
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         super().__init__(model, data)
         self._push = data.sensor(PUSH).data
-        self.peak = 0.0
-        """Greatest resultant of all contacts of pin and plate in any step so far, N."""
-        self.first: float | None = None
-        """Time of the first contact, s on the cell's clock."""
-        self.seated: float | None = None
-        """Time at which the pin was first seated, s on the cell's clock."""
+        self.peak = 0.0  # greatest resultant of all contacts of pin and plate in any step so far, N
+        self.first: float | None = None  # time of the first contact, s on the cell's clock
+        self.seated: float | None = None  # time at which the pin was first seated, s on the cell's clock
 
     def _closely(self, steps: int) -> None:
         for _ in range(steps):
@@ -59,8 +56,7 @@ class InsertionCell(SimulatedCell):
         data, noise = mujoco.MjData(model), world.generator("sensors")
         arm = SimulatedArm(model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise)
         hand = SimulatedHand(model, data, ARM, hand=STANFORD.hand, errors=world.hand, noise=noise)
-        self.witness = Witness(model, data)
-        """For the bench; the working phase knows nothing of it."""
+        self.witness = Witness(model, data)  # for the bench; the working phase knows nothing of it
         super().__init__(model, data, arm=arm, hand=hand, stepper=self.witness, noise=noise)
 
 

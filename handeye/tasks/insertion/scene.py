@@ -19,18 +19,15 @@ HOLE: Final = (25 * INCH, 38 * INCH)
 """Place of the hole as the program was taught it, m: among those of the pump's base."""
 HOLDER: Final = (15 * INCH, 35 * INCH)
 """Place of the holder in which the pin stands, m: as in the pump's cell."""
-FACE: Final = base_top()
-"""Height of the face around the hole, m."""
-CORNERS: Final = 48
-"""Corners of a section of the nose, which is .005 mm slimmer between them."""
+FACE: Final = base_top()  # height of the face around the hole, m
+CORNERS: Final = 48  # corners of a section of the nose, which is .005 mm slimmer between them
 WEDGES: Final = 24
 """Wedges around the hole, which is .02 mm wider between them. With that nose, the play is .057 to .063 mm of .057."""
 PUSH: Final = "push"
 """Sensor of the force of the plate on the pin, which no device reads: the resultant of all their contacts, N, W."""
 _NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
 """What the sensor measures: the force, of all contacts (their resultant), one of them."""
-_RIM: Final = 0.070
-"""Radius of the face around the hole, m."""
+_RIM: Final = 0.070  # radius of the face around the hole, m
 _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
 """Classes of shapes that rub as the world's parts do."""
 

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
 
 HOLDER_PLACE: Final = 3.0
 """mm that a pin put back may stand off its place: the holder's hole and its bevel, as in the pump's cell."""
-HOLDER_LEAN: Final = 10.0
-"""deg: it stands in the holder, and does not lean out."""
+HOLDER_LEAN: Final = 10.0  # deg: it stands in the holder, and does not lean out
 
 
 class Insertion(Inserting):

@@ -9,8 +9,7 @@ from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD
 from handeye.tasks.stanford_cell.arm_variation import arm, hand, rubbing
 from handeye.tasks.stanford_cell.arm_world import ArmWorld, arm_values
 
-REACH: Final = 40.0
-"""How far off the hole can be along an axis, mm."""
+REACH: Final = 40.0  # how far off the hole can be along an axis, mm
 _RUBBING: Final = ("pad", "part")
 
 
@@ -34,20 +33,16 @@ def _hole() -> tuple[Quantity, ...]:
     )  # fmt: skip
 
 
-VARIATION: Final = Variation(*arm(), *hand(), *rubbing(_RUBBING), *_hole())
-"""The quantities of the bench."""
+VARIATION: Final = Variation(*arm(), *hand(), *rubbing(_RUBBING), *_hole())  # the quantities of the bench
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionWorld(ArmWorld):
     """One drawn world of the bench."""
 
-    clearance: float
-    """Diameter of the hole over that of the pin's nose, m."""
-    chamfer: float
-    """Width of the chamfer around the hole, m."""
-    plate: tuple[float, float]
-    """How far the hole is off, x and y, m."""
+    clearance: float  # diameter of the hole over that of the pin's nose, m
+    chamfer: float  # width of the chamfer around the hole, m
+    plate: tuple[float, float]  # how far the hole is off, x and y, m
 
     @classmethod
     def draw(cls, spec: WorldSpec) -> Self:

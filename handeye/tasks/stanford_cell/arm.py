@@ -12,8 +12,7 @@ from handeye.core.pose import Array, yaw
 from handeye.core.resources import scenes
 from handeye.tasks.stanford_cell.arm_world import ArmWorld
 
-ARM: Final = "stanford/"
-"""Prefix of all names of the arm."""
+ARM: Final = "stanford/"  # prefix of all names of the arm
 
 
 def add_arm(spec: mujoco.MjSpec, world: ArmWorld) -> None:

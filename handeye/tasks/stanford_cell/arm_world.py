@@ -21,8 +21,7 @@ class ArmWorld:
     arm: ArmErrors
     arm_build: ArmBuild
     hand: HandErrors
-    lamp: tuple[float, float, float]
-    """Error of the lamp's place on the hand, in T, m."""
+    lamp: tuple[float, float, float]  # error of the lamp's place on the hand, in T, m
     friction: dict[str, float]
     """Scales of the coefficients of friction, by kinds of shapes; `pad`: those of the fingers."""
 

@@ -37,10 +37,8 @@ UNITS: Final = {
 class Figure:
     """One figure with its origin."""
 
-    values: tuple[float, ...]
-    """SI; a single one for a plain number."""
-    unit: str
-    """The unit it was written in."""
+    values: tuple[float, ...]  # SI; a single one for a plain number
+    unit: str  # the unit it was written in
     source: str
 
 

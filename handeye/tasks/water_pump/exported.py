@@ -29,10 +29,8 @@ _METAL: Final = {
     "gasket.density": ("gasket",),
     "top.density": ("flange", "hub"),
     "rotor.density": ("crank_bar", "crank_pin", "shaft", "collar"),
-}
-"""Solids of each metal, by the dimension that is its density."""
-_CAST: Final = ("base.", "top.")
-"""Figures of the parts whose mass differs from world to world."""
+}  # solids of each metal, by the dimension that is its density
+_CAST: Final = ("base.", "top.")  # figures of the parts whose mass differs from world to world
 _FASTENERS: Final = ("screw", "pin_nose", "pin_body")
 _MECHANISMS: Final = {
     "actuators": ("drive",),
@@ -40,8 +38,7 @@ _MECHANISMS: Final = {
     "bodies": ("carrier",),
     "sites": ("park",),
     "geoms": ("tray",),
-}
-"""Elements that only make threads and clamping work, by kind and prefix of their names, dependants first."""
+}  # elements that only make threads and clamping work, by kind and prefix of their names, dependants first
 
 
 def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:

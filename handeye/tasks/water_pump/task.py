@@ -28,8 +28,7 @@ PERIOD: Final = HistoricalTiming(
     year=1973,
     program="water_pump",
     times={"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0},
-)
-"""Bolles and Paul, STAN-CS-73-396."""
+)  # Bolles and Paul, STAN-CS-73-396
 
 
 HOLDS_FROM: Final = {

@@ -64,8 +64,7 @@ MATRIX: Final = (
     "screw.2.slotless",
     "rotor.jammed",
     "arm.pushed.y",
-)
-"""Faults that `handeye faults` tries by default: one of those alike in joints, pins, screws and holes."""
+)  # faults that `handeye faults` tries by default: one of those alike in joints, pins, screws and holes
 
 
 def catalogue(seed: int) -> Catalogue:

@@ -39,12 +39,10 @@ _STACK: Final = ("gasket", "top", "pin0", "pin1")
 class MishapState(Record, frozen=True, kw_only=True):
     """State of a mishap."""
 
-    seconds: float | None = None
-    """Since it began; None: it has not."""
+    seconds: float | None = None  # since it began; None: it has not
     place: tuple[float, float, float] | None = None
     """m: where its part was then, if it is one that happens to a part."""
-    over: bool = False
-    """It has happened."""
+    over: bool = False  # it has happened
 
 
 class MishapsState(Record, frozen=True, kw_only=True):

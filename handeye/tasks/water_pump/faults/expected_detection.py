@@ -19,8 +19,7 @@ from handeye.core.faults import UNKNOWN, Expected
 
 SCREWED: Final = (1, 3, 6, 2, 5, 4)
 """The tapped holes in the order in which the program drives screws 1 to 6 into them."""
-PINNED: Final = (2, 5)
-"""The tapped holes into which it puts the aligning pins, earlier."""
+PINNED: Final = (2, 5)  # the tapped holes into which it puts the aligning pins, earlier
 INSERT_PINS: Final = "insert the aligning pins"
 PUT_ON_GASKET: Final = "put on the gasket"
 PUT_ON_TOP: Final = "put on the top"

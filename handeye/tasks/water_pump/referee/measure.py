@@ -22,8 +22,7 @@ _DAMPING: Final = 0.07  # N m s/rad: with the rotor's inertia it swings into pla
 
 BORE = 4 | 512
 FLAT = 16 | 32 | 64 | 128
-PIERCED = 256
-"""Contact bits of scenes/water_pump/workcell.xml."""
+PIERCED = 256  # contact bits of scenes/water_pump/workcell.xml
 
 Mask = NDArray[np.bool_]
 
@@ -125,8 +124,7 @@ def rotor_torque(measured: Measured) -> float:
 class Overlap:
     """The deepest of some overlaps."""
 
-    depth: float
-    """m"""
+    depth: float  # m
     between: str
 
 
@@ -157,10 +155,8 @@ class _Kinds:
 
     solid: Mask
     pierced: Mask
-    fastener: Mask
-    """Pins, loose screws, and screws in their threads."""
-    shank: Mask
-    """Fasteners without heads, which go through bores."""
+    fastener: Mask  # pins, loose screws, and screws in their threads
+    shank: Mask  # fasteners without heads, which go through bores
     bore: Mask
     arm: Mask
 

@@ -26,8 +26,7 @@ _MATERIALS: Final = {
     "paper": (0.90, 0.89, 0.84, 0.0),
     "tape": (0.20, 0.13, 0.09, 0.3),
     "reel": (0.78, 0.78, 0.76, 0.4),
-}
-"""Red, green, blue, and gloss."""
+}  # red, green, blue, and gloss
 
 
 def dress(shaper: Shaper) -> None:
@@ -126,16 +125,14 @@ def _keys() -> solids.Surface:
     )
 
 
-_X, _Y, _Z = LEFT + 0.03, 0.30, 0.56
-"""Middle of the clock, m; who looks at it has y on the right and z above."""
+_X, _Y, _Z = LEFT + 0.03, 0.30, 0.56  # middle of the clock, m; who looks at it has y on the right and z above
 _UPRIGHT: Final = [0.5, 0.5, 0.5, 0.5]
 """Quaternion of a frame whose z is away from the wall, and whose y is up."""
 _HANDS: Final = {
     "hour": (43200.0, 0.085, 0.007),
     "minute": (3600.0, 0.125, 0.005),
     "second": (60.0, 0.135, 0.002),
-}
-"""Seconds of a turn, length and half the width (m)."""
+}  # seconds of a turn, length and half the width (m)
 
 
 def add_clock(shaper: Shaper) -> None:
@@ -168,10 +165,8 @@ def _add_mark(shaper: Shaper, hour: int) -> None:
     )  # fmt: skip
 
 
-_SIDE, _MIDDLE = -0.0352, 0.020
-"""x and y of the cables in the boom's frame, m."""
-_BACK, _FRONT = -1.36, -0.10
-"""From where to where along the boom they go, m."""
+_SIDE, _MIDDLE = -0.0352, 0.020  # x and y of the cables in the boom's frame, m
+_BACK, _FRONT = -1.36, -0.10  # from where to where along the boom they go, m
 
 
 def add_boom_cables(shaper: Shaper) -> None:

@@ -21,8 +21,7 @@ class Fixture:
     """A fixed body in whose frame a thing stands where the *nominal* table frame says."""
 
     body: mujoco.MjsBody
-    X_WF: Pose
-    """Nearly the identity: the error of place, about the fixture's middle."""
+    X_WF: Pose  # nearly the identity: the error of place, about the fixture's middle
 
     def stand(
         self,

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from handeye.core.pose import Array
 from handeye.tasks.stanford_cell.dimensions import Point, base_top, dimensions, screw_holes, web_centre
 
-Surface = tuple[Array, NDArray[np.int32]]
-"""Vertices, shape (n, 3), m, and triangles, shape (m, 3)."""
+Surface = tuple[Array, NDArray[np.int32]]  # vertices, shape (n, 3), m, and triangles, shape (m, 3)
 
 _ROUND = 96
 

@@ -105,8 +105,7 @@ _GRAINS: Final[dict[str, Grain]] = {
     "belt": _woven, "cast": _cast, "floor": _tiles, "machined": _milled, "table": _bench,
     "wood": lambda rng: _tinted(0.87 + _streaks(rng), (1.0, 0.95, 0.88)),
 }  # fmt: skip
-_LIKE: Final = {"top": "machined", "block": "machined"}
-"""Materials that have the grain of another."""
+_LIKE: Final = {"top": "machined", "block": "machined"}  # materials that have the grain of another
 _REPEATS: Final = {
     "belt": 1, "cast": 25.0, "floor": 3.3, "machined": 12.0, "table": 1, "wood": 1, "top": 12.0, "block": 12.0,
 }  # fmt: skip

@@ -26,12 +26,9 @@ WRONG_BEYOND_PX: Final = 5.0  # a hole found farther off is something else, what
 class BaseAttempt(Attempt, frozen=True, kw_only=True):
     """The base looked for once."""
 
-    error: Vector3 | None
-    """Error of x, y (m) and yaw (rad) as found; None: not found."""
-    wrong: bool = False
-    """Something else was taken for it."""
-    failure: str | None = None
-    """Why it was not found, or the camera could not be calibrated."""
+    error: Vector3 | None  # error of x, y (m) and yaw (rad) as found; None: not found
+    wrong: bool = False  # something else was taken for it
+    failure: str | None = None  # why it was not found, or the camera could not be calibrated
 
     @property
     def within(self) -> bool:

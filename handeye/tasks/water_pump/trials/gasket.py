@@ -34,8 +34,7 @@ GASKET_OFF_IN: Final = 0.02  # likewise, the pins
 class GasketAttempt(Attempt, frozen=True, kw_only=True):
     """A gasket of every case inspected once."""
 
-    accepted: dict[str, bool]
-    """Verdict of the eye by case; empty if the camera could not be calibrated."""
+    accepted: dict[str, bool]  # verdict of the eye by case; empty if the camera could not be calibrated
     failure: str | None = None
 
 
@@ -119,8 +118,7 @@ _CASES: Final[dict[str, Callable[[Pose, np.random.Generator], Pose | None]]] = {
     SHIFTED: _shifted,
     ABSENT: lambda X_WP, rng: None,
     DOUBLED: _doubled,
-}
-"""Pose of the gasket on a base face at `X_WP`, by case; None: it stays on its stand."""
+}  # pose of the gasket on a base face at `X_WP`, by case; None: it stays on its stand
 
 
 def _jittered(place: Place, rng: np.random.Generator, amount: float) -> Place:

@@ -22,8 +22,7 @@ from handeye.tasks.water_pump.world.variation import BELT_LINE, BELT_X, BELT_Y
 from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific
 from handeye.vision.camera_model import CameraModel, View
 
-Place = tuple[float, float, float, float]
-"""x, y, z (m) and yaw (rad) in W."""
+Place = tuple[float, float, float, float]  # x, y, z (m) and yaw (rad) in W
 
 
 class StillPump:

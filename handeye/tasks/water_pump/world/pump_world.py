@@ -26,10 +26,8 @@ from handeye.tasks.water_pump.world.variation import (
 class Light:
     """The key light and what the room adds."""
 
-    zenith: float
-    """rad from the vertical."""
-    azimuth: float
-    """rad from table x: where the light comes from."""
+    zenith: float  # rad from the vertical
+    azimuth: float  # rad from table x: where the light comes from
     strength: float
     ambient: float
 
@@ -60,16 +58,12 @@ class PumpWorld(ArmWorld):
     """The pump base on the belt: its reference point and the direction of its line of centres, in W."""
     camera: CameraErrors
     light: Light
-    fixtures: dict[str, Placing]
-    """Error of each fixture."""
-    parts: dict[str, Placing]
-    """Error of each part's place on its fixture, by its body; pins have none."""
+    fixtures: dict[str, Placing]  # error of each fixture
+    parts: dict[str, Placing]  # error of each part's place on its fixture, by its body; pins have none
     holes: dict[str, tuple[Point, ...]]
     """Error of each screw hole of a part, m, by the names in DRILLED; the base's are the tapped ones."""
-    part_mass: float
-    """Scale of the masses of base and top."""
-    thread_phase: tuple[float, ...]
-    """Angle at which each thread starts, rad."""
+    part_mass: float  # scale of the masses of base and top
+    thread_phase: tuple[float, ...]  # angle at which each thread starts, rad
 
     @classmethod
     def of(cls, world: World) -> Self:

@@ -17,8 +17,7 @@ BELT_Y: Final = (23.0, 33.0)
 BELT_LINE: Final = (60.0, 120.0)
 """Ranges of the base on the belt: reference point (in), direction of its line of centres (deg)."""
 RUBBING: Final = ("pad", "table", "part", "thread")
-DRILLED: Final = ("base", "gasket", "top")
-"""The parts with screw holes, each drilled with errors of its own."""
+DRILLED: Final = ("base", "gasket", "top")  # the parts with screw holes, each drilled with errors of its own
 STOOD: Final = ("gasket", "top")
 """The parts that a person puts on a stand, which holds them by nothing but friction."""
 SEVENTH: Final = 7_000_000
