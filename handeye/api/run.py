@@ -123,7 +123,7 @@ class Run:
         if isinstance(steps, str):
             stage = stage_number(steps, self._runner.listing)
             if stage not in beginnings(self._runner):
-                raise Refused(f"stage {self._runner.stages[stage]} has not begun yet")
+                raise Refused(f"stage {self._runner.listing.stages[stage]} has not begun yet")
             position = beginnings(self._runner)[stage]
         else:
             position = self._runner.position - given_count(steps, "steps")
@@ -220,7 +220,7 @@ class Run:
         Raises:
             InvalidInput: the run never comes to it, or stopped before it; it is closed.
         """
-        name = self._runner.stages[stage]
+        name = self._runner.listing.stages[stage]
         begins = AtStage(stage=stage, name=name)
         if begins.met_before(self._runner) or (stage == 0 and not self._runner.position):
             return self.state
@@ -260,7 +260,7 @@ class Run:
     def state(self) -> State:
         """Where the run now pauses."""
         stage = self._session.stage
-        name = None if stage is None else self._runner.stages[stage]
+        name = None if stage is None else self._runner.listing.stages[stage]
         why = reason(self._session.pause) if self.ended else self._why
         return state_of(self._runner, name, why or "paused")
 

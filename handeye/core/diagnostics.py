@@ -86,7 +86,6 @@ def problem(
 
 
 def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
-    """True if any is an error."""
     return any(d.severity == "error" for d in diagnostics)
 
 
@@ -228,7 +227,6 @@ class _Mark(NamedTuple):
 
 
 def _lines(source: Source, marks: Sequence[_Mark], pad: str) -> Iterator[str]:
-    """The marked lines of one text."""
     previous = None
     for number in sorted({mark.line for mark in marks}):
         if previous is not None and number > previous + 1:

@@ -73,13 +73,11 @@ class FaultKind:
 
     @property
     def unit(self) -> str:
-        """Name of its unit."""
         assert self.size is not None
         return self.size.unit
 
     @property
     def measure(self) -> Unit:
-        """Its unit."""
         return UNITS[self.unit]
 
     def usual(self, stage: int | None = None) -> Fault:

@@ -88,7 +88,8 @@ def write_whole(path: Path, data: bytes) -> None:
     place = Path(os.path.realpath(path))
     try:
         _check_file(place, path)
-        mode = stat.S_IMODE(place.stat().st_mode) if place.exists() else 0o666 & ~_umask()
+        os.umask(umask := os.umask(0))
+        mode = stat.S_IMODE(place.stat().st_mode) if place.exists() else 0o666 & ~umask
         from tempfile import mkstemp
 
         handle, temporary = mkstemp(dir=place.parent, prefix=f".{place.name}.")
@@ -109,12 +110,6 @@ def write_whole(path: Path, data: bytes) -> None:
 def _check_file(place: Path, named: Path) -> None:
     if place.exists() and not place.is_file():
         raise CannotWrite(f"{named} cannot be written: it is not a file")
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 class LineFile:
@@ -145,11 +140,9 @@ class LineFile:
             raise self._unwritable(error) from None
 
     def clear(self) -> None:
-        """Drop all lines."""
         self._file.truncate(0)
 
     def close(self) -> None:
-        """Close the file."""
         self._file.close()
 
     def _lock(self, writer: str) -> None:

@@ -39,7 +39,8 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
     )
     known = path / kind.known_by
     ours = known.is_file() and known.read_bytes().startswith(kind.begins)
-    others = [name for name in inside if not (ours and any(_fits(name, pattern) for pattern in kind.holds))]
+    kinds = [(pattern, len(Path(pattern).parts)) for pattern in kind.holds] if ours else []
+    others = [n for n in inside if not any(n.match(p) and len(n.parts) == depth for p, depth in kinds)]
     if others:
         what = quoted(str(others[0]))
         raise CannotWrite(f"{path} holds other things ({what}); choose a new folder, or an empty one")
@@ -47,10 +48,6 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
         raise Taken(f"{path} holds {kind.name} already; --overwrite replaces it")
     if path.exists() and path.samefile(Path.cwd()):
         raise CannotWrite(f"{path} is the folder that you are in, which cannot be replaced; name another")
-
-
-def _fits(name: Path, pattern: str) -> bool:
-    return name.match(pattern) and len(name.parts) == len(Path(pattern).parts)
 
 
 def write_folder(path: Path, files: Mapping[str, bytes]) -> None:

@@ -24,12 +24,10 @@ class HostTimer:
 
     @property
     def wall_s(self) -> float:
-        """Wall-clock seconds."""
         return time.monotonic() - self._wall
 
     @property
     def cpu_s(self) -> float:
-        """Processor seconds of this process."""
         return time.process_time() - self._cpu
 
 

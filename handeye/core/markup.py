@@ -37,7 +37,6 @@ def element(name: str, /, *children: Content, **attributes: str | float | bool |
 
 
 def joined(pieces: Iterable[str], between: str = "") -> Markup:
-    """Pieces one after another."""
     return Markup(text(between).join(text(piece) for piece in pieces))
 
 
@@ -76,7 +75,6 @@ def figure_heads(*titles: str) -> list[Markup]:
 
 
 def cell(*children: Content) -> Markup:
-    """A cell of a table."""
     return element("td", *children)
 
 

@@ -72,13 +72,10 @@ def table(head: Sequence[str], rows: Iterable[Sequence[Content]]) -> Markup:
 
 
 def _row(tag: str, row: Sequence[Content], right: Sequence[bool]) -> Markup:
-    cells = zip(row, right, strict=True)
-    return element("tr", *(_cell(tag, each, "right" if side else "left") for each, side in cells))
-
-
-def _cell(tag: str, content: Content, side: str) -> Markup:
-    shown = f"{content:.1f}" if isinstance(content, float) else content
-    return element(tag, shown, style=f"{_CELL};text-align:{side}")
+    shown = (f"{each:.1f}" if isinstance(each, float) else each for each in row)
+    sides = ("right" if side else "left" for side in right)
+    cells = zip(shown, sides, strict=True)
+    return element("tr", *(element(tag, each, style=f"{_CELL};text-align:{side}") for each, side in cells))
 
 
 def page(*pieces: Markup) -> str:

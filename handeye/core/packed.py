@@ -63,7 +63,6 @@ def _plain(value: Any) -> Any:
 
 
 def _array(kind: type, value: Any) -> Any:
-    """The array from `_plain`."""
     dtype, shape, data = value
     if dtype not in _DTYPES:
         raise ValueError(f"no array of {dtype!r} belongs in a checkpoint")

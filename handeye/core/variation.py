@@ -47,7 +47,6 @@ class Quantity:
 
     @property
     def measure(self) -> Unit:
-        """Its unit."""
         return UNITS[self.unit]
 
     def check(self, value: float) -> None:
@@ -117,7 +116,6 @@ class Variation:
 
     @cached_property
     def groups(self) -> frozenset[str]:
-        """Names of groups."""
         parts = [name.split(".") for name in self.quantities]
         return frozenset(".".join(part[:n]) for part in parts for n in range(1, len(part)))
 

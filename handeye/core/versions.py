@@ -28,7 +28,6 @@ def installed(package: str) -> str | None:
 
 @cache
 def _installed(package: str) -> str:
-    """Version of a package, cached for checkpoints."""
     from importlib.metadata import version  # slow to import, and only a run needs it
 
     return version(package)

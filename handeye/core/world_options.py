@@ -48,7 +48,6 @@ def overrides(variation: Variation, without: Iterable[str], settings: Iterable[s
 
 
 def _setting(variation: Variation, text: str) -> dict[str, float]:
-    """Values (SI) that `NAME=VALUE` gives to quantities."""
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:
         raise BadArgument(f"{quoted(text)} sets nothing; write NAME=VALUE")
@@ -79,7 +78,6 @@ def _unit(quantity: Measured, word: str) -> Unit:
 
 
 def _limits(quantity: Measured) -> str:
-    """The limits of a quantity as the end of a sentence."""
     (low, high), unit = quantity.limits, quantity.unit and f" {quantity.unit}"
     if np.isinf(high):
         return "" if np.isinf(low) else f"; {low:g}{unit} is the least"
@@ -107,7 +105,6 @@ def _fault(catalogue: Catalogue, text: str, stage: StageNumber) -> Fault:
 
 
 def _value(kind: FaultKind, text: str) -> float | None:
-    """The value of a fault as written, SI, or its usual one."""
     if not text:
         return kind.usual().value
     if kind.size is None:

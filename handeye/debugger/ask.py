@@ -28,7 +28,6 @@ class Ask:
     write: Callable[[str], None]  # puts out lines of text; the end of the last one is not in them
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """The operator's choice."""
         self._say(_question(runner, refused or call_sentence(call.message, call.error, call.cause)))
         for line in self.lines:
             word, _, rest = line.strip().partition(" ")
@@ -75,7 +74,6 @@ def _begun(runner: Runner, text: str) -> int:
 
 
 def _question(runner: Runner, sentence: str) -> list[str]:
-    """What happened, where, and the possible answers."""
     program, stage = runner.listing, runner.stage
     assert stage is not None
     step = next(event for event in reversed(runner.events) if isinstance(event, StepStarted))
@@ -88,7 +86,6 @@ def _question(runner: Runner, sentence: str) -> list[str]:
 
 
 def _choices(runner: Runner) -> list[str]:
-    """The possible answers and what each does here."""
     return [
         *(f"{word[0]:10} {does}" for word, does in runner.kind.choices(runner).items()),
         "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",

@@ -110,7 +110,6 @@ def _at_label(text: str, listing: Listing) -> AnyStop | None:
 
 
 def _words(listing: Listing) -> list[str]:
-    """The instruction of each step."""
     return [step.word.upper() for step in listing.steps]
 
 

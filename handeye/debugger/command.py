@@ -24,17 +24,14 @@ class Command(Generic[Act]):
 
     @property
     def name(self) -> str:
-        """Its word."""
         return self.usage.partition(" ")[0]
 
     @property
     def bare(self) -> bool:
-        """Nothing may follow it."""
         return " " not in self.usage
 
     @property
     def shown(self) -> str:
-        """As help has it."""
         return f"{self.usage}, {self.short}" if self.short else self.usage
 
 

@@ -50,7 +50,6 @@ _ASKING: Final[dict[str, Capability]] = {"undo": "undo", "type": "console"}
 
 
 def _settings(command: StepperCommand, runner: Runner) -> list[StepperCommand]:
-    """The command that sets something, once for each kind that can be set."""
     return [
         replace(command, usage=f"set {kind} {settable.usage}", help=f"set a {settable.noun}")
         for kind, settable in runner.system.settables().items()

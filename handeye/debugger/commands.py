@@ -42,7 +42,9 @@ def step(session: DebugSession, rest: str) -> CommandResult:
 
 def stage(session: DebugSession, _: str) -> CommandResult:
     present = session.stage
-    stops = [] if present is None else [AfterStage(stage=present, name=session.runner.stages[present])]
+    stops = (
+        [] if present is None else [AfterStage(stage=present, name=session.runner.listing.stages[present])]
+    )
     return _told(session, session.go(stops))
 
 
@@ -66,7 +68,6 @@ def pace(session: DebugSession, rest: str) -> CommandResult:
 
 
 def _told(session: DebugSession, pause: Pause) -> CommandResult:
-    """Result of a command that went on: where the run pauses, and why."""
     said = session.at_its_end() or pause_sentence(pause)
     if pause.kind == "panic":
         said += "; the interrupted step is undone"
@@ -279,7 +280,6 @@ def _number(word: str) -> float:
 
 
 def _known(name: str, settable: Settable) -> str:
-    """The name as the program has it."""
     for choice in (name, name.upper()):
         if choice in settable.names:
             return choice

@@ -58,7 +58,6 @@ def as_text(reply: Reply, most: int | None = None) -> str:
 
 
 def _standing(reply: Reply) -> str:
-    """Line that says where the run pauses."""
     stage = "after the last stage" if reply.stage is None else f"stage {reply.stage_number}, {reply.stage}"
     step = "" if reply.step is None else f", step {reply.step}"
     done = f"{counted(reply.position, 'step')} done"

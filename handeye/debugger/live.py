@@ -168,12 +168,11 @@ class LiveText(Observer):
 
 
 def under_way(runner: Runner, event: StepStarted) -> UnderWay:
-    """The step that an event begins."""
     stage = runner.listing.steps[event.step].stage
     return UnderWay(
         position=runner.position,
         time=runner.elapsed,
-        stage=runner.stages[stage],
+        stage=runner.listing.stages[stage],
         stage_number=stage + 1,
         step=event.step,
         line=event.line,

@@ -39,7 +39,6 @@ class StepSummary(Record, frozen=True, kw_only=True):
 def step_summaries(
     events: Iterable[AnyEvent], program: Listing, measures: Measures
 ) -> tuple[StepSummary, ...]:
-    """Summarize some events, whole steps."""
     groups: list[list[AnyEvent]] = [[]]
     for event in events:
         if isinstance(event, (happened.StepStarted, *_BETWEEN)):
@@ -62,11 +61,13 @@ def _summary(group: Sequence[AnyEvent], program: Listing, measures: Measures) ->
 def _outcome(
     group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures
 ) -> str:
-    """The outcome of a step, in words."""
     said = []
     for event in group:
         if isinstance(event, happened.ErrorTested):
-            said.append(f"{sentence(event)}: {_onward(event, step, program)}")
+            ways = program.steps[step.step].ways
+            onward = ways[-1] if event.occurred else ways[0]
+            where = "to the end" if onward is None else f"continue at line {program.steps[onward].place}"
+            said.append(f"{sentence(event)}: {where}")
         elif isinstance(event, happened.OperatorCalled) and event.error is not None:
             said.append("the operator is called")
         elif not isinstance(event, _SILENT):
@@ -75,13 +76,6 @@ def _outcome(
     if busy:
         said.append(f"the camera took {busy:.1f} s")
     return "; ".join(said) or _end(group, step, program, measures)
-
-
-def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Listing) -> str:
-    """Next line after a test."""
-    ways = program.steps[step.step].ways
-    onward = ways[-1] if event.occurred else ways[0]
-    return "to the end" if onward is None else f"continue at line {program.steps[onward].place}"
 
 
 def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures) -> str:

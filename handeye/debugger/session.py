@@ -134,7 +134,6 @@ class DebugSession:
 
     @property
     def pause(self) -> Pause:
-        """Reason of the present pause."""
         if self.runner.ended:
             return ended(self.runner)
         return Pause(kind="break", next=self.runner.at, met=ByHand())

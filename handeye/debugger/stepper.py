@@ -50,7 +50,6 @@ class Stepper:
 
     @property
     def pause(self) -> Pause:
-        """Reason of the present pause."""
         return self.session.pause
 
     def do(self, line: str) -> Reply:

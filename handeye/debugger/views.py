@@ -75,7 +75,6 @@ def last_picture(runner: Runner) -> str | None:
 
 
 def _kept(runner: Runner, name: str, folder: Path) -> PictureShown:
-    """The last picture among those of the run."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

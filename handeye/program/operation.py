@@ -130,7 +130,6 @@ class Operation(
         return None
 
     def used(self, fields: Fields) -> tuple[Use, ...]:
-        """Everything that these fields name."""
         found: list[Use] = []
         for kind, names in fields.items():
             if not names:

@@ -69,12 +69,10 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def begins_search(self) -> bool:
-        """Its operation sets up a search."""
         return any(use.kind == "search" for use in self.operation.writes)
 
     @property
     def word(self) -> str:
-        """The first word of its statement."""
         return next(iter(self.text.split()), "")
 
 

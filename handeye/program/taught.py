@@ -211,7 +211,8 @@ def read_taught(source: Source) -> Taught:
         tables = msgspec.convert(tomllib.loads(source.text), _File)
         return _taught(tables)
     except tomllib.TOMLDecodeError as error:
-        raise BadFile(f"{path} is not TOML: {_spoilt(error)}") from None
+        said = str(error).replace("Cannot overwrite a value", "a name is used twice")
+        raise BadFile(f"{path} is not TOML: {said[:1].lower()}{said[1:]}") from None
     except RecursionError:
         raise BadFile(f"{path} is not TOML: nested too deeply") from None
     except msgspec.ValidationError as error:
@@ -233,12 +234,6 @@ def _taught(tables: _File) -> Taught:
     for fault in _faults(taught):
         raise fault
     return taught
-
-
-def _spoilt(error: tomllib.TOMLDecodeError) -> str:
-    """A TOML parser's message as the rest of a sentence."""
-    said = str(error).replace("Cannot overwrite a value", "a name is used twice")
-    return said[:1].lower() + said[1:]
 
 
 def _line(source: Source, fault: UnfitEntry) -> int | None:

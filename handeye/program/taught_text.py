@@ -6,7 +6,7 @@ It understands the usual forms: `A = { at = [...] }` under `[positions]`, on a l
 
 import re
 import tomllib
-from typing import Any, Final
+from typing import Final
 
 from handeye.core.errors import Refused
 from handeye.core.units import DEGREE, INCH
@@ -22,7 +22,8 @@ _OF_ALONE: Final = rf"[ \t]*,[ \t]*{_OF}|{_OF}[ \t]*,[ \t]*|{_OF}"
 def with_position(text: str, name: str, position: Position) -> str:
     """A taught text with a position added or replaced; raises BadFile if anything else would change."""
     before = tomllib.loads(text)
-    wanted = {**before, "positions": {**before.get("positions", {}), name: _entry(position)}}
+    entry = {"at": _figures(position), **({} if position.of is None else {"of": position.of})}
+    wanted = {**before, "positions": {**before.get("positions", {}), name: entry}}
     edited = (
         _replaced(text, name, position)
         if name in before.get("positions", {})
@@ -37,10 +38,6 @@ def with_position(text: str, name: str, position: Position) -> str:
             f"{name} cannot be added without changing more of the file; add it yourself: {_line(name, position)}"
         )
     return edited
-
-
-def _entry(position: Position) -> dict[str, Any]:
-    return {"at": _figures(position), **({} if position.of is None else {"of": position.of})}
 
 
 def _figures(position: Position) -> list[float]:

@@ -42,7 +42,6 @@ class WorldModel:
         return cls(parts=program.parts, positions=program.positions, state=state or WorldState())
 
     def measure(self, part: str, X_WP: Pose) -> None:
-        """Record a measured part pose."""
         if part not in self.parts:
             raise NoSuchName(f"no part {part}; there are {', '.join(self.parts)}")
         self.state.measured[part] = X_WP

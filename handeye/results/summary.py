@@ -46,7 +46,7 @@ def summary(
         host: what the run has cost the host.
     """
     completed = pause.kind == "end"
-    names = runner.stages
+    names = runner.listing.stages
     return Result(
         assembled=_assembled(runner, findings, built, completed=completed),
         apart=(all_right(findings) if findings else None) if runner.undone else UNSET,

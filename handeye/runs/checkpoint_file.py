@@ -6,7 +6,6 @@ wrong, is refused before anything in it is used.
 
 import hashlib
 import re
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -21,7 +20,7 @@ from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.core.versions import versions
 from handeye.program.event_reading import read_packed
-from handeye.program.events import AnyEvent, RunStarted, StageFinished, StageStarted
+from handeye.program.events import RunStarted, StageFinished, StageStarted
 from handeye.program.senses import Sense
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint, Snapshot
@@ -77,9 +76,10 @@ class _Body(Record, frozen=True, kw_only=True):
 
 
 def head_of(checkpoint: Checkpoint) -> Head:
-    """The summary of a checkpoint."""
     setup, snapshot = checkpoint.setup, checkpoint.snapshot
     arm, arm_digest = system_of(setup).machine(setup.plan)
+    cell = None if snapshot is None else snapshot.cell
+    time = None if snapshot is None else checkpoint.events[-1].time if cell is None else cell.time
     return Head(
         system=setup.system,
         program=listing_of(setup).name,
@@ -92,7 +92,7 @@ def head_of(checkpoint: Checkpoint) -> Head:
         position=checkpoint.position,
         stage=checkpoint.stage,
         between_stages=checkpoint.between_stages,
-        time=None if snapshot is None else _time(snapshot, checkpoint.events),
+        time=None if time is None else round(time, 6),  # of the last event where there is no cell
         touched=checkpoint.touched,
         task=setup.task,
         judged=setup.judged,
@@ -103,7 +103,6 @@ def head_of(checkpoint: Checkpoint) -> Head:
 
 
 def encode(checkpoint: Checkpoint) -> bytes:
-    """A checkpoint as bytes."""
     setup, snapshot = checkpoint.setup, checkpoint.snapshot
     body = _Body(
         plan=written(setup).decode(),
@@ -170,7 +169,6 @@ def _on_disk(snapshot: Snapshot) -> _Snapshot:
 
 
 def _in_memory(kept: _Snapshot, kind: System, name: str) -> Snapshot:
-    """The snapshot, its state decoded by the type of its system."""
     try:
         state = decoded(kept.state, kind.state)
     except ValueError as error:
@@ -181,12 +179,6 @@ def _in_memory(kept: _Snapshot, kind: System, name: str) -> Snapshot:
         cell=kept.cell,
         state=state,
     )
-
-
-def _time(snapshot: Snapshot, events: Sequence[AnyEvent]) -> float:
-    """The time of a snapshot, s: by the cell's clock, or by the last event where there is no cell."""
-    time = events[-1].time if snapshot.cell is None else snapshot.cell.time
-    return round(time, 6)
 
 
 def decode_head(data: bytes, name: str) -> Head:

@@ -147,13 +147,10 @@ def leave(folder: Path, checkpoint: Checkpoint) -> Path:
     program = re.sub(r"[^A-Za-z0-9_.-]+", "-", listing_of(setup).name).lstrip(".")
     stem = f"{program}-{setup.world.seed}-{name.removesuffix(ENDING)}"
     names = (stem if number == 1 else f"{stem}-{number}" for number in count(1))
-    path = next(path for path in (folder / f"{name}{ENDING}" for name in names) if _free(path, state))
+    paths = (folder / f"{name}{ENDING}" for name in names)
+    path = next(p for p in paths if not (p.exists() or p.is_symlink()) or _holds(p, state))
     write_whole(path, state)
     return path
-
-
-def _free(path: Path, state: bytes) -> bool:
-    return not (path.exists() or path.is_symlink()) or _holds(path, state)
 
 
 def _holds(path: Path, state: bytes) -> bool:

@@ -67,7 +67,6 @@ def _exhibit(path: Path, checkpoint: Checkpoint) -> ExportedState:
 
 
 def _shown(checkpoint: Checkpoint, truth: Truth) -> ExportedState:
-    """A cell in the state of a checkpoint."""
     setup = checkpoint.setup
     return ExportedState(
         task=setup.task,

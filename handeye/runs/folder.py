@@ -110,7 +110,6 @@ class RunFolder(Observer):
         self._first = self.kept.save(start)
 
     def _recording(self, events: Sequence[AnyEvent]) -> "Recorder":
-        """A recorder that goes on after these events."""
         from handeye.trace.frames import Frames, NoFrames
         from handeye.trace.recorder import PictureSource, Recorder
 
@@ -207,7 +206,8 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFo
     """
     _refuse_others(path)
     if not overwrite:
-        _refuse_run(path)
+        if _holds_run(path):
+            raise HoldsRun(path)
         CheckpointStore(path / CHECKPOINTS).claim(start.setup)
         _check_plan(path, start.setup)
     inner = [path / CHECKPOINTS, path / PICTURES]
@@ -258,26 +258,17 @@ def check_holds_run(path: Path) -> None:
 
 def _check_plan(path: Path, setup: Setup) -> None:
     beside = path / PLAN
-    if beside.exists() and _digest(beside, setup) != digest_of(setup):
+    if not beside.exists():
+        return
+    plan = system_of(setup).decode(read_whole(beside), str(beside))
+    if digest_of(msgspec.structs.replace(setup, plan=plan)) != digest_of(setup):
         raise BadFile(f"the runs in {path} are of another plan than this one, by {beside}")
-
-
-def _digest(beside: Path, setup: Setup) -> str:
-    """The digest of the plan in a file, brought to the present format."""
-    kind = system_of(setup)
-    return digest_of(msgspec.structs.replace(setup, plan=kind.decode(read_whole(beside), str(beside))))
 
 
 def _holds_run(path: Path) -> bool:
     """True if a run in the folder has moved, and was not only set up."""
     records = any((path / name).exists() for name in (EVENTS, TRACE, f"{TRACE}.part", RESULT))
     return records or any(CheckpointStore(path / CHECKPOINTS).moved())
-
-
-def _refuse_run(path: Path) -> None:
-    """Raises HoldsRun if a folder holds a run."""
-    if _holds_run(path):
-        raise HoldsRun(path)
 
 
 def _refuse_others(path: Path) -> None:

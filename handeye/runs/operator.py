@@ -54,7 +54,6 @@ class Abort:
     """Gives up."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """How to go on."""
         return "abort"
 
 
@@ -71,13 +70,12 @@ class Retry:
     times: int
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """How to go on."""
         if undoing(runner):
             return "abort"
         done, now = 0, None
         for event in _of_this_part(runner):
             if isinstance(event, StageStarted):
-                now = runner.stages.index(event.stage)
+                now = runner.listing.stages.index(event.stage)
             elif isinstance(event, OperatorAnswered) and event.choice == "retry" and now == runner.stage:
                 done += 1
         return "retry" if done < self.times else "abort"
@@ -93,7 +91,6 @@ class UnwindOnce:
     stage: int | None = None  # None: that which has failed
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """How to go on."""
         back = runner.stage if self.stage is None else self.stage
         given_up = refused is not None or undoing(runner) or runner.stage in _unwound(runner)
         return "abort" if given_up or back is None else Unwind(stage=back)
@@ -110,7 +107,7 @@ def _unwound(runner: Runner) -> set[int]:
     found, now = set(), -1
     for event in _of_this_part(runner):
         if isinstance(event, StageStarted):
-            now = runner.stages.index(event.stage)
+            now = runner.listing.stages.index(event.stage)
         elif isinstance(event, UndoOrdered) and event.asked_by == "person":
             found.add(now)
     return found
@@ -198,7 +195,7 @@ def beginnings(runner: Runner) -> dict[int, int]:
         if isinstance(event, StepFinished):
             done += 1
         elif isinstance(event, StageStarted):
-            stage = runner.stages.index(event.stage)
+            stage = runner.listing.stages.index(event.stage)
             found.pop(stage, None)
             found[stage] = done
     return found

@@ -186,18 +186,12 @@ class Runner:
 
     @property
     def next(self) -> StepFacts | None:
-        """The step to be done next."""
         return None if self.at is None else self.listing.steps[self.at]
 
     @property
     def onward(self) -> int | None:
         """After a call of the operator: the number of the step that would have been next."""
         return self.system.state.onward
-
-    @property
-    def stages(self) -> tuple[str, ...]:
-        """The names of the stages."""
-        return self.listing.stages
 
     @property
     def stage(self) -> int | None:

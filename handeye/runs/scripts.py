@@ -41,7 +41,6 @@ def program_named(name: str) -> tuple[Path, Task] | None:
 
 
 def program_names() -> list[str]:
-    """The names that `program_named` knows."""
     return [file.stem for file, _ in _programs()]
 
 
@@ -60,7 +59,6 @@ def _programs() -> Iterator[tuple[Path, Task]]:
 
 
 def _scripts(work: Task) -> list[Path]:
-    """The files of the scripts that a task comes with."""
     return [(plans() / each).resolve() for each in (work.script, *work.other_scripts) if each]
 
 

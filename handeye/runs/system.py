@@ -308,7 +308,6 @@ class System(ABC):
 
     @property
     def entry(self) -> Entry:
-        """What it says of itself."""
         return entry_named(self.name)
 
     @abstractmethod

@@ -28,7 +28,6 @@ def system_of_files(folder: Path) -> System | None:
 
 
 def listing_of(setup: Setup) -> Listing:
-    """Stages and steps of a run."""
     return system_of(setup).listing(setup.plan)
 
 

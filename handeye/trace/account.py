@@ -29,8 +29,6 @@ def account(events: Sequence[AnyEvent]) -> list[str]:
 
 @dataclass(slots=True)
 class _Teller:
-    """Writes the account from the events."""
-
     _origin: float  # the cell's clock when the run began, s
     lines: list[str] = field(default_factory=list)
     _task: str = ""
@@ -47,11 +45,11 @@ class _Teller:
         return f"{event.time - self._origin:z9.2f}"
 
     def tell(self, event: AnyEvent) -> None:
-        """Tell one event."""
         match event:
             case happened.RunStarted():
                 self._task = event.task
-                self.lines += [sentence(event), _versions(event)]
+                made = ", ".join(f"{name} {version}" for name, version in event.versions.items())
+                self.lines += [sentence(event), f"plan {event.plan}; {made}"]
             case happened.FrictionMeasured():
                 self.lines.append(sentence(event))
             case happened.StageStarted():
@@ -60,9 +58,9 @@ class _Teller:
             case happened.StageFinished():
                 self._lead_on("and the stage ends")
                 if self._heading is not None:
-                    self.lines[self._heading] = (
-                        f"{event.stage.upper()}: {event.status} {self._took(event.time)}"
-                    )
+                    camera = f", {self._camera:.1f} s of it for the camera" if self._camera else ""
+                    took = f"in {round(event.time - self._begun, 3):.1f} s{camera}"
+                    self.lines[self._heading] = f"{event.stage.upper()}: {event.status} {took}"
             case happened.UndoStarted():
                 self._shift = None
                 self.lines.append(f"{self.clock(event)} {event.place:>5}  {sentence(event)}")
@@ -109,11 +107,6 @@ class _Teller:
             self._beneath(f"{self._tested}: {where}")
         self._tested = None
 
-    def _took(self, time: float) -> str:
-        """Duration of the stage, in words."""
-        camera = f", {self._camera:.1f} s of it for the camera" if self._camera else ""
-        return f"in {round(time - self._begun, 3):.1f} s{camera}"
-
     def _ended(self, event: happened.StepFinished) -> None:
         """Say where a motion ended, if neither where its goal was nor as far off as the last one."""
         if event.planned is None or event.hand is None:
@@ -125,8 +118,3 @@ class _Teller:
         if np.linalg.norm(astray) > ASTRAY:
             away = f"{np.linalg.norm(astray) / INCH:.2f} in from its planned end"
             self._beneath(f"the hand is at {inches(event.hand)}, {away}")
-
-
-def _versions(event: happened.RunStarted) -> str:
-    made = ", ".join(f"{name} {version}" for name, version in event.versions.items())
-    return f"plan {event.plan}; {made}"

@@ -24,7 +24,7 @@ def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: i
     sides = (_compared(trace, events, unseen) for trace in (a, b))
     for here, there in zip_longest(*sides):
         if here is not None and here.topic == JOINTS:
-            so_far.period(here)
+            so_far.periods, so_far.last = so_far.periods + 1, here.time
         if here != there:
             return _difference(a, b, here, there, so_far)
         so_far.events += here.topic == EVENTS
@@ -33,15 +33,9 @@ def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: i
 
 @dataclass(slots=True)
 class _SoFar:
-    """Progress through the first of two traces."""
-
     events: int = 0
     periods: int = 0
     last: int = 0  # when the last servo period ended, ns
-
-    def period(self, message: RawMessage) -> None:
-        """Go on to the servo period of a message."""
-        self.periods, self.last = self.periods + 1, message.time
 
 
 def _compared(trace: Trace, events: int | None, unseen: int) -> Iterator[RawMessage]:
@@ -54,7 +48,6 @@ def _compared(trace: Trace, events: int | None, unseen: int) -> Iterator[RawMess
 
 
 def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage | None, so_far: _SoFar) -> str:
-    """Tell what differs in the first two messages that do."""
     events = so_far.events
     last = a.events[events - 1] if events else None
     after = "before the first event" if last is None else f"after event {events} ({sentence(last)})"
@@ -73,7 +66,6 @@ def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage |
 
 
 def _quantity(a: Trace, here: RawMessage, there: RawMessage) -> str:
-    """The quantity that two messages on a channel tell differently."""
     task = known(a.head.task)
     found = differing(here, there, None if task is None else task.arm)
     if found is None:
@@ -87,7 +79,6 @@ def _when(trace: Trace, clock: float) -> str:
 
 
 def _events(a: Trace, b: Trace, number: int) -> str:
-    """In what the events of a number differ."""
     one, other = a.events[number], b.events[number]
     when = _when(a, one.time)
     kinds = type(one).__name__, type(other).__name__

@@ -70,7 +70,6 @@ class Journal:
         self.append(WentBack(time=time, events=events, why=why))
 
     def close(self) -> None:
-        """Close the file."""
         self._file.close()
 
     def _write(self, event: AnyEvent) -> None:

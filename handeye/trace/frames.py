@@ -87,7 +87,6 @@ class Frames:
         self._looks = np.array([next(iter(looks(truth, number)), 0) for number in bodies])
 
     def poses(self) -> Poses:
-        """Pose of each frame now."""
         data = self._truth.data
         return np.concatenate([data.xpos[1:], data.xquat[1:]], axis=1, dtype=np.float32, casting="same_kind")
 

@@ -25,7 +25,6 @@ class Axes(Record, frozen=True, kw_only=True):
     z: float
 
     def array(self) -> Array:
-        """The same, shape (3,)."""
         return np.array([self.x, self.y, self.z])
 
 
@@ -77,7 +76,6 @@ def read_hand(data: bytes) -> HandMessage:
 
 
 def hand_schema() -> bytes:
-    """JSON schema of the messages."""
     return in_one_piece(HandMessage)
 
 
@@ -110,7 +108,6 @@ def _axes(vector: Array) -> Axes:
 
 
 def rounded(value: float) -> float:
-    """A figure to `PLACES` decimal places."""
     return round(value, PLACES) + 0.0  # no negative zero
 
 
@@ -140,7 +137,6 @@ def channels_message(sensed: Sensed) -> bytes:
 
 
 def channels_schema() -> bytes:
-    """JSON schema of the messages."""
     return in_one_piece(ChannelsMessage)
 
 

@@ -35,7 +35,6 @@ for a view of the cell, and short figures make short files."""
 
 
 def stamp(time: int) -> Timestamp:
-    """A time as protobuf has it."""
     return Timestamp(seconds=time // SECOND, nanos=time % SECOND)
 
 

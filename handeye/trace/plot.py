@@ -80,7 +80,10 @@ def plot(trace: Trace, stage: str | None = None) -> Plot:
         title=f"{trace.head.program}, {trace.head.world}",
         begin=trace.elapsed(begin),
         end=trace.elapsed(end),
-        stages=tuple(_stages(trace)),
+        stages=tuple(
+            replace(stage, begin=trace.elapsed(stage.begin), end=trace.elapsed(stage.end))
+            for stage in trace.stages
+        ),
         panels=(*_joints(trace, rows), _forces(trace, rows), *_channels(trace, begin, end)),
         marks=tuple(_marks(trace, begin, end)),
     )
@@ -92,11 +95,6 @@ def _covers(trace: Trace, stage: str) -> tuple[float, float]:
     name = names[stage_index(stage, names)]
     found = [each for each in trace.stages if each.name == name]
     return found[0].begin, found[-1].end
-
-
-def _stages(trace: Trace) -> Iterator[Stage]:
-    for stage in trace.stages:
-        yield replace(stage, begin=trace.elapsed(stage.begin), end=trace.elapsed(stage.end))
 
 
 def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
@@ -135,7 +133,6 @@ def _forces(trace: Trace, rows: slice) -> Panel:
 
 
 def _channels(trace: Trace, begin: float, end: float) -> Iterator[Panel]:
-    """A panel for the channels of each unit."""
     for unit in dict.fromkeys(channel.unit for channel in trace.channels):
         curves = []
         for channel in trace.channels:
@@ -193,36 +190,27 @@ def drawn(plot: Plot, ending: str) -> bytes:
         axes = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
         figure.suptitle(plot.title)
         for axis, panel in zip(axes, plot.panels, strict=False):
-            _draw_panel(axis, panel)
+            for curve in panel.curves:
+                axis.plot(curve.times, curve.values, linewidth=0.8, label=curve.name)
+            axis.set_ylabel(f"{panel.name}, {panel.unit}")
+            axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
         _draw_marks(axes[-1], plot)
         for axis in axes:
-            _draw_stages(axis, plot)
+            for number, stage in enumerate(plot.stages):
+                axis.axvspan(stage.begin, stage.end, color=_BANDS[number % 2], zorder=-1)
         _name_stages(axes[0], plot)
         file = BytesIO()
         figure.savefig(file, format=ending[1:], dpi=_DPI, metadata=_UNDATED[ending])
     return file.getvalue()
 
 
-def _draw_panel(axis: Any, panel: Panel) -> None:
-    for curve in panel.curves:
-        axis.plot(curve.times, curve.values, linewidth=0.8, label=curve.name)
-    axis.set_ylabel(f"{panel.name}, {panel.unit}")
-    axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-
-
 def _draw_marks(axis: Any, plot: Plot) -> None:
-    """A row for each kind of events."""
     for row, mark in enumerate(plot.marks):
         axis.plot(mark.times, [row] * len(mark.times), "|", markersize=7)
     axis.set_yticks(range(len(plot.marks)), [mark.name for mark in plot.marks])
     axis.set_ylim(max(len(plot.marks), 1) - 0.5, -0.5)
     axis.set_xlabel("s since the run began")
     axis.set_xlim(plot.begin, plot.end)
-
-
-def _draw_stages(axis: Any, plot: Plot) -> None:
-    for number, stage in enumerate(plot.stages):
-        axis.axvspan(stage.begin, stage.end, color=_BANDS[number % 2], zorder=-1)
 
 
 def _name_stages(axis: Any, plot: Plot) -> None:

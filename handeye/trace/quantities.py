@@ -123,11 +123,8 @@ def _picture(data: bytes) -> dict[str, Any]:
 
 def _marks(data: bytes) -> dict[str, Any]:
     _, marks = read_annotations(data)
-    return {"picture": {"mark": [_mark(mark) for mark in marks]}}
-
-
-def _mark(mark: Any) -> dict[str, Any]:
-    return {"kind": type(mark).__name__} | {name: getattr(mark, name) for name in mark.__slots__}
+    told = [{"kind": type(m).__name__} | {name: getattr(m, name) for name in m.__slots__} for m in marks]
+    return {"picture": {"mark": told}}
 
 
 def _event(event: dict[str, Any]) -> dict[str, Any]:
@@ -194,7 +191,6 @@ def _unit(message: RawMessage, quantity: tuple[str, ...], arm: ArmModel | None) 
 
 
 def _event_unit(event: dict[str, Any], quantity: tuple[str, ...]) -> str:
-    """The unit of a quantity of an event."""
     match quantity:
         case (_, "value" | "limit" | "friction"):
             return _GUARD_UNITS.get(event.get("guard", ""), "")
@@ -259,7 +255,10 @@ def values_text(found: QuantityDifference, measures: Measures = INCHES) -> tuple
     """Both values in units of the period or (`measures`) of the task, with the decimals that tell them apart."""
     numbers = [value for value in (found.a, found.b) if _is_number(value)]
     told = iter(_numbers(numbers, found.unit, measures))
-    one, other = (next(told) if _is_number(value) else _word(value) for value in (found.a, found.b))
+    one, other = (
+        next(told) if _is_number(value) else "none" if value is None else printable(str(value))
+        for value in (found.a, found.b)
+    )
     return one, other
 
 
@@ -283,7 +282,3 @@ def _numbers(values: list[Value], unit: str, measures: Measures) -> list[str]:
 
 def _with_unit(number: str, unit: str) -> str:
     return f"{number} {unit}".rstrip()
-
-
-def _word(value: Value) -> str:
-    return "none" if value is None else printable(str(value))

@@ -155,7 +155,6 @@ class Recorder:
     # -- how it is written --------------------------------------------------------------------------
 
     def _catch_up(self) -> None:
-        """Write the servo periods taken down since the last event."""
         waiting, self._waiting = self._waiting, []
         for period, poses, there in waiting:
             self._writing.period(period)

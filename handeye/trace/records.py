@@ -140,7 +140,6 @@ def _modest(chunk: Chunk) -> Chunk:
 
 
 def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
-    """The records of a file, to its end or to where it breaks off."""
     at = len(MCAP0_MAGIC)
     while at + _HEAD.size <= len(data):
         opcode, length = _HEAD.unpack_from(data, at)

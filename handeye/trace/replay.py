@@ -141,8 +141,6 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class _Telling:
-    """Stage and step from a time on."""
-
     time: float
     stage: str | None
     step: StepStarted | None
@@ -179,7 +177,6 @@ class Replay:
         )
 
     def _there(self, row: int) -> Iterable[tuple[str, Pose7]]:
-        """The frames that there are in a servo period."""
         for name, pose in zip(self.names, self.poses[row].tolist(), strict=True):
             x, y, z, qw, qx, qy, qz = pose
             if x == x:  # not NaN

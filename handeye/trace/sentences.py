@@ -26,32 +26,20 @@ _IMPORTANCE: Final[dict[happened.Importance, Log.Level.ValueType]] = {
     "warning": Log.WARNING,
     "error": Log.ERROR,
 }
+_WARNED: Final = (
+    happened.GuardFaint, happened.ErrorRaised, happened.ExperimentMade, happened.LineTyped, happened.UndoOrdered
+)  # fmt: skip
+_INFORMED: Final = (
+    happened.RunStarted, happened.StageStarted, happened.StageFinished, happened.FrictionMeasured,
+    happened.GuardTripped, happened.SearchAdvanced, happened.HandTold, happened.PositionDefined,
+    happened.PictureTaken, happened.PartSeen, happened.PartInspected, happened.PartMatched,
+    happened.OperatorAnswered, happened.StageUndone, happened.UndoEnded, happened.RunFinished,
+)  # fmt: skip
 LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
-    happened.RunStarted: Log.INFO,
-    happened.StageStarted: Log.INFO,
-    happened.StageFinished: Log.INFO,
-    happened.StepStarted: Log.DEBUG,
-    happened.FrictionMeasured: Log.INFO,
-    happened.GuardFaint: Log.WARNING,
-    happened.GuardTripped: Log.INFO,
-    happened.ErrorRaised: Log.WARNING,
-    happened.SearchAdvanced: Log.INFO,
-    happened.HandTold: Log.INFO,
-    happened.PositionDefined: Log.INFO,
-    happened.PictureTaken: Log.INFO,
-    happened.PartSeen: Log.INFO,
-    happened.PartInspected: Log.INFO,
-    happened.PartMatched: Log.INFO,
-    happened.OperatorCalled: Log.ERROR,
-    happened.OperatorAnswered: Log.INFO,
-    happened.ExperimentMade: Log.WARNING,
-    happened.LineTyped: Log.WARNING,
-    happened.PanicStopped: Log.ERROR,
-    happened.UndoOrdered: Log.WARNING,
-    happened.UndoStarted: Log.DEBUG,
-    happened.StageUndone: Log.INFO,
-    happened.UndoEnded: Log.INFO,
-    happened.RunFinished: Log.INFO,
+    **dict.fromkeys((happened.StepStarted, happened.UndoStarted), Log.DEBUG),
+    **dict.fromkeys(_INFORMED, Log.INFO),
+    **dict.fromkeys(_WARNED, Log.WARNING),
+    **dict.fromkeys((happened.OperatorCalled, happened.PanicStopped), Log.ERROR),
 }  # events that a person would log, and how much they matter
 
 
@@ -126,7 +114,9 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
         case happened.StepStarted():
             return event.text
         case happened.StepFinished():
-            return _ended(event, measures)
+            if event.hand is None or event.gap is None:
+                return "the step is done"
+            return f"the hand is at {measures.place(event.hand)}, open {measures.distance(event.gap)}"
         case happened.Adjusted():
             return f"{event.goal} is {inches(event.shift, 3)} from its planned place"
         case happened.FrictionMeasured():
@@ -134,7 +124,7 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
         case happened.GuardFaint():
             return _faint(event)
         case happened.GuardTripped():
-            return _tripped(event)
+            return f"stopped: {_MET[event.guard](event)}"
         case happened.ErrorRaised():
             return f"error {event.number}: {error_sentence(event.number, event.cause)}"
         case happened.ErrorTested():
@@ -207,10 +197,6 @@ def _faint(event: happened.GuardFaint) -> str:
     return f"a stop on {limit} {unit} is hard to tell from joint friction, which can be felt as {felt} here"
 
 
-def _tripped(event: happened.GuardTripped) -> str:
-    return f"stopped: {_MET[event.guard](event)}"
-
-
 def _beyond(said: str, si: float, unit: str) -> Callable[[happened.GuardTripped], str]:
     """A sentence with what was felt, and what it is over."""
 
@@ -221,24 +207,14 @@ def _beyond(said: str, si: float, unit: str) -> Callable[[happened.GuardTripped]
     return sentence
 
 
-def _touched(event: happened.GuardTripped) -> str:
-    return _FINGERS.get(round(event.value), "both fingers touch")
-
-
 _FINGERS: Final = {1: "finger 1 touches", 2: "finger 2 touches"}
 _MET: Final[dict[GuardKind, Callable[[happened.GuardTripped], str]]] = {
     GuardKind.FORCE: _beyond("the hand presses with", OUNCE_FORCE, "ounces"),
     GuardKind.AGAINST: _beyond("the hand meets", OUNCE_FORCE, "ounces"),
     GuardKind.MOMENT: _beyond("the hand turns with", OUNCE_INCH, "ounce-inches"),
     GuardKind.TORQUE: _beyond("the driver holds", OUNCE_INCH, "ounce-inches"),
-    GuardKind.TOUCH: _touched,
+    GuardKind.TOUCH: lambda event: _FINGERS.get(round(event.value), "both fingers touch"),
 }
-
-
-def _ended(event: happened.StepFinished, measures: Measures) -> str:
-    if event.hand is None or event.gap is None:
-        return "the step is done"
-    return f"the hand is at {measures.place(event.hand)}, open {measures.distance(event.gap)}"
 
 
 def _seen(event: happened.PartSeen) -> str:

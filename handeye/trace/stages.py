@@ -48,7 +48,6 @@ class DoneStep:
 
     @property
     def finished(self) -> bool:
-        """It came to its end."""
         return bool(self.events) and isinstance(self.events[-1], StepFinished)
 
     @property
@@ -117,8 +116,6 @@ def stages_both_ways(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
 
 @dataclass(slots=True)
 class _Walk:
-    """Follows a run through its stages."""
-
     found: list[Stage] = field(default_factory=list)
     _done: list[str] = field(default_factory=list)
     """Stages that were begun and are not undone; the last one is the one under way, or the last that was."""

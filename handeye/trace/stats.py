@@ -29,7 +29,6 @@ class Figures(msgspec.Struct, kw_only=True):
     pictures: int = 0
 
     def add(self, event: Event) -> None:
-        """Count an event."""
         match event:
             case happened.StepStarted():
                 self.steps += 1
@@ -86,7 +85,6 @@ _HEADS: Final = ("time", "camera", "steps", "stops", "tries", "errors")
 
 
 def _stages(events: Sequence[AnyEvent]) -> list[StageFigures]:
-    """The stages in the order they were begun."""
     stages: dict[str, StageFigures] = {}
     here: StageFigures | None = None
     before = 0.0
@@ -116,7 +114,6 @@ def statistics_table(figures: Statistics, columns: int) -> RenderableType:
 
 
 def _table(figures: Statistics) -> Table:
-    """A row for each stage, and one for all."""
     table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
     table.add_column("stage", overflow="fold")
     for name in _HEADS:

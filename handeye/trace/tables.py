@@ -132,14 +132,11 @@ _TABLES: Final[Mapping[str, Callable[[Trace], Table]]] = {
 
 @dataclass(frozen=True, slots=True)
 class _Happening:
-    """Where a run stands from an event on."""
-
     stage: str
     step: StepStarted | None
 
 
 def _happening(events: Iterable[AnyEvent]) -> Iterator[_Happening]:
-    """Where a run stands from each event on."""
     stage, step = "", None
     for event in events:
         if isinstance(event, StageStarted):
@@ -210,7 +207,8 @@ def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _
     check_folder(path, EXPORT, overwrite=True)
     written = _WRITERS[kind]
     files = {f"{table.name}.{kind}": written(table) for table in made}
-    write_folder(path, {README: _readme(made, kind, units).encode(), **files})
+    lines = [_BEGINS, f"{units}; a cell without a figure is empty.", *_told(made, kind), ""]
+    write_folder(path, {README: "\n".join(lines).encode(), **files})
 
 
 def csv_bytes(table: Table) -> bytes:
@@ -248,11 +246,6 @@ def parquet_bytes(table: Table) -> bytes:
 
 
 _WRITERS: Final[Mapping[Format, Callable[[Table], bytes]]] = {"csv": csv_bytes, "parquet": parquet_bytes}
-
-
-def _readme(made: Iterable[Table], kind: Format, units: str) -> str:
-    """The content of the files, column by column."""
-    return "\n".join([_BEGINS, f"{units}; a cell without a figure is empty.", *_told(made, kind), ""])
 
 
 def _told(made: Iterable[Table], kind: Format) -> Iterator[str]:

@@ -52,7 +52,6 @@ def kept_periods(trace: Trace) -> Rows:
 
 
 def _bodies(times: Array, poses: dict[str, Poses]) -> Iterator[Off]:
-    """Deviation of each body that moves."""
     for recorded in poses.values():
         there = np.where(np.isnan(recorded), _NOWHERE, recorded)
         if (there != there[0]).any():
@@ -86,7 +85,10 @@ def write_thinned(trace: Trace, path: Path) -> int:
     Left out are joints, hand and frames of the other periods, and the looks of the bodies, which other programs show.
     Frames are rounded. All else is as it was, to the byte. Raises Refused if it is thinned already or holds no motion.
     """
-    _check(trace)
+    if trace.thinned:
+        raise Refused(f"{trace.name} is thinned already")
+    if not len(trace.times):
+        raise Refused(f"{trace.name} holds no motion to be thinned")
     kept = kept_periods(trace)
     file = GrowingFile(path.with_name(f".{path.name}.new"))
     try:
@@ -103,13 +105,6 @@ def write_thinned(trace: Trace, path: Path) -> int:
     finally:
         file.release()
     return len(kept)
-
-
-def _check(trace: Trace) -> None:
-    if trace.thinned:
-        raise Refused(f"{trace.name} is thinned already")
-    if not len(trace.times):
-        raise Refused(f"{trace.name} holds no motion to be thinned")
 
 
 def _messages(trace: Trace, kept: frozenset[int]) -> Iterator[RawMessage]:

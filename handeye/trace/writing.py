@@ -122,7 +122,6 @@ class TraceWriter:
             self.file.write(FRAMES, nanoseconds(time), message)
 
     def _note(self, event: Event) -> None:
-        """Note what later messages refer to."""
         if isinstance(event, StepStarted):
             self._place = event.file, event.line
         elif isinstance(event, PictureTaken):

@@ -71,7 +71,7 @@ class PanicInStage(Observer):
 
     def event(self, event: AnyEvent) -> None:
         if isinstance(event, StageStarted) and self._runner is not None:
-            self._under_way = self._runner.stages.index(event.stage) == self._stage
+            self._under_way = self._runner.listing.stages.index(event.stage) == self._stage
 
     def tick(self, period: ServoPeriod) -> None:
         self._left -= self._under_way

@@ -357,7 +357,7 @@ def test_a_stage_alone_ends_in_the_state_it_has_within_the_whole_run(whole: Path
     assert start is not None
     assert end is not None
     runner = Runner(start)
-    assert advance(runner, [AfterStage(stage=1, name=runner.stages[1])]).kind == "break"
+    assert advance(runner, [AfterStage(stage=1, name=runner.listing.stages[1])]).kind == "break"
     assert encode(runner.checkpoint()) == encode(end)
 
 

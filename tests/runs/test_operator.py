@@ -120,7 +120,7 @@ def test_the_operator_can_have_the_arm_undo_a_stage(runner: Runner) -> None:
 
 
 def test_a_stage_that_has_not_begun_cannot_be_unwound_to(runner: Runner) -> None:
-    assert attend(runner, UnwindOnce(len(runner.stages) - 1)).kind == "operator"
+    assert attend(runner, UnwindOnce(len(runner.listing.stages) - 1)).kind == "operator"
     assert calls(runner) == 1 + len(unwound(runner))
 
 

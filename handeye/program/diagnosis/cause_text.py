@@ -169,7 +169,6 @@ def _hole(fault: c.BaseHoleUnseen | c.GasketHoleUnseen | c.GasketHoleOff) -> str
 
 
 def _apart(*lengths: float, decimals: int = 2) -> list[str]:
-    """Lengths to be compared, in inches."""
     return distinct_digits([length / INCH for length in lengths], decimals)
 
 
@@ -215,7 +214,6 @@ def touching_fingers(fingers: tuple[bool, bool]) -> str:
 
 
 def _switches(fingers: tuple[bool, bool]) -> str:
-    """Switches of fingers, with their verb."""
     named = _named(fingers)
     if len(named) == 1:
         return f"the switch of the {named[0]} finger is"

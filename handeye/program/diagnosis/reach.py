@@ -160,7 +160,10 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
                 f"and no joint of the {arm.name} arm turns it"
             )
         case FixedDirection():
-            return _off_its_way(arm, reason)
+            movers = [named(arm, joint) for joint in reason.joints]
+            where = "line on which" if len(movers) == 1 else "plane in which"
+            them = f"{' and '.join(movers)} move{'s' if len(movers) == 1 else ''} it"
+            return f"the hand would have to be {reason.off / INCH:.2f} in off the {where} {them}"
         case HeldJoint():
             at = _shown(arm, reason.joint, reason.at, 1)
             return f"{named(arm, reason.joint)} is held at {at} and cannot be moved"
@@ -200,10 +203,3 @@ def _beyond(arm: NamedArm, reason: OutOfReach | TooNear | JointLimit) -> str:
         _shown(arm, reason.joint, reason.limit, 1),
     )
     return f"{named(arm, reason.joint)} would have to be {amount}; it {begins} at {limit}"
-
-
-def _off_its_way(arm: NamedArm, reason: FixedDirection) -> str:
-    off, movers = f"{reason.off / INCH:.2f} in", [named(arm, joint) for joint in reason.joints]
-    if len(movers) == 1:
-        return f"the hand would have to be {off} off the line on which {movers[0]} moves it"
-    return f"the hand would have to be {off} off the plane in which {' and '.join(movers)} move it"

@@ -108,8 +108,8 @@ def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
     done = [e.stage for e in happened if isinstance(e, StageFinished) and e.status == "done"]
     if overruled or not done or not (carried.runner.between_stages or carried.pause.kind == "end"):
         return
-    stages = len(carried.runner.stages)
-    number = carried.runner.stages.index(done[-1]) + 1
+    stages = len(carried.runner.listing.stages)
+    number = carried.runner.listing.stages.index(done[-1]) + 1
     if carried.pause.kind == "end":
         yield from wrong(findings_so_far(carried.runner), stages, stages, {})
     elif wrong(findings_so_far(carried.runner), number, stages, carried.runner.task.holds_from):

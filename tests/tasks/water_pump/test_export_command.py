@@ -23,7 +23,7 @@ def ended(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Runner]:
     path, start = tmp_path_factory.mktemp("runs") / "ended", begin()
     folder = open_new(path, start)
     runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
-    while runner.stage is None or runner.stages[runner.stage] != "feel for nothing":
+    while runner.stage is None or runner.listing.stages[runner.stage] != "feel for nothing":
         advance(runner, steps=1)
     shutil.copytree(path, path.with_name("half-way"))
     advance(runner)

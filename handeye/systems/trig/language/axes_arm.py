@@ -62,11 +62,9 @@ class AxesArm(TrigArm):
 
     @property
     def memory(self) -> ArmMemory:
-        """The arm's memory."""
         return ArmMemory(told=self.here(), opening=self._opening, closed=self._closed)
 
     def remember(self, memory: ArmMemory) -> None:
-        """Restore memory."""
         self._goal, self._opening, self._closed = np.array(memory.told), memory.opening, memory.closed
 
     @property
@@ -211,7 +209,6 @@ class AxesArm(TrigArm):
         return -np.array([channels[f"force_{axis}"] for axis in "xyz"])
 
     def _tared(self) -> Array:
-        """Mean force without contact."""
         readings = []
         for _ in range(_TARE):
             self._put(self._goal)

@@ -98,7 +98,6 @@ def ask_if_unsaved(session: Session, deed: str) -> None:
 
 
 def active_step(session: Session) -> Node:
-    """The active step."""
     if session.program.cursor == TOP:
         empty = session.program.first == NONE
         raise Refused(
@@ -124,7 +123,6 @@ def _named_or_active(session: Session, given: Arguments) -> Node:
 
 
 def _kept_branch(session: Session, given: Arguments, node: Node) -> int:
-    """The branch of a step to keep when it is deleted."""
     if node.type != "guarded" or given.branch is not None:
         return session.branch(given.branch, node)
     kept = [branch for branch, son in enumerate(node.sons) if son != NONE]

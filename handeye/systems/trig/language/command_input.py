@@ -119,7 +119,6 @@ class Script(Desk):
         return self._slipped(self._pressed.popleft())
 
     def _slipped(self, button: Button) -> Button:
-        """A button with the user's error added."""
         if not isinstance(button, Jog) or SIZES[button.axis] != MILLIMETRE:
             return button
         self._jogs += 1

@@ -30,7 +30,9 @@ def full_display(program: TrigProgram, width: int, height: int, symbols: Symbols
         _put_elbow(grid, elbow, symbols)
     active = next((c for c in drawn.cells if c.node.id == program.cursor and not c.link), None)
     if active is not None:
-        _put_brackets(grid, active.column, 2 * active.row)
+        row, column = active.column, 2 * active.row
+        grid[row, column - 1], grid[row, column + 1] = ("active", "["), ("active", "]")
+        grid[row, column] = ("active", grid[row, column][1])
     row, column = (0, 0) if active is None else (active.column, 2 * active.row)
     wide, high = 2 * drawn.rows, drawn.columns
     left = max(-1, min(column - width // 2, wide - width + 1)) if wide >= width else -1
@@ -51,12 +53,6 @@ def _put_elbow(grid: _Grid, elbow: Elbow, symbols: Symbols) -> None:
     for row in range(elbow.start + 1, elbow.end):
         grid[row, x] = ("line", symbols.stem)
     grid[elbow.end, x] = ("line", symbols.turn)
-
-
-def _put_brackets(grid: _Grid, row: int, column: int) -> None:
-    grid[row, column - 1] = ("active", "[")
-    grid[row, column] = ("active", grid[row, column][1])
-    grid[row, column + 1] = ("active", "]")
 
 
 def _line(grid: _Grid, row: int, left: int, width: int, symbols: Symbols) -> Line:
@@ -97,7 +93,6 @@ def loop_words(graph: Graph, node: Node, symbols: Symbols) -> str:
 
 
 def _deed(node: Node, positions: Positions, symbols: Symbols) -> str:
-    """The action of a step."""
     if node.position is None:
         return f"({node.type})"
     name = _cut(node.position, symbols) if is_named(node.position) else NO_POSITION
@@ -163,7 +158,6 @@ def _pane(program: TrigProgram, drawn: Layout, width: int, symbols: Symbols) -> 
 
 
 def _row(pane: _Pane, row: int, columns: range) -> Line:
-    """One row of the display."""
     line: Line = []
     for column in columns:
         cell = pane.cells.get((row, column))
@@ -183,7 +177,6 @@ def _filled(room: int, column: int, elbow: Elbow | None, symbols: Symbols) -> tu
 
 
 def _pieces(pane: _Pane, cell: Cell) -> Line:
-    """A step with its cursor or branch mark."""
     name, deed, style = step_words(pane.program.graph, pane.program.positions, cell, pane.symbols)
     text = f"{name:{pane.name}}  " if deed else ""
     if cell.node.id == pane.program.cursor and not cell.link:

@@ -51,7 +51,6 @@ class Node:
 
     @property
     def moves(self) -> bool:
-        """True if it moves the arm."""
         return self.type in ("normal", "guarded")
 
     @property
@@ -93,7 +92,6 @@ class Graph:
         return (self[id] for id in self.order() if self[id].shown)
 
     def named(self, name: str) -> Node | None:
-        """The step of a name."""
         return next((node for node in self.nodes.values() if node.name == name), None)
 
     def edges_into(self, id: int) -> list[tuple[int, int]]:
@@ -204,7 +202,6 @@ def _innermost(graph: Graph, target: int, loop: Node) -> int:
 
 
 def _bloops_above(graph: Graph, target: int) -> list[int]:
-    """Bloops above a step, from below."""
     found, id, top = [], target, graph.entry(target)
     while id != top:
         id = graph[id].fathers[0]
@@ -229,7 +226,9 @@ def delete_below(graph: Graph, id: int) -> None:
 def prune(graph: Graph) -> None:
     """Drop unreachable nodes and loops cut from their bloops, then restore the tree."""
     while True:
-        _drop_unreached(graph)
+        reached = graph.distances(TOP)
+        for lost in [id for id in graph.nodes if id not in reached]:
+            graph.drop(lost)
         broken = next((node for node in graph.nodes.values() if _is_cut(graph, node)), None)
         if broken is None:
             break
@@ -244,13 +243,6 @@ def _take_out(graph: Graph, id: int, keep: int) -> None:
         link = branch in graph[father].links or keep in node.links
         graph.attach(father, branch, son, link=link)
     graph.drop(id)
-
-
-def _drop_unreached(graph: Graph) -> None:
-    reached = graph.distances(TOP)
-    lost = [id for id in graph.nodes if id not in reached]
-    for id in lost:
-        graph.drop(id)
 
 
 def _is_cut(graph: Graph, node: Node) -> bool:

@@ -63,7 +63,6 @@ class TrigProgram:
         return self.graph.step_at(self.graph[TOP].sons[0])
 
     def put_cursor(self, id: int) -> None:
-        """Make a step the active one."""
         if id != self.cursor:
             self.taken, self.paused = None, NONE
         self.cursor = id
@@ -75,7 +74,6 @@ class TrigProgram:
             self.put_cursor(above if above in self.graph else TOP)
 
     def remember(self, done: RecordedStep) -> None:
-        """Append a step to the trail."""
         self.forgotten |= len(self.trail) == self.trail.maxlen
         self.trail.append(done)
 
@@ -111,5 +109,4 @@ class TrigProgram:
         return False
 
     def users(self, position: str) -> list[Node]:
-        """Steps that use a position."""
         return [node for node in self.graph.nodes.values() if node.position == position]

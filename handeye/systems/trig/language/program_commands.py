@@ -126,6 +126,5 @@ def leave(session: Session, given: Arguments) -> None:
 
 
 def _check_files(session: Session) -> None:
-    """Raise Refused if this session may not touch files."""
     if not session.files:
         raise Refused("the script of a job reads and writes no files")

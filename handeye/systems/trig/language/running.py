@@ -232,7 +232,6 @@ class Interpreter:
         self.program.remember(done)
 
     def _amend(self, *, gaps: tuple[float, float] = (0.0, 0.0), touched: Place | None = None) -> None:
-        """Complete the record of the last step."""
         trail = self.program.trail
         trail[-1] = trail[-1]._replace(gaps=gaps, touched=touched)
 

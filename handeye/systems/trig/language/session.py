@@ -37,7 +37,6 @@ class Session:
 
     @property
     def runner(self) -> Interpreter:
-        """The program's interpreter."""
         return Interpreter(
             program=self.program, arm=self.arm, halted=self.desk.halted, refresh=self.desk.refresh
         )
@@ -48,14 +47,11 @@ class Session:
         """A defined position; raises NoSuchName, or Refused for the opposite of an absolute one."""
         found = self.program.positions.get(name or "")
         if found is None:
-            raise NoSuchName(f"there is no position {quoted(name or '')}{self._meant(name or '')}")
+            known = suggestion(name or "", filter(is_named, self.program.positions))
+            raise NoSuchName(f"there is no position {quoted(name or '')}; {known or 'M teaches one'}")
         if negate and not found.relative:
             raise Refused(f"{name} is an absolute position; only a relative one has an opposite")
         return found
-
-    def _meant(self, name: str) -> str:
-        known = suggestion(name, filter(is_named, self.program.positions))
-        return f"; {known}" if known else "; M teaches one"
 
     def step(self, name: str) -> Node:
         """The step of a name, or the top; raises NoSuchName."""
@@ -63,8 +59,7 @@ class Session:
         found = graph[TOP] if name == TOP_NAME else graph.named(name)
         if found is None:
             known = suggestion(name, (node.name for node in graph.nodes.values() if node.name))
-            help = known or "CN names the active step"
-            raise NoSuchName(f"there is no step {quoted(name)}; {help}")
+            raise NoSuchName(f"there is no step {quoted(name)}; {known or 'CN names the active step'}")
         return found
 
     # -- asking ----------------------------------------------------------------------------------------

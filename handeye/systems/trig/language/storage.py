@@ -52,7 +52,6 @@ def _edge_faults(graph: Graph) -> Iterator[str]:
 
 
 def _has_tree(graph: Graph) -> bool:
-    """True if the own edges form a tree of all nodes."""
     seen, waiting = {TOP}, [TOP]
     while waiting:
         node = graph[waiting.pop()]
@@ -242,7 +241,8 @@ def _program(content: bytes) -> TrigProgram:
     ] != [TOP]:
         raise _Fault("is not sound: its steps are not numbered one by one from the top")
     graph.fill(nodes)
-    program = TrigProgram(graph=graph, positions=_positions(file), unread=_unread(fields, _File))
+    positions = {name: _position(name, fields) for name, fields in file.positions.items()}
+    program = TrigProgram(graph=graph, positions=positions, unread=_unread(fields, _File))
     fault = next(faults(graph, program.positions), None)
     if fault is not None:
         raise _Fault(f"is not sound: {fault}")
@@ -258,10 +258,6 @@ def _read(fields: object, type: type[Read], what: str) -> Read:
 
 def _unread(fields: Mapping[str, object], type: type[msgspec.Struct]) -> dict[str, object]:
     return {name: value for name, value in fields.items() if name not in type.__struct_fields__}
-
-
-def _positions(file: _File) -> Positions:
-    return {name: _position(name, fields) for name, fields in file.positions.items()}
 
 
 def _position(name: str, fields: dict[str, object]) -> Position:

@@ -36,7 +36,6 @@ Line = list[tuple[Style, str]]
 
 
 def plain(lines: Sequence[Line]) -> str:
-    """Lines without styles."""
     return "\n".join("".join(text for _, text in line) for line in lines)
 
 

@@ -50,7 +50,6 @@ Obstacle = Resisted | HoldOff | LeftBehind | Missed | Unsupported
 
 
 def told_obstacle(obstacle: Obstacle) -> str:
-    """An obstacle in words."""
     match obstacle:
         case Resisted(force=force, limit=limit):
             felt, allowed = distinct_digits((force, limit), 1)
