@@ -12,8 +12,8 @@ from handeye.core.packed import packed, sealed
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.systems.stanford import executor_run as programs
-from handeye.systems.stanford.conditions import Conditions
 from handeye.systems.stanford.kept_calibrations import MAGIC, VERSION
+from handeye.systems.stanford.preparation import Conditions
 from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.vision.calibration import Calibration
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar, Final
+from zlib import crc32
 
 import numpy as np
 
@@ -99,3 +100,8 @@ class Phase(Distribution):
 
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
         return float(rng.uniform(0.0, FULL_TURN_DEG))
+
+
+def random_numbers(seed: int, name: str) -> np.random.Generator:
+    """The stream of a name in the world of a seed."""
+    return np.random.default_rng(np.random.SeedSequence([seed, crc32(name.encode())]))

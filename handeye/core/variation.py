@@ -18,10 +18,9 @@ import numpy as np
 
 from handeye.core.arguments import whole
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.distributions import Distribution
+from handeye.core.distributions import Distribution, random_numbers
 from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.core.faults import Fault
-from handeye.core.random_streams import random_numbers
 from handeye.core.record import Record
 from handeye.core.units import UNITS, Unit
 

@@ -28,7 +28,7 @@ _LATE_S: Final = (
 
 @dataclass(slots=True, eq=False)
 class Pace(Observer):
-    """Keeps a run from going faster than `factor` times the wall clock."""
+    """Keeps a run from going faster than `factor` times the wall clock: this computer waits, unknown to the run."""
 
     factor: float | None = None  # simulated seconds per second; None: as fast as it goes
     clock: Callable[[], float] = time.monotonic

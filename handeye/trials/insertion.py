@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from handeye.al import AL
 from handeye.cell.state import noise_state
-from handeye.core.random_streams import random_numbers
+from handeye.core.distributions import random_numbers
 from handeye.core.record import Record
 from handeye.core.resources import plans
 from handeye.core.source import Source, read_source

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from handeye.core.random_streams import random_numbers
+from handeye.core.distributions import random_numbers
 
 SEEDS = (0, 1, 2, 3, 1000, 70_123, 2**31, 2**32 - 1, 2**63 - 1)
 

@@ -14,9 +14,8 @@ from handeye.core.packed import packed, sealed
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.runs.runner import Runner
-from handeye.systems.stanford.conditions import Conditions
 from handeye.systems.stanford.kept_calibrations import LARGEST, MAGIC, VERSION, KeptCalibrations
-from handeye.systems.stanford.preparation import Preparation, preparation_of
+from handeye.systems.stanford.preparation import Conditions, Preparation, preparation_of
 
 pytestmark = pytest.mark.slow  # for its file: a cell is built once
 

@@ -19,8 +19,8 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.stanford import executor_run as programs
-from handeye.systems.stanford.conditions import conditions_of
 from handeye.systems.stanford.kept_calibrations import KeptCalibrations
+from handeye.systems.stanford.preparation import conditions_of
 from handeye.tasks.water_pump.task import WaterPump
 from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS
 from handeye.vision.calibration import Calibration

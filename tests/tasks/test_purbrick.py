@@ -9,8 +9,7 @@ from handeye.core.errors import InvalidInput
 from handeye.machines import find_machine
 from handeye.machines.purbrick import PURBRICK
 from handeye.ports.axes import AxisSpec
-from handeye.systems.trig.jobs.bench import NOMINAL, purbrick
-from handeye.systems.trig.jobs.table import HEIGHT, BlockTable
+from handeye.systems.trig.jobs.table import HEIGHT, NOMINAL, BlockTable, purbrick
 from handeye.systems.trig.language.no_arm import BLOCK, TRAVEL
 from handeye.systems.trig.language.place import Place
 

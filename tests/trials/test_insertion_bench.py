@@ -9,7 +9,7 @@ from conftest import Command
 from msgspec.structs import replace
 
 from handeye.al import AL
-from handeye.core.random_streams import random_numbers
+from handeye.core.distributions import random_numbers
 from handeye.core.resources import plans
 from handeye.core.source import Source
 from handeye.planfile.plan import Plan

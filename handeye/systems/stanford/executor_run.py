@@ -39,9 +39,14 @@ from handeye.runs.operator import undoing
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup, plan_of
 from handeye.runs.system import Listing, RunningSystem, Settable, StepperWords, Surroundings, System, Topics
-from handeye.systems.stanford.conditions import Conditions, conditions_of
 from handeye.systems.stanford.kept_calibrations import KeptCalibrations
-from handeye.systems.stanford.preparation import Preparation, preparation_of, take_up
+from handeye.systems.stanford.preparation import (
+    Conditions,
+    Preparation,
+    conditions_of,
+    preparation_of,
+    take_up,
+)
 from handeye.tasks import task
 from handeye.tasks.interface import CameraSetup
 from handeye.touch.spiral import spiral
@@ -286,7 +291,6 @@ class RunningPlan(RunningSystem):
             raise BadArgument(f"{what} {name} cannot be set to {len(value)} numbers")
 
     def _saved_names(self) -> set[str]:
-        """Names of the differences that the program saves or restores."""
         uses = [
             use for step in self.plan.program.steps for use in (*step.operation.reads, *step.operation.writes)
         ]

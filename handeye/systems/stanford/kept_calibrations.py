@@ -20,8 +20,7 @@ from handeye.core.record import Record
 from handeye.core.resources import cache_folder
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
-from handeye.systems.stanford.conditions import Conditions
-from handeye.systems.stanford.preparation import Preparation
+from handeye.systems.stanford.preparation import Conditions, Preparation
 
 MAGIC: Final = "handeye-calibration"
 VERSION: Final = 1

@@ -1,15 +1,25 @@
 """Preparation of a run: the arm measures its joints and calibrates the camera before the first instruction.
 
 It does not depend on the instructions, so that runs of other programs can start from a kept one
-(`systems/stanford/kept_calibrations.py`).
+(`systems/stanford/kept_calibrations.py`). Equal conditions give equal preparations, to the byte.
 """
+
+import platform
+
+import msgspec
+import numpy as np
 
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.state import CellState
 from handeye.core.mutable_records import copied
 from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
+from handeye.core.versions import code_digest, versions
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import DriveState, check_fits
+from handeye.ports.camera import Renderer
+from handeye.runs.setup import Setup, plan_of
+from handeye.tasks import task
 from handeye.vision.calibration import Calibration
 
 
@@ -42,3 +52,47 @@ def take_up(preparation: Preparation, run: ExecutionContext, cell: SimulatedCell
     check_fits(state, run.plan, run.arm)
     cell.restore(preparation.cell)
     run.restore(state)
+
+
+class Conditions(Record, frozen=True, kw_only=True):
+    """Everything on which the result of a preparation depends."""
+
+    task: str
+    world: WorldSpec
+    camera: Renderer
+    driver: str  # description that OpenGL gives of itself, or ""
+    feels: bool  # the arm measures its joints first
+    versions: dict[str, str]
+    code: str  # digest of Handeye's code and scenes
+    machine: tuple[str, ...]  # kind of processor, since rounding depends on it
+
+    @property
+    def line(self) -> bytes:
+        """The conditions as one line of JSON, equal for equal conditions."""
+        return msgspec.json.encode(self, order="deterministic")
+
+
+def conditions_of(setup: Setup, camera: Renderer) -> Conditions | None:
+    """The conditions of a run with this renderer; None if it uses code that is not Handeye's."""
+    ours = type(task(setup.task)).__module__.startswith("handeye.")
+    if camera.method == "replaced" or not ours:
+        return None
+    instructions = np.show_config(mode="dicts")["SIMD Extensions"]["found"]  # by NumPy, on this computer
+    return Conditions(
+        task=setup.task,
+        world=setup.world,
+        camera=camera,
+        driver=_driver(camera),
+        feels=plan_of(setup).program.feels,
+        versions=versions(),
+        code=code_digest(),
+        machine=(platform.system(), platform.machine(), *instructions),
+    )
+
+
+def _driver(camera: Renderer) -> str:
+    if camera.method != "opengl":
+        return ""
+    from handeye.cell.opengl import driver
+
+    return driver()

@@ -19,7 +19,7 @@ from handeye.systems.trig.jobs import referee
 from handeye.systems.trig.language.axes_arm import AxesArm
 from handeye.systems.trig.language.trig_arm import Resisted
 from handeye.systems.trig.run import job as taught_job
-from handeye.systems.trig.run import job_folder, job_video
+from handeye.systems.trig.run import job_page, job_video
 from handeye.systems.trig.run.pallet_trials import broken_off_after
 
 PALLETISE = str(PLANS / "palletise.trig")
@@ -223,14 +223,14 @@ def _without_host_time(folder: str) -> dict[str, Any]:
 def test_a_key_behind_the_last_step_loses_nothing_of_what_a_job_came_to(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    write = job_folder.job_files
+    write = job_page.job_files
 
     def struck(*words: Any) -> dict[str, bytes]:
         assert not Path("job/result.json").exists()  # which says that all is there
         os.kill(os.getpid(), signal.SIGINT)
         return write(*words)
 
-    monkeypatch.setattr(job_folder, "job_files", struck)
+    monkeypatch.setattr(job_page, "job_files", struck)
     assert command("trig", "palletise", "--blocks", "0", "--out", "job")[0] == 0
     assert json.loads(Path("job/job.json").read_bytes())["outcome"] == "right"
 

@@ -5,9 +5,8 @@ from itertools import pairwise
 import pytest
 from trig_sessions import BUCKET, PALLETISE, Typist, straight
 
-from handeye.systems.trig.language.display import full_display, partial_display
+from handeye.systems.trig.language.display import full_display, layout, partial_display
 from handeye.systems.trig.language.graph import NORMAL
-from handeye.systems.trig.language.layout import layout
 from handeye.systems.trig.language.styled import ASCII, UNICODE, plain, symbols_for
 
 FIGURE_10 = """\

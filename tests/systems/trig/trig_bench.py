@@ -9,8 +9,8 @@ from handeye.core.variation import WorldSpec
 from handeye.ports.clock import Clock
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.trig.jobs.bench import purbrick
 from handeye.systems.trig.jobs.benches import TaughtPlan
+from handeye.systems.trig.jobs.table import purbrick
 from handeye.systems.trig.language.command_input import Script, hear
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.run.job import setup_of_job

@@ -1,4 +1,4 @@
-"""Commands that carry out the paper's two examples in drawn worlds: taught, run, judged, and taken back."""
+"""Commands that teach, run, judge and take back the paper's two examples in drawn worlds, once or many times."""
 
 import shlex
 from collections.abc import Callable, Sequence
@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Final
 from cyclopts import Parameter
 from rich.status import Status
 
-from handeye.cli.common import Json, WholeNumber, complain, note, notes, put_json, say
+from handeye.cli.common import Json, WholeNumber, complain, note, notes, positive, put_json, say
 from handeye.cli.panic_button import PanicButton
+from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.videos import drawing
 from handeye.cli.world_options import ANY_ERRORS, ErrorOptions, Faults, broken
 from handeye.core.diagnostics import quoted
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from handeye.systems.trig.jobs.benches import JobName, TaughtJob
     from handeye.systems.trig.run.job import JobReport
     from handeye.systems.trig.run.job_video import JobVideo
+
 
 Seed = Annotated[WholeNumber, Parameter(help="The world: how far off people teach, machine and blocks are.")]
 
@@ -59,8 +61,6 @@ CODES: Final = {"right": 0, "stopped": 1, "silent": 3}
 
 
 class _Progress(Observer):
-    """Shows a job's progress at a terminal."""
-
     def __init__(self, runner: "Runner", status: Status) -> None:
         self._runner, self._status = runner, status
 
@@ -218,7 +218,6 @@ def _check_apart(kept: KeptOptions) -> None:
 
 
 def _tell(done: "JobReport") -> None:
-    """Print the referee's findings and the verdict."""
     for title, checks in (("The program has ended:", done.checks), ("Undone:", done.checks_back)):
         if checks:
             say(title)
@@ -230,4 +229,50 @@ def _tell(done: "JobReport") -> None:
         {"right": "Right.", "stopped": "The arm has stopped.", "silent": "Done, and the referee disagrees."}[
             done.outcome
         ]
+    )
+
+
+def pallet_trials(
+    *,
+    n: Annotated[
+        WholeNumber, Parameter(name="--n", help="Trials; number k is in the world of --seed + k.")
+    ] = 10,
+    seed: Annotated[WholeNumber, Parameter(help="The first world.")] = 0,
+    blocks: Annotated[WholeNumber, Parameter(help="In the stack, 0 to 20.")] = 7,
+    interrupt: Annotated[
+        bool, Parameter(help="Break each run off after a drawn number of steps, and undo it from there.")
+    ] = False,
+    errors: ErrorOptions = ANY_ERRORS,
+    options: SweepOptions = ANY,
+) -> int:
+    """Palletise in many worlds, and take everything back: how often it comes out right, and how far off blocks are.
+
+    Each trial is that of `handeye trig palletise`: taught, run, judged, undone, judged. Ctrl-C ends the batch, and what
+    has ended is told.
+
+    Exit code 0: no silent failure; 1: every trial broke off; 3: in some trial all was said to be done, and the referee
+    disagrees.
+    """
+    from handeye.systems.trig.jobs.benches import MOST_BLOCKS
+    from handeye.systems.trig.run.pallet_trials import PALLET, PalletWork
+    from handeye.trials.folder import head_of
+    from handeye.trials.sweep import cases
+
+    positive(n, "trial")
+    options.check()
+    if not 0 <= blocks <= MOST_BLOCKS:
+        raise BadArgument(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
+    settings = {"blocks": str(blocks), "whether runs are broken off": "yes" if interrupt else "no"}
+    world = errors.of("palletise").spec(seed)
+    words = shlex.join(errors.words())
+    broken = f"{' --interrupt' if interrupt else ''}{' ' + words if words else ''}"
+    return carry_out_sweep(
+        PALLET,
+        PalletWork(blocks=blocks, interrupt=interrupt, world=world),
+        cases(seed, range(n)),
+        head_of(PALLET, world, settings=settings),
+        options,
+        title=f"the palletiser with {blocks} blocks, in worlds from seed {seed} on",
+        again=lambda row: f"handeye trials pallet --n 1 --seed {row.seed} --blocks {blocks}{broken}",
+        more={"blocks": blocks, "interrupted": interrupt},
     )

@@ -17,16 +17,14 @@ from prompt_toolkit.output import Output
 
 from handeye.core.errors import InvalidInput
 from handeye.core.plain_text import folded
-from handeye.systems.trig.cli.keys import STEPS, bindings
-from handeye.systems.trig.cli.windows import Picture, application, pictured
+from handeye.systems.trig.cli.windows import STEPS, Picture, application, bindings, pictured
 from handeye.systems.trig.language.command_input import hear
 from handeye.systems.trig.language.desk import Button, Cancelled, Desk, Jog
 from handeye.systems.trig.language.place import SIZES
 from handeye.systems.trig.language.session import Session
 
 PROMPT: Final = ">"
-PACE: Final = 0.08
-"""s that a step of an arm without a clock is shown, to be seen and stopped."""
+PACE: Final = 0.08  # s that a step of an arm without a clock is shown, to be seen and stopped
 LONG: Final = 4  # lines; longer answers get a page of their own
 _KEPT: Final = 500  # lines of history
 
@@ -47,14 +45,10 @@ class Screen(Desk):
     ) -> None:
         """Attach to a session; each step is shown for `pace` (s), and `waits` is called when input is awaited."""
         self.session, self.question = session, PROMPT
-        self.mode: Mode = "busy"
-        """What input is awaited."""
-        self.step = 3
-        """Index of the teach box step."""
-        self.told: deque[tuple[str, str]] = deque(maxlen=_KEPT)
-        """Style and text of lines."""
-        self.page: list[str] = []
-        """A long answer, shown instead of the partial display until the next line."""
+        self.mode: Mode = "busy"  # what input is awaited
+        self.step = 3  # index of the teach box step
+        self.told: deque[tuple[str, str]] = deque(maxlen=_KEPT)  # style and text of lines
+        self.page: list[str] = []  # a long answer, shown instead of the partial display until the next line
         self.scroll = 0
         self._pace, self._waits = pace, waits
         self._lines, self._buttons = SimpleQueue[str | None](), SimpleQueue[Button | None]()
@@ -99,7 +93,6 @@ class Screen(Desk):
         self.app.invalidate()
 
     def _work(self) -> None:
-        """Carry out lines until the session ends."""
         try:
             while not self.session.over and (line := self._line(PROMPT)) is not None:
                 self.page = []
@@ -145,13 +138,11 @@ class Screen(Desk):
             raise self._failed[0]
 
     def picture(self) -> Picture:
-        """The present picture."""
         if self.mode != "busy":
             self._picture = pictured(self.session, self.size)
         return self._picture
 
     def accept(self, buffer: Buffer) -> bool:
-        """Accept a typed line."""
         if self.mode == "line":
             self.put_line(buffer.text)
         return False
@@ -168,15 +159,12 @@ class Screen(Desk):
         self._buttons.put(button)
 
     def jog(self, axis: int, sign: int) -> None:
-        """Press the button of an axis."""
         self.put_button(Jog(axis, sign * STEPS[self.step] * SIZES[axis]))
 
     def change_step(self, by: int) -> None:
-        """Change the teach box step."""
         self.step = max(0, min(self.step + by, len(STEPS) - 1))
 
     def turn_page(self, by: int) -> None:
-        """Scroll a long answer."""
         self.scroll = max(0, min(self.scroll + 8 * by, len(self.page) - 1))
 
     def drop_line(self) -> None:

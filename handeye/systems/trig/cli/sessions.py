@@ -19,8 +19,7 @@ from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.storage import ENDING, read_program
 from handeye.systems.trig.language.trig_arm import Halted
 
-_REFRESH_S: Final = 0.1
-"""Least time between updates of the progress line."""
+_REFRESH_S: Final = 0.1  # least time between updates of the progress line
 
 
 def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Session:
@@ -53,8 +52,6 @@ def watched_desk(session: Session, halted: Halted) -> Iterator[Desk]:
 
 
 class _Watched(Script):
-    """A desk that shows progress."""
-
     def __init__(self, session: Session, status: Status, halted: Halted) -> None:
         super().__init__((), note, halted)
         self._session, self._status = session, status

@@ -1,15 +1,16 @@
-"""Windows of the screen: full display, partial display, program editor, and arm status."""
+"""Windows of the screen, full display, partial display, program editor and arm status, and its keys."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from prompt_toolkit.application import Application
+from prompt_toolkit.application import Application, get_app
 from prompt_toolkit.completion import WordCompleter
+from prompt_toolkit.filters import Condition
 from prompt_toolkit.formatted_text import StyleAndTextTuples
 from prompt_toolkit.history import InMemoryHistory
 from prompt_toolkit.input import Input
-from prompt_toolkit.key_binding import KeyBindings
+from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
 from prompt_toolkit.layout import Container, Dimension, HSplit, Layout, Window
 from prompt_toolkit.layout.controls import FormattedTextControl
 from prompt_toolkit.output import Output
@@ -17,7 +18,6 @@ from prompt_toolkit.styles import Style
 from prompt_toolkit.widgets import TextArea
 
 from handeye.core.plain_text import counted, printable
-from handeye.systems.trig.cli.keys import BOX_HELP, BUSY_HELP, LINE_HELP, PAGE_HELP, STEPS
 from handeye.systems.trig.language.command_table import COMMANDS
 from handeye.systems.trig.language.display import full_display, partial_display
 from handeye.systems.trig.language.place import is_named, told_place
@@ -26,6 +26,60 @@ from handeye.systems.trig.language.styled import Line, symbols_for
 
 if TYPE_CHECKING:
     from handeye.systems.trig.cli.screen import Screen
+
+
+JOGS: Final = {
+    "left": (0, -1), "right": (0, 1), "down": (1, -1), "up": (1, 1), "pagedown": (2, -1), "pageup": (2, 1),
+    "x": (0, -1), "X": (0, 1), "y": (1, -1), "Y": (1, 1), "z": (2, -1), "Z": (2, 1),
+    "r": (3, -1), "R": (3, 1), "p": (4, -1), "P": (4, 1), "w": (5, -1), "W": (5, 1),
+}  # fmt: skip
+"""Axis and direction of each teach box key."""
+BOX_HELP: Final = "xXyYzZrRpPwW or ←→↓↑PgDnPgUp: drive   Enter: record   k: kill   +-:"
+LINE_HELP: Final = "HELP: commands   Tab: complete   Ctrl-C: drop the line   Q or Ctrl-D: leave"
+BUSY_HELP: Final = "any key stops the arm"
+PAGE_HELP: Final = "PgUp PgDn, then any line"
+STEPS: Final = (0.1, 1.0, 5.0, 10.0, 50.0)  # mm or deg per teach box key
+
+
+def bindings(screen: "Screen") -> KeyBindings:
+    keys = KeyBindings()
+    _bind_box(keys, screen)
+    _bind_line(keys, screen)
+
+    @keys.add("<any>", filter=Condition(lambda: screen.mode == "busy"), eager=True)
+    @keys.add("c-c", filter=Condition(lambda: screen.mode == "busy"), eager=True)
+    def _(event: KeyPressEvent) -> None:
+        screen.strike()
+
+    return keys
+
+
+def _bind_box(keys: KeyBindings, screen: "Screen") -> None:
+    box = Condition(lambda: screen.mode == "box")
+    for key, (axis, sign) in JOGS.items():
+        keys.add(key, filter=box, eager=True)(lambda _, axis=axis, sign=sign: screen.jog(axis, sign))
+    for key in ("enter", " "):
+        keys.add(key, filter=box, eager=True)(lambda _: screen.put_button("record"))
+    keys.add("k", filter=box, eager=True)(lambda _: screen.put_button("kill"))
+    keys.add("c-c", filter=box, eager=True)(lambda _: screen.put_button(None))
+    keys.add("+", filter=box, eager=True)(lambda _: screen.change_step(1))
+    keys.add("-", filter=box, eager=True)(lambda _: screen.change_step(-1))
+    keys.add("<any>", filter=box)(lambda _: None)
+
+
+def _bind_line(keys: KeyBindings, screen: "Screen") -> None:
+    line = Condition(lambda: screen.mode == "line")
+    empty = Condition(lambda: not get_app().current_buffer.text)
+
+    @keys.add("c-c", filter=line)
+    def _(event: KeyPressEvent) -> None:
+        event.current_buffer.reset()
+        screen.drop_line()
+
+    keys.add("c-d", filter=line & empty)(lambda _: screen.put_line(None))
+    keys.add("pagedown", filter=line)(lambda _: screen.turn_page(1))
+    keys.add("pageup", filter=line)(lambda _: screen.turn_page(-1))
+
 
 STYLE: Final = Style.from_dict(
     {
@@ -85,7 +139,6 @@ def editor_rows(rows: int) -> int:
 def application(
     screen: "Screen", keys: KeyBindings, input: Input | None, output: Output | None
 ) -> Application[None]:
-    """The application that fills the terminal."""
     line = TextArea(
         multiline=False,
         height=1,
@@ -119,7 +172,6 @@ def application(
 
 
 def _told(screen: "Screen") -> StyleAndTextTuples:
-    """The latest input and answers."""
     room = editor_rows(screen.size[1])
     last = list(screen.told)[-room:]
     lines = [("", "")] * (room - len(last)) + last
@@ -133,7 +185,6 @@ def _text(text: Callable[[], StyleAndTextTuples], height: Callable[[], int] | No
 
 
 def _rule(title: str, beside: str, screen: "Screen") -> StyleAndTextTuples:
-    """A rule with a title."""
     end = f" {beside} ─" if beside else ""
     room = screen.size[0] - len(title) - len(end) - 4
     return [("class:rule", "── "), ("class:title", title), ("class:rule", f" {'─' * max(0, room)}{end}")]
@@ -153,7 +204,6 @@ def _page(screen: "Screen") -> StyleAndTextTuples:
 
 
 def _help(screen: "Screen") -> str:
-    """Help for the present input."""
     if screen.mode == "box":
         return f"{BOX_HELP}   step {STEPS[screen.step]:g}"
     return LINE_HELP if screen.mode == "line" else BUSY_HELP
@@ -166,6 +216,5 @@ def _file(session: Session) -> str:
 
 
 def _words(session: Session) -> list[str]:
-    """Completions of a word."""
     steps = [node.name for node in session.program.graph.nodes.values() if node.name]
     return sorted({*COMMANDS, "HELP", *steps, *filter(is_named, session.program.positions)})

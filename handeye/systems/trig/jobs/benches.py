@@ -37,7 +37,7 @@ class SeenTable(Tabletop):
 
 def open_bench(name: Literal["purbrick"]) -> "tuple[TrigArm, SeenTable]":
     """A switched-on TRIG arm and its table, in the world without errors."""
-    from handeye.systems.trig.jobs.bench import purbrick  # with its physics: only where it is asked for
+    from handeye.systems.trig.jobs.table import purbrick  # with its physics: only where it is asked for
 
     return {"purbrick": purbrick}[name]()
 
@@ -63,8 +63,7 @@ def new_session(arm: ArmName) -> "Session":
     return Session(arm=built, table=table, desk=Script(()))
 
 
-Moment = Literal["taught", "turned", "now"]
-"""A moment of a job: just taught, about to be reversed, or now."""
+Moment = Literal["taught", "turned", "now"]  # just taught, about to be reversed, or now
 
 
 class TaughtPlan(Record, frozen=True, kw_only=True):

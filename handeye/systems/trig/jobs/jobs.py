@@ -40,8 +40,6 @@ def script_of(name: JobName, blocks: int) -> str:
 
 
 class _Job(TaughtJob):
-    """A script and its bench."""
-
     axes: BenchAxes
 
     def __init__(self, script: str, world: BlocksWorld) -> None:

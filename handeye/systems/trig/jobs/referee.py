@@ -15,14 +15,12 @@ from handeye.systems.trig.language.place import Place
 PLACED: Final = 2.0
 """mm between a block and its place. The gap between two is 20, and an open finger leaves 5 of it."""
 FLAT: Final = 2.0  # deg
-ON: Final = 0.5
-"""mm of height; a block on another one, or on its edge, is higher."""
+ON: Final = 0.5  # mm of height; a block on another one, or on its edge, is higher
 BACK: Final = 3.0  # mm from where a block was: a tenth of its length
 TURNED: Final = 1.0  # deg from a block's earlier yaw
 BUCKET: Final = 35.0  # mm along X and Y: half its inside width
 RIM: Final = 60.0  # mm, height of the bucket
-HAND: Final = 0.5
-"""mm between hand and place: potentiometers err by .1 along each axis."""
+HAND: Final = 0.5  # mm between hand and place: potentiometers err by .1 along each axis
 _MM: Final = 1e3
 
 Poses = Mapping[str, Pose]  # of blocks over the platter, by name
@@ -50,12 +48,7 @@ def judge_back(before: Poses, now: Poses) -> Findings:
 
 
 def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pose) -> Findings:
-    """Check that a block lies in a bucket, and another one at a place.
-
-    Args:
-        inside: the middle of the bucket, m.
-        place: x, y of the other block's goal, m.
-    """
+    """Check that a block lies in a bucket, its middle at `inside`, and another one at `place`; x, y in m."""
     aside = float(np.max(np.abs(X[:2, 3] - inside)))
     return {
         "below_its_rim": at_most(float(X[2, 3]) * _MM, RIM, "mm", "height of the middle of block A"),

@@ -1,4 +1,4 @@
-"""Blocks and a bucket on the platter, laid between commands."""
+"""The Purbrick arm for TRIG, with blocks and a bucket on its platter, laid between commands."""
 
 import math
 from typing import Final
@@ -13,13 +13,12 @@ from handeye.machines.purbrick import PURBRICK
 from handeye.systems.trig.jobs.benches import SeenTable
 from handeye.systems.trig.jobs.witness import block_poses
 from handeye.systems.trig.jobs.world import ALIGNED, HEAVY, STACKED, TURNED, BlocksWorld
+from handeye.systems.trig.language.axes_arm import AxesArm
 
-HEIGHT: Final = 0.012
-"""m, of a block; 30 mm along and across, of aluminium: 29 g."""
+HEIGHT: Final = 0.012  # m, of a block; 30 mm along and across, of aluminium: 29 g
 VIEW: Final = "people"  # camera of the scene for photographs
 _GAP: Final = 2e-5  # m between stacked blocks
-_COLOURS: Final = ((0.72, 0.73, 0.75, 1.0), (0.50, 0.56, 0.62, 1.0))
-"""Alternating colours."""
+_COLOURS: Final = ((0.72, 0.73, 0.75, 1.0), (0.50, 0.56, 0.62, 1.0))  # alternating colours
 _WALL: Final = 0.003
 _DEEP: Final = 0.060
 _WIDE: Final = 0.035  # m, half the bucket's inside width
@@ -89,3 +88,12 @@ class BlockTable(SeenTable):
     def poses(self) -> dict[str, Pose]:
         """True poses of the blocks' middles over the platter, lower ones first, for a referee."""
         return block_poses(self.bench.data, self._names)
+
+
+NOMINAL = BlocksWorld()
+
+
+def purbrick(world: BlocksWorld = NOMINAL) -> tuple[AxesArm, BlockTable]:
+    """A switched-on arm with an open hand above the middle of an empty platter."""
+    table = BlockTable(world)
+    return AxesArm(PURBRICK.on_bench(table.bench, world.bending), table.bench, PURBRICK.limits), table

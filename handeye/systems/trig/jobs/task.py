@@ -36,8 +36,6 @@ _DROPPED: Final = 2  # blocks: the dropped one, and its replacement
 
 
 class _BlocksTask(AnyTask):
-    """Base of tasks with blocks on the platter."""
-
     camera = "people"
     force_axes = "the hand's own axes"
     measures = MILLIMETRES
@@ -123,7 +121,6 @@ def lay(table: BlockTable, script: str) -> None:
 
 
 def initial_scene(truth: Truth) -> InitialScene:
-    """The scene before the run."""
     seen = truth.states[SEEN]
     assert isinstance(seen, InitialScene)
     return seen

@@ -86,7 +86,6 @@ class Witness(Mechanism[InitialScene]):
 
 
 def stands(data: mujoco.MjData, names: Iterable[str]) -> ObservedScene:
-    """The true scene now."""
     poses = block_poses(data, names)
     rows = {name: (*X[:3, :3].ravel().tolist(), *X[:3, 3].tolist()) for name, X in poses.items()}
     return ObservedScene(blocks=rows, hand=tuple(hand(data).tolist()))

@@ -6,10 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from handeye.core.distributions import Distribution, Noise, Range
+from handeye.core.distributions import Distribution, Noise, Range, random_numbers
 from handeye.core.faults import Catalogue, Expected, FaultKind, Size
 from handeye.core.pose import Array
-from handeye.core.random_streams import random_numbers
 from handeye.core.variation import Quantity, Variation, WorldSpec
 
 TAUGHT: Final = "taught"
@@ -36,8 +35,7 @@ VARIATION: Final = Variation(
     _quantity(FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of blocks and platter. Chosen: dry aluminium."),
     _quantity(SLIDES, "mm", Noise(0.05), 5.0, "Sigma of how far sliding potentiometers bend. Chosen."),
     _quantity(TURNS, "rad", Noise(2e-4), 0.1, "Sigma of how far turning potentiometers bend. Chosen."),
-)
-"""Quantities of the bench: sigmas of errors, of which each has a stream of its own, and the friction."""
+)  # quantities of the bench: sigmas of errors, of which each has a stream of its own, and the friction
 WEAK, HEAVY, SLIPPERY = "hand.weak", "blocks.heavy", "platter.slippery"
 FAULTS: Final = Catalogue(
     FaultKind(
@@ -87,7 +85,6 @@ class BlocksWorld:
 
     @property
     def friction(self) -> float:
-        """Friction of blocks and platter."""
         if (slippery := self.fault(SLIPPERY)) is not None:
             return slippery
         return (

@@ -6,7 +6,6 @@ from typing import Final
 
 from handeye.systems.trig.language import (
     arm_commands,
-    change_commands,
     program_commands,
     step_commands,
 )
@@ -89,34 +88,34 @@ TABLE: Final = (
         help="go on at a step that there is already; LINK, too",
     ),
     TrigCommand(
-        usage="CN STEP", group=CHANGES, takes=("step",), needs=1, act=change_commands.rename,
+        usage="CN STEP", group=CHANGES, takes=("step",), needs=1, act=step_commands.rename,
         help="name the active step",
     ),
     TrigCommand(
-        usage="CP POS", group=CHANGES, takes=("position",), needs=1, act=change_commands.change_position,
+        usage="CP POS", group=CHANGES, takes=("position",), needs=1, act=step_commands.change_position,
         help="give the active step another position",
     ),
     TrigCommand(
-        usage="CT THRESHOLD", group=CHANGES, takes=("threshold",), needs=1, act=change_commands.change_threshold,
+        usage="CT THRESHOLD", group=CHANGES, takes=("threshold",), needs=1, act=step_commands.change_threshold,
         help="give the active guarded step another threshold, in ounces",
     ),
     TrigCommand(
-        usage="CV (X Y Z)", group=CHANGES, takes=("vector",), needs=1, act=change_commands.change_vector,
+        usage="CV (X Y Z)", group=CHANGES, takes=("vector",), needs=1, act=step_commands.change_vector,
         help="give it another force vector",
     ),
     TrigCommand(
-        usage="D [STEP [n|g]]", group=CHANGES, takes=("step", "branch"), act=change_commands.delete,
+        usage="D [STEP [n|g]]", group=CHANGES, takes=("step", "branch"), act=step_commands.delete,
         help="delete a step; of a guarded one, n or g is the branch that stays",
     ),
     TrigCommand(
-        usage="DA [STEP]", group=CHANGES, takes=("step",), act=change_commands.delete_all,
+        usage="DA [STEP]", group=CHANGES, takes=("step",), act=step_commands.delete_all,
         help="delete a step and all that can be reached through it only",
     ),
     TrigCommand(
-        usage="DLINK STEP [n|g]", group=CHANGES, takes=("step", "branch"), needs=1, act=change_commands.unlink,
+        usage="DLINK STEP [n|g]", group=CHANGES, takes=("step", "branch"), needs=1, act=step_commands.unlink,
         help="lead no longer from the active step to one that others lead to",
     ),
-    TrigCommand(usage="FLUSH", group=CHANGES, act=change_commands.flush, help="erase the program"),
+    TrigCommand(usage="FLUSH", group=CHANGES, act=step_commands.flush, help="erase the program"),
     TrigCommand(
         usage="HERE POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here,
         help="name the place where the arm is",

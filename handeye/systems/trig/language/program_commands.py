@@ -5,10 +5,10 @@ from pathlib import Path
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.plain_text import counted
 from handeye.systems.trig.language.arguments import Arguments
-from handeye.systems.trig.language.change_commands import ask_if_unsaved
 from handeye.systems.trig.language.graph import NONE, TOP
 from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.step_commands import ask_if_unsaved
 from handeye.systems.trig.language.storage import read_program, trig_file, write_program
 from handeye.systems.trig.language.trig_arm import told_obstacle
 

@@ -47,7 +47,6 @@ class JobReport(Record, frozen=True, kw_only=True):
 
     @property
     def wrong(self) -> tuple[Check, ...]:
-        """Checks that the referee refuses."""
         return tuple(check for check in (*self.checks.values(), *self.checks_back.values()) if check.refuses)
 
 
@@ -58,12 +57,7 @@ def setup_of_job(name: JobName, world: WorldSpec, blocks: int | None) -> Checkpo
     return Checkpoint(setup=setup)
 
 
-def _told_world(world: WorldSpec) -> str:
-    return "" if world == WorldSpec(seed=world.seed) else str(world)
-
-
 def job_of(runner: Runner) -> RunningJob:
-    """The run's system."""
     assert isinstance(runner.system, RunningJob)
     return runner.system
 
@@ -75,12 +69,9 @@ def carry_out(
     go: Callable[[int | None], Pause] | None = None,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Pause:
-    """Carry out a job from its present state to the end of its program, and back if possible.
+    """Carry out a job from its present state to the end of its program or for `after` steps, and back if possible.
 
-    Args:
-        after: steps after which it is reversed; None: at its end.
-        go: runs a number of steps, or all; by default without an operator.
-        tell: receives the end of each leg in words.
+    `go` runs a number of steps, or all, by default without an operator; `tell` gets the end of each leg in words.
     """
     go = go or (lambda steps: advance(runner, steps=steps))
     if job_of(runner).state.turn is None:
@@ -117,7 +108,7 @@ def ends_job(runner: Runner, result: Result) -> bool:
 
 def account(runner: Runner, pause: Pause, result: Result, *, after: int | None = None) -> JobReport:
     """The result of a job that pauses for good; `after` is the number of steps before its reversal, if set."""
-    system = job_of(runner)
+    system, world = job_of(runner), runner.setup.world
     job, plan, turn = system.job, plan_of(runner.setup), system.state.turn
     way, told = _way(runner, pause)
     lying: dict[When, tuple[BlockPose, ...]] = {"taught": job.lying("taught"), "run": job.lying("now")}
@@ -130,8 +121,8 @@ def account(runner: Runner, pause: Pause, result: Result, *, after: int | None =
         built = result.built or {}
     return JobReport(
         job=plan.job,
-        seed=runner.setup.world.seed,
-        world=_told_world(runner.setup.world),
+        seed=world.seed,
+        world="" if world == WorldSpec(seed=world.seed) else str(world),
         blocks=job.stack,
         interrupted_after=after,
         outcome="halted" if pause.kind == "panic" else _OUTCOMES[result.exit_code],

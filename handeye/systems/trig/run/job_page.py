@@ -1,18 +1,27 @@
-"""The report page of a taught job: findings, block poses, and program."""
+"""The report page of a taught job, findings, block poses and program, and its files in the run's folder."""
 
 import math
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Final
 
+import msgspec
+
+from handeye.core.errors import BadFile
+from handeye.core.files import read_whole
 from handeye.core.markup import Markup, element, joined, note, section
 from handeye.core.plain_text import counted
 from handeye.report.page.document import MARK, head, resource
 from handeye.report.page.plots import Scale, dot, drawing, rule, words
 from handeye.report.page.referee import findings_table
+from handeye.results.result import restore_figures
+from handeye.runs.folder import REPORT
+from handeye.systems.trig import ENTRY
 from handeye.systems.trig.jobs.benches import BlockPose
 from handeye.systems.trig.language.display import full_display, partial_display
 from handeye.systems.trig.language.program import TrigProgram
-from handeye.systems.trig.language.styled import Line, plain
+from handeye.systems.trig.language.storage import decoded, encoded, read_program
+from handeye.systems.trig.language.styled import plain
 from handeye.systems.trig.run.job import JobReport, Outcome
 
 Point = tuple[float, float]
@@ -27,19 +36,18 @@ _SIDE: Final = 30.0  # mm, of a block
 _COLUMNS: Final = 110  # characters of a program line
 _WIDE, _HIGH, _BOTTOM = 960.0, 330.0, 325.0
 _PLATTER: Final = (0.0, 300.0)
-_PANELS: Final = ((350.0, 635.0), (675.0, 960.0))
-"""Left and right ends of the drawings."""
+_PANELS: Final = ((350.0, 635.0), (675.0, 960.0))  # left and right ends of the drawings
 _RINGS: Final = (5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05)  # mm
 _MIN_REACH: Final = 0.1  # mm
 
 
 def job_page(done: JobReport, program: TrigProgram) -> bytes:
-    """The page of a job."""
     title = f"{done.job.capitalize()}: {VERDICTS[done.outcome]}"
+    ends = (element("p", f"{told[:1].upper()}{told[1:]}.") for told in done.told)
     body = element(
         "body",
         element("header", element("h1", title), class_=None if done.outcome == "right" else "failed"),
-        element("main", note(_facts(done)), *_ends(done), *_sections(done, program)),
+        element("main", note(_facts(done)), *ends, *_sections(done, program)),
     )
     page = element("html", head(title, resource("page.css"), []), body, lang="en")
     return f"{MARK}{page}\n".encode()
@@ -51,12 +59,6 @@ def _facts(done: JobReport) -> str:
     return f"{world}; {done.arm_s:,.0f} s of the arm’s clock, teaching included."
 
 
-def _ends(done: JobReport) -> Iterator[Markup]:
-    """Sentences on the end of both legs."""
-    for told in done.told:
-        yield element("p", f"{told[:1].upper()}{told[1:]}.")
-
-
 def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
     yield section("blocks", "Where the blocks lay", *_blocks(done))
     for name, title, checks in (
@@ -65,17 +67,10 @@ def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
     ):
         if checks:
             yield section(name, title, findings_table(checks.values()))
-    yield section("program", "The program", *map(_display, _displays(program)))
-
-
-def _displays(program: TrigProgram) -> tuple[list[Line], list[Line]]:
-    """The program in miniature, and its steps in full."""
     rows = max(1, len(program.graph.nodes))
-    return full_display(program, _COLUMNS, rows), partial_display(program, _COLUMNS, rows)
-
-
-def _display(lines: list[Line]) -> Markup:
-    return element("pre", joined((plain([line]) for line in lines), Markup("\n")))
+    displays = [show(program, _COLUMNS, rows) for show in (full_display, partial_display)]
+    texts = (joined((plain([line]) for line in lines), Markup("\n")) for lines in displays)
+    yield section("program", "The program", *(element("pre", text) for text in texts))
 
 
 # -- where the blocks lay --------------------------------------------------------------------------------
@@ -99,9 +94,10 @@ def _placed(done: JobReport) -> list[Point]:
 def _drawn(done: JobReport) -> Markup:
     taught = done.lying.get("taught", ())
     back = _off(done.lying.get("undone", ()), [lying.at[:2] for lying in taught]) if done.checks_back else []
+    limit = done.checks["placed"].limit if "placed" in done.checks else None
     return drawing(
         *_platter(done),
-        *_scatter("placed", _placed(done), _limit(done), _PANELS[0]),
+        *_scatter("placed", _placed(done), limit, _PANELS[0]),
         *_scatter("taken back, seen from above", back, None, _PANELS[1]),
         wide=_WIDE,
         high=_HIGH,
@@ -112,11 +108,6 @@ def _drawn(done: JobReport) -> Markup:
 def _off(lying: Sequence[BlockPose], wanted: Sequence[Point]) -> list[Point]:
     """Errors of blocks against their goals, mm."""
     return [(one.at[0] - x, one.at[1] - y) for one, (x, y) in zip(lying, wanted, strict=False)]
-
-
-def _limit(done: JobReport) -> float | None:
-    """Allowed placement error, mm."""
-    return done.checks["placed"].limit if "placed" in done.checks else None
 
 
 def _platter(done: JobReport) -> Iterator[Markup]:
@@ -142,7 +133,6 @@ def _platter(done: JobReport) -> Iterator[Markup]:
 
 
 def _square(xs: Scale, ys: Scale, at: Point, turned: float, class_: str) -> Markup:
-    """A block from above."""
     turns = (math.radians(turned + 45 + 90 * corner) for corner in range(4))
     out = _SIDE / math.sqrt(2)
     corners = ((at[0] + out * math.cos(turn), at[1] + out * math.sin(turn)) for turn in turns)
@@ -170,3 +160,40 @@ def _scatter(title: str, off: Sequence[Point], limit: float | None, panel: Point
     for number, (x, y) in enumerate(off, 1):
         yield dot(xs(x), ys(y), 2.5, class_="moved")
         yield words(xs(x) + 4, ys(y) - 3, str(number))
+
+
+JOB, TAUGHT = ENTRY.files  # the job's account, and its program
+_LARGEST: Final = 1_000_000  # bytes: an account of twenty blocks takes ten thousand
+_MAX_MEASURE: Final = 1e6  # mm and degrees
+
+
+def job_files(done: JobReport, program: TrigProgram) -> dict[str, bytes]:
+    taught = encoded(program)
+    return {
+        JOB: msgspec.json.format(msgspec.json.encode(done), indent=1) + b"\n",
+        TAUGHT: taught,
+        REPORT: job_page(done, decoded(taught, TAUGHT)),  # as `kept_job_page` makes it
+    }
+
+
+def kept_job_page(path: Path) -> bytes | None:
+    """The report of a folder's job, made anew; None if it holds no finished one."""
+    if not (path / JOB).is_file():
+        return None
+    return job_page(_read_account(path / JOB), read_program(path / TAUGHT))
+
+
+def _read_account(path: Path) -> JobReport:
+    try:
+        written = msgspec.json.decode(read_whole(path, _LARGEST))
+        for name in ("checks", "checks_back") if isinstance(written, dict) else ():
+            restore_figures(written.get(name))
+        done = msgspec.convert(written, JobReport)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise BadFile(f"{path} is no account of a job: {error}") from None
+    lying = [
+        figure for blocks in done.lying.values() for each in blocks for figure in (*each.at, each.turned)
+    ]
+    if any(abs(figure) > _MAX_MEASURE for figure in (*lying, *(x for goal in done.goals for x in goal))):
+        raise BadFile(f"{path} is no account of a job: a block lies farther away than anything")
+    return done

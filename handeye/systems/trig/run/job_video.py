@@ -32,8 +32,6 @@ _HELD: Final = 2 * RATE  # periods of the last frame
 
 @dataclass(frozen=True, slots=True)
 class _Moment:
-    """A scene, and the active step."""
-
     time: float  # s by the arm's clock
     qpos: Array
     words: str
@@ -64,11 +62,9 @@ class JobVideo:
         bench.after_period.append(look)
 
     def write(self, job: TaughtJob, ended: float | None, told: Callable[[int, int], None]) -> None:
-        """Draw the video and write it, whole or not at all.
+        """Draw the video and write it, whole or not at all; `told` is called with number and count of each frame.
 
-        Args:
-            ended: end of the program, s by the arm's clock, when its reversal began.
-            told: receives number and count of each frame.
+        The program's reversal began at `ended`, s by the arm's clock.
         """
         if not self._moments:
             raise Refused(f"the arm has not moved: {self._path} was not made")
@@ -87,7 +83,6 @@ def _drawn(
     ended: float | None,
     told: Callable[[int, int], None],
 ) -> Iterator[Photograph]:
-    """Draw the frames in order."""
     photographer = Photographer(bench.model, width=_FINER * WIDTH, height=_FINER * HEIGHT, shadow=_SHADOW)
     for number, moment in enumerate(moments):
         told(number, len(moments))

@@ -6,8 +6,8 @@ from typing import Final
 
 import msgspec
 
+from handeye.core.distributions import random_numbers
 from handeye.core.errors import PhysicsFailed, Refused
-from handeye.core.random_streams import random_numbers
 from handeye.core.variation import WorldSpec
 from handeye.runs.runner import Runner
 from handeye.systems.trig.run.job import JobReport, carried_out, setup_of_job
@@ -50,9 +50,8 @@ class PalletWork:
     """Palletises, and reverses it."""
 
     blocks: int
-    interrupt: bool
+    interrupt: bool  # reverse each run after a drawn number of steps
     world: WorldSpec
-    """Reverse each run after a drawn number of steps."""
 
     def __call__(self, case: Case) -> list[PalletRow]:
         """Carry out one trial."""
@@ -61,7 +60,6 @@ class PalletWork:
 
 
 def tried(blocks: int, interrupt: bool, seed: int, world: WorldSpec) -> JobReport:
-    """One trial."""
     try:
         runner = Runner(setup_of_job("palletise", msgspec.structs.replace(world, seed=seed), blocks))
     except (Refused, PhysicsFailed) as error:  # it cannot go where it is driven
@@ -97,5 +95,4 @@ PALLET: Final = Sweep(
     success="right",
     more=_more,
     summary=lambda rows: [f"{_arm_s(rows):.0f} s of the arm's clock"],
-)
-"""Palletising and its reversal."""
+)  # palletising and its reversal

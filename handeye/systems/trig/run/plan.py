@@ -11,9 +11,8 @@ from handeye.core.errors import BadFile, InvalidInput, Refused
 from handeye.program.operation import Device
 from handeye.systems.trig.jobs.benches import TaughtPlan, new_session, read_taught_plan
 from handeye.systems.trig.language.command_input import Script, type_script
-from handeye.systems.trig.language.display import loop_words, step_words
+from handeye.systems.trig.language.display import Cell, loop_words, step_words
 from handeye.systems.trig.language.graph import NONE, Graph, Node
-from handeye.systems.trig.language.layout import Cell
 from handeye.systems.trig.language.program import TrigProgram
 from handeye.systems.trig.language.styled import ASCII
 
@@ -45,7 +44,6 @@ class TaughtStep:
 
     @property
     def place(self) -> str:
-        """Its line as text."""
         return str(self.line)
 
 
@@ -61,22 +59,18 @@ class TaughtListing:
 
     @property
     def numbers(self) -> Mapping[int, int]:
-        """Step numbers by node."""
         return {step.node: number for number, step in enumerate(self.steps)}
 
     @property
     def source(self) -> str:
-        """The steps, a line each."""
         return "\n".join(step.text for step in self.steps)
 
     @property
     def labels(self) -> Mapping[str, Sequence[int]]:
-        """Steps by name."""
         return {step.label: (number,) for number, step in enumerate(self.steps) if step.label}
 
 
 def encode(plan: TaughtPlan) -> bytes:
-    """A plan as file content."""
     return msgspec.json.format(msgspec.json.encode(plan), indent=1) + b"\n"
 
 
@@ -114,7 +108,6 @@ def typed(text: str, name: str) -> TrigProgram:
 
 @lru_cache(maxsize=4)
 def listing(plan: TaughtPlan) -> TaughtListing:
-    """The steps of a plan."""
     program = imagined(plan)
     graph = program.graph
     numbers = {node.id: number for number, node in enumerate(graph.steps())}

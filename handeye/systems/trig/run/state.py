@@ -98,7 +98,6 @@ class TaughtState(SystemState, kw_only=True):
             raise BadFile("the state of the run does not fit this program")
 
     def put_into(self, program: TrigProgram) -> None:
-        """Restore the state of a program."""
         for id, node in program.graph.nodes.items():
             node.count, node.last_father = self.rounds.get(id, 0), self.fathers.get(id, NONE)
         for name, position in program.positions.items():

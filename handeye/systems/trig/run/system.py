@@ -299,20 +299,16 @@ class RunningJob(RunningSystem):
         program, arm = self.job.session.program, self.job.arm
         told = dict(zip(AXES, arm.here().measures(), strict=True))
         named = {name: p.data.measures() for name, p in program.positions.items() if is_named(name)}
-        loops = [node for node in program.graph.steps() if node.type == "loop"]
+        nodes = [node for node in program.graph.steps() if node.type == "loop"]
+        loops = ((self._steps[self._numbers[node.id]], node) for node in nodes)
         return {
             "arm": told,
             "gap": round(arm.gap / MILLIMETRE, 3),
             "force": [round(float(each), 3) for each in self._force()],
             "executed": len(self.executed),
-            "rounds": {self._shown(loop.id): loop.count for loop in loops},
+            "rounds": {f"{step.place} {step.text}": loop.count for step, loop in loops},
             "positions": named,
         }
-
-    def _shown(self, node: int) -> str:
-        """Line and text of a step."""
-        step = self._steps[self._numbers[node]]
-        return f"{step.place} {step.text}"
 
     def settables(self) -> Mapping[str, Settable]:
         return {}
@@ -356,8 +352,7 @@ def plan_of(setup: Setup) -> TaughtPlan:
     return setup.plan
 
 
-OWN_BLOCKS: Final = 5
-"""Blocks in the stack where nobody says how many: enough for a program of 75 steps."""
+OWN_BLOCKS: Final = 5  # blocks in the stack where nobody says how many: enough for a program of 75 steps
 
 
 class TaughtSystem(System):
@@ -425,14 +420,14 @@ class TaughtSystem(System):
 
     def files(self, runner: Runner, pause: Pause, result: Result) -> Mapping[str, bytes]:
         from handeye.systems.trig.run.job import account, ends_job, job_of
-        from handeye.systems.trig.run.job_folder import job_files
+        from handeye.systems.trig.run.job_page import job_files
 
         if not ends_job(runner, result):
             return {}
         return job_files(account(runner, pause, result), job_of(runner).job.session.program)
 
     def page(self, folder: Path) -> bytes | None:
-        from handeye.systems.trig.run.job_folder import kept_job_page
+        from handeye.systems.trig.run.job_page import kept_job_page
 
         return kept_job_page(folder)
 
