@@ -18,7 +18,7 @@ from benchmarks.run_components import charged_to
 from benchmarks.run_cost import PREPARATION, REFEREE, STAGE, RunCost, Speed, Spent
 from benchmarks.tape import Tape
 from handeye.program.events import AnyEvent, StageStarted
-from handeye.results.outcome import outcome
+from handeye.results.finishing import outcome
 from handeye.runs.advance import advance
 from handeye.runs.folder import open_new
 from handeye.runs.host_seconds import Meter

@@ -33,7 +33,7 @@ GROUPS: Final = {
     "Plans": {
         "handeye.plan": "api.plans.plan",
         "handeye.Plan": "api.plans.Plan",
-        "FlowDrawing": "api.flow.FlowDrawing",
+        "FlowDrawing": "api.plans.FlowDrawing",
         "InspectedStage": "inspection.inspection.InspectedStage",
         "InspectedStep": "inspection.inspection.InspectedStep",
         "handeye.Diagnostic": "api.diagnostic.Diagnostic",

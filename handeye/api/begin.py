@@ -85,7 +85,7 @@ def begin(
     <Run script, seed 3: 0 steps done, 0.00 s, program, line 1: OPEN 1; ready>
     """
     timer = HostTimer()
-    parts, umpire, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
+    parts, own_referee, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
     wanted = RunRequest(
         seed=seed,
         world=world,
@@ -93,7 +93,7 @@ def begin(
         task=task,
         judged=(referee is not None) if judge is None else judge,
         limits=limits,
-        replaced=parts.names | ({} if umpire is None else {"referee": name_of(umpire)}),
+        replaced=parts.names | ({} if own_referee is None else {"referee": name_of(own_referee)}),
     )
     stage = None if at is None else given_place(at)
     start = start_of(script, wanted, stage=stage, taught=taught, out=out)
@@ -104,7 +104,7 @@ def begin(
     judged = start.state.setup.judged if judge is None else judge
     spent = None if start.folder is None else start.folder.spent
     meter = Meter(timer=timer, planning_cpu_s=start.planning_cpu_s, before=spent)
-    keeping = RunEnding(folder=folder, judged=judged, referee=umpire, meter=meter)
+    keeping = RunEnding(folder=folder, judged=judged, referee=own_referee, meter=meter)
     run = _built(start, parts, keeping)
     if number is not None:
         run.reach(number)
@@ -186,11 +186,7 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
 
 
 def _built(start: Start, parts: Parts, keeping: RunEnding) -> Run:
-    """The run, ready for its first step.
-
-    Raises:
-        InvalidInput: its cell cannot be built so; a new folder is as if nobody had asked for it.
-    """
+    """The run, ready for its first step; a new folder is dropped again if its cell cannot be built."""
     folder, state = keeping.folder, start.state
 
     def looking(runner: Runner) -> Sequence[Observer]:

@@ -12,11 +12,7 @@ if TYPE_CHECKING:
 
 
 def exported(given: object, shown: Callable[[], ExportedState], part: object, *, overwrite: bool) -> "Export":
-    """Write what is shown to where somebody says; arguments are those of `Run.export`.
-
-    Raises:
-        InvalidInput: it cannot be written there, or there is no such part.
-    """
+    """Write an export; arguments are those of `Run.export`."""
     from handeye.results.export import export  # with libraries that take a while to load
 
     path = given_file(given, "an export is written to a folder, or to a file that ends in .glb")

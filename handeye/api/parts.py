@@ -6,7 +6,7 @@ from typing import Any, Final, TypeVar
 
 import numpy as np
 
-from handeye.cell.rendering import CameraMaker, RendererMaker, ReplacedCamera
+from handeye.cell.rendering import CameraMaker, ReplacedCamera
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.results.judging import Limits, Referee, checked_findings, checked_limits
@@ -23,36 +23,27 @@ Code = TypeVar("Code", bound=Callable[..., Any])
 
 
 def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
-    """Parts of a run that are not handeye's own.
-
-    Raises:
-        InvalidInput: one of them cannot be called, or there is no such camera.
-    """
+    """Parts of a run that are not handeye's own; raises InvalidInput if one cannot be called, or has no such name."""
     if isinstance(camera, str):
         if camera not in CAMERAS:
             near = suggestion(camera, CAMERAS)
             raise NoSuchName(f"there is no camera {quoted(camera)}; {near}")
         maker = None
     else:
-        maker = _checked_camera(camera)
+        if not callable(camera):
+            raise BadArgument(f"a camera is `auto`, `gl`, `ray`, or is called with a scene; not {camera!r}")
+        name = name_of(camera)
+        maker = _named(lambda model: ReplacedCamera(name, camera, model), camera)
     return Parts(search=None if search is None else _checked_search(search), camera=maker)
 
 
 def limits_of(given: Referee | Limits | None) -> dict[str, float] | None:
-    """Limits, where they alone were given in the place of a referee; None: they were not.
-
-    Raises:
-        InvalidInput: a limit is no number.
-    """
+    """Limits given in the place of a referee; None without; raises InvalidInput if one is no number."""
     return checked_limits(given) if isinstance(given, Mapping) else None
 
 
 def referee_of(given: Referee | Limits | None) -> Referee | None:
-    """A referee that is not the task's own; None: it is, though maybe with other limits.
-
-    Raises:
-        InvalidInput: it is no referee, and no table of limits.
-    """
+    """A referee that is not the task's own, if any; raises InvalidInput if it is no referee, and no table of limits."""
     if given is None or isinstance(given, Mapping):
         return None
     if not callable(given):
@@ -89,13 +80,6 @@ def _checked_place(name: str, number: int, given: object) -> tuple[float, float]
     if not np.isfinite([x, y]).all():
         raise BadArgument(f"the search `{name}` must give two numbers for place {number}, not {given!r}")
     return x, y
-
-
-def _checked_camera(camera: CameraMaker) -> RendererMaker:
-    if not callable(camera):
-        raise BadArgument(f"a camera is `auto`, `gl`, `ray`, or is called with a scene; not {camera!r}")
-    name = name_of(camera)
-    return _named(lambda model: ReplacedCamera(name, camera, model), camera)
 
 
 def _named(wrapped: Code, code: Any) -> Code:

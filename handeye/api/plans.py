@@ -9,7 +9,6 @@ from typing import Final
 
 from handeye import tasks
 from handeye.api.diagnostic import Diagnostic, ScriptError
-from handeye.api.flow import FlowDrawing, flow_drawing
 from handeye.core.arguments import given_file, given_place
 from handeye.core.diagnostics import has_errors, quoted
 from handeye.core.errors import BadArgument, BadFile
@@ -17,12 +16,37 @@ from handeye.core.files import read_whole
 from handeye.core.notebook import bar, frame, heading, page, svg, table
 from handeye.core.plain_text import counted
 from handeye.core.source import Source
+from handeye.inspection.drawing import flow_svg
+from handeye.inspection.flow import flow
 from handeye.inspection.inspection import InspectedStage, InspectedStep, Inspection, inspection
 from handeye.planfile import plan as planfile
 from handeye.planfile.store import decode, plan_digest, write_plan
 from handeye.program.stage_names import stage_index
 from handeye.program.taught import Taught, load_taught, read_taught
 from handeye.runs.scripts import plan_script, plan_text, program_named
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlowDrawing:
+    """The steps of a plan, and the ways from one to the next, by themselves or on an error. Notebooks show it."""
+
+    svg: str
+    """The drawing, as `handeye inspect --graph svg` writes it."""
+    about: str
+    """What it shows, in words."""
+
+    def __repr__(self) -> str:
+        return f"<FlowDrawing {self.about}>"
+
+    def _repr_html_(self) -> str:
+        return page(svg(self.svg, self.about))
+
+
+def flow_drawing(plan: planfile.Plan, stage: int | None = None) -> FlowDrawing:
+    """The flow of a plan, or of one stage, by its number from 1."""
+    graph = flow(plan, stage)
+    of = graph.name if stage is None else f"{graph.name}, {graph.stages[stage - 1]}"
+    return FlowDrawing(svg=flow_svg(graph), about=f"flow of {of}: {counted(len(graph.nodes), 'step')}")
 
 
 def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic], flow: FlowDrawing | None) -> str:

@@ -25,9 +25,8 @@ from handeye.debugger.reply import Break
 from handeye.debugger.stepper import Stepper
 from handeye.debugger.views import last_picture
 from handeye.program.events import AnyEvent
-from handeye.results.finishing import finished
+from handeye.results.finishing import finished, outcome
 from handeye.results.judging import Referee
-from handeye.results.outcome import outcome
 from handeye.results.pauses import pause_sentence
 from handeye.results.pictures import annotated_webp
 from handeye.results.result import Result

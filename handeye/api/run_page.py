@@ -22,7 +22,14 @@ def run_page(result: Result, state: State, name: str | None, webp: bytes | None)
     """A run: where it stands or what came of it, its stages, times, the referee's findings, and its last picture."""
     pieces = [heading(f"{result.program}, {result.world}"), line(_standing(result, state)), _stages(result)]
     if not result.paused:
-        pieces.append(_times(result))
+        then = period(result)
+        years = () if then is None else (str(then.year),)
+        rows = cell_times(result, {} if then is None else then.times)
+        cells = (
+            (_indented(name), *("" if each is None else clock(each) for each in seconds[: 1 + len(years)]))
+            for name, *seconds in rows
+        )
+        pieces.append(table(("on the cell's clock", "this run", *years), cells))
     if result.referee:
         pieces.append(_findings(result))
     pieces += [line(inked(f"broken: {told}", "doubtful")) for told in told_faults(result)]
@@ -32,16 +39,12 @@ def run_page(result: Result, state: State, name: str | None, webp: bytes | None)
     ]
     pieces += [line(inked(f"by a person: {each}", "doubtful")) for each in result.interventions]
     pieces += [
-        line(inked(f"{part}: the caller's own, {code}", "doubtful")) for part, code in own_parts(result)
+        line(inked(f"{part}: the caller's own, {code}", "doubtful"))
+        for part, code in (result.replaced or {}).items()
     ]
     if name is not None and webp is not None:
         pieces += [line(f"last picture: {name}"), picture(webp, f"picture {name}")]
     return page(*pieces)
-
-
-def own_parts(result: Result) -> list[tuple[str, str]]:
-    """Parts of a run that were not handeye's own, with the names of their code."""
-    return [*(result.replaced or {}).items()]
 
 
 def _standing(result: Result, state: State) -> Markup:
@@ -65,23 +68,10 @@ def _stages(result: Result) -> Markup:
     return table(("", "stage", "status", "arm time, s"), rows)
 
 
-def _times(result: Result) -> Markup:
-    """What passed on the cell's clock, the same each time; beside what did in its day, if somebody timed it."""
-    then = period(result)
-    years = () if then is None else (str(then.year),)
-    rows = cell_times(result, {} if then is None else then.times)
-    cells = ((_indented(name), *map(_clock, seconds[: 1 + len(years)])) for name, *seconds in rows)
-    return table(("on the cell's clock", "this run", *years), cells)
-
-
 def _indented(name: str) -> Markup:
     """A name with its place under another kept."""
     words = name.lstrip()
     return Markup("&emsp;" * ((len(name) - len(words)) // 2) + text(words))
-
-
-def _clock(seconds: float | None) -> str:
-    return "" if seconds is None else clock(seconds)
 
 
 def _mark(check: Check) -> Markup:

@@ -16,7 +16,6 @@ from handeye.core.errors import BadArgument, Refused
 from handeye.core.host_time import HostTimer
 from handeye.core.variation import WorldSpec, checked_seed
 from handeye.debugger.breakpoints import stage_number
-from handeye.planfile.plan import Plan
 from handeye.ports.camera import Renderer
 from handeye.program.events import RunStarted
 from handeye.results.kept_run import has_ended
@@ -39,7 +38,6 @@ class RunRequest:
     task: str | None
     judged: bool
     limits: dict[str, float] | None
-    """Limits for the findings of the task's referee."""
     replaced: dict[str, str]
     """Parts of the caller's own, with the names of their code."""
 
@@ -50,11 +48,7 @@ class RunRequest:
 
     @property
     def spec(self) -> WorldSpec | None:
-        """The world that is wanted.
-
-        Raises:
-            InvalidInput: there is none such, or seed and world are both given.
-        """
+        """The requested world, if any; raises InvalidInput if there is none such, or seed and world are both given."""
         if self.world is None:
             return None if self.seed is None else WorldSpec(seed=checked_seed(self.seed))
         if self.seed is not None:
@@ -73,7 +67,6 @@ class Start:
 
     state: Checkpoint
     folder: RunFolder | None = None
-    """Its own folder, if it goes on there."""
     planning_cpu_s: float = 0.0
     """Seconds of this computer's processor for the planning phase."""
 
@@ -86,11 +79,7 @@ def start_of(
     taught: FileName | None,
     out: FileName | None,
 ) -> Start:
-    """What a run begins with that somebody asks for; arguments are those of `handeye.begin`.
-
-    Raises:
-        InvalidInput: there is no such script, state or world, or they do not go together.
-    """
+    """What a run begins with; arguments are those of `handeye.begin`, and raises InvalidInput as that does."""
     if isinstance(script, (str, os.PathLike)) and _is_kept(script):
         if taught is not None:
             raise Refused("a run that is taken up has its positions; nothing can be taught for it")
@@ -103,7 +92,15 @@ def start_of(
         taught=taught,
         task=wanted.of_task,
     )
-    return Start(state=_new(made.record, wanted), planning_cpu_s=timer.cpu_s)
+    setup = Setup(
+        plan=made.record,
+        world=wanted.spec or WorldSpec(seed=0),
+        camera=wanted.camera or "auto",
+        judged=wanted.judged,
+        limits=wanted.limits or {},
+        replaced=wanted.replaced,
+    )
+    return Start(state=Checkpoint(setup=setup), planning_cpu_s=timer.cpu_s)
 
 
 def _is_kept(given: FileName) -> bool:
@@ -112,29 +109,8 @@ def _is_kept(given: FileName) -> bool:
     return bool(name) and "\n" not in name and (name.endswith(ENDING) or os.path.isdir(name))
 
 
-def _new(plan: Plan, wanted: RunRequest) -> Checkpoint:
-    """A run that has not begun.
-
-    Raises:
-        InvalidInput: there is no such world.
-    """
-    setup = Setup(
-        plan=plan,
-        world=wanted.spec or WorldSpec(seed=0),
-        camera=wanted.camera or "auto",
-        judged=wanted.judged,
-        limits=wanted.limits or {},
-        replaced=wanted.replaced,
-    )
-    return Checkpoint(setup=setup)
-
-
 def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
-    """A state that was kept: that of a checkpoint, the newest of a folder, or the one nearest before a stage.
-
-    Raises:
-        InvalidInput: there is none, or it is of another world, camera or other parts than are wanted.
-    """
+    """The state in a checkpoint, the newest of a folder, or the one nearest before a stage; raises InvalidInput."""
     path = given_file(given, "a run is taken up from a file or a folder")
     start = open_again(path)[1] if path.is_dir() else read_checkpoint(path)
     if at is not None and path.is_dir():
@@ -146,11 +122,7 @@ def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
 
 
 def _again(given: FileName, wanted: RunRequest) -> Start:
-    """The folder of a run and its newest state, to go on in the same folder.
-
-    Raises:
-        InvalidInput: there is none, or the run was begun otherwise than is wanted.
-    """
+    """The folder of a run and its newest state, to go on in the same folder; raises InvalidInput."""
     path = given_file(given, "a run is taken up from a folder")
     folder, start, _ = open_again(path)
     if has_ended(path, start, judged=start.setup.judged):

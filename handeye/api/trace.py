@@ -108,16 +108,10 @@ def open(path: str | os.PathLike[str]) -> Trace:
 
 
 def _report(trace: Trace) -> bytes:
-    """The page of the report.
-
-    Raises:
-        InvalidInput: the trace cannot be understood.
-    """
     from handeye.report.animation import animation
-    from handeye.report.facts.scene import check_scene
     from handeye.report.page.document import report_page
     from handeye.report.photographs import no_album
-    from handeye.report.recorded import RecordedRun
+    from handeye.report.recorded import RecordedRun, check_scene
 
     run = RecordedRun(trace=trace)
     check_scene(run)

@@ -20,7 +20,6 @@ from handeye.core.versions import HANDEYE
 BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130
 GONE: Final = 141
-"""The exit code where the reader of our output has gone."""
 
 app = App(
     name="handeye",

@@ -19,14 +19,11 @@ from handeye.runs.operator import parse_policy
 from handeye.tasks import DEFAULT, option, planned
 
 if TYPE_CHECKING:
-    from handeye.core.variation import WorldSpec
-    from handeye.program.senses import Sense
-    from handeye.trials.plans.dismantling import DismantlingTrial
     from handeye.trials.plans.row import Row
+    from handeye.trials.plans.trial import Trial
     from handeye.trials.sweep import Engine
 
 COUNT: Final = 20
-"""Trials, if nobody says how many."""
 PlanOption = Annotated[
     Path | None,
     Parameter(
@@ -93,7 +90,9 @@ def assembly_trials(
     chosen = _chosen(n, seed, seeds)
     numbers = _numbers(len(chosen), only)
     positive(options.jobs, "worker")
-    _limits(simulated_limit, wall_limit)
+    for limit in (simulated_limit, wall_limit):
+        if not 0 < limit < inf:
+            raise BadArgument(f"a limit of time is a number of seconds above 0; {limit:g} is not")
     senses, errors = errors.senses, errors.errors()
     record = plan_or_own(plan, errors.task)
     errors = errors.of(record.task)
@@ -115,7 +114,7 @@ def assembly_trials(
     )
     lacking = f", without {', '.join(senses)}" if senses else ""
     answered = "" if on_stop == "abort" else f", with {on_stop} where the operator is called"
-    again = command_of(world, plan, record.task, camera, senses, on_stop)
+    command = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
     return carry_out_sweep(
         ASSEMBLY,
         trial,
@@ -124,7 +123,11 @@ def assembly_trials(
         options,
         title=f"{record.program.name} in worlds from {world} on{lacking}{answered}",
         plan=record,
-        again=lambda row: again(row.seed),
+        again=_again(
+            trial,
+            command + _task_words(record.task, plan),
+            [] if on_stop == "abort" else ["--on-stop", on_stop],
+        ),
         engine=_engine(engine, options.jobs, scheduler, wall_limit),
     )
 
@@ -180,6 +183,7 @@ def dismantling_trials(
     stage = "" if to is None else record.program.stages[stage_number(to, record.program)]
     trial = DismantlingTrial(plan=record, world=world, camera=camera, without=senses, to=stage)
     built = f"up to {stage}" if stage else "wholly"
+    made = ([] if plan is None else ["--plan", str(plan)]) + (["--to", stage] if stage else [])
     return carry_out_sweep(
         DISMANTLING,
         trial,
@@ -188,7 +192,7 @@ def dismantling_trials(
         options,
         title=f"{record.program.name} carried out {built} and undone, in worlds from {world} on",
         plan=record,
-        again=_dismantled_again(trial, plan),
+        again=_again(trial, ["trials", "dismantling", "--n", "1"], made + _task_words(record.task, plan)),
         engine=processes(options.jobs, trial.wall_limit_s),
     )
 
@@ -247,49 +251,20 @@ def _numbers(count: int, only: int | None) -> range:
     return range(only, only + 1)
 
 
-def _limits(*seconds: float) -> None:
-    for limit in seconds:
-        if not 0 < limit < inf:
-            raise BadArgument(f"a limit of time is a number of seconds above 0; {limit:g} is not")
+def _task_words(task: str, plan: Path | None) -> list[str]:
+    return [*option(task)] or (["--task", task] if plan is None and task != DEFAULT else [])
 
 
-def command_of(
-    world: "WorldSpec",
-    plan: Path | None,
-    task: str,
-    camera: str,
-    senses: "tuple[Sense, ...]",
-    on_stop: str = "abort",
-) -> Callable[[int], str]:
-    """What tells the command that carries the trial of a seed out."""
-    from msgspec.structs import replace
-
-    from handeye.report.facts.again import sense_words, world_words
-
-    words = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
-    words += option(task) or (["--task", task] if plan is None and task != DEFAULT else [])
-    made = sense_words(senses) + ([] if camera == "auto" else ["--camera", camera])
-    made += [] if on_stop == "abort" else ["--on-stop", on_stop]
-
-    def command(seed: int) -> str:
-        return shlex.join(["handeye", *words, *world_words(replace(world, seed=seed), task), *made])
-
-    return command
-
-
-def _dismantled_again(trial: "DismantlingTrial", plan: Path | None) -> "Callable[[Row], str]":
-    """What tells the command that carries a trial out again."""
+def _again(trial: "Trial", command: list[str], options: list[str]) -> "Callable[[Row], str]":
+    """What tells the command that carries the trial of a row out again."""
     from msgspec.structs import replace
 
     from handeye.report.facts.again import sense_words, world_words
 
     made = sense_words(trial.without) + ([] if trial.camera == "auto" else ["--camera", trial.camera])
-    made += ([] if plan is None else ["--plan", str(plan)]) + (["--to", trial.to] if trial.to else [])
-    task = trial.plan.task
-    made += option(task) or (["--task", task] if plan is None and task != DEFAULT else [])
 
-    def command(row: "Row") -> str:
-        words = world_words(replace(trial.world, seed=row.seed), task)
-        return shlex.join(["handeye", "trials", "dismantling", "--n", "1", *words, *made])
+    def told(row: "Row") -> str:
+        words = world_words(replace(trial.world, seed=row.seed), trial.plan.task)
+        return shlex.join(["handeye", *command, *words, *made, *options])
 
-    return command
+    return told

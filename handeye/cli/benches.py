@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from handeye.trials.insertion import Condition
 
 GRID_N: Final = 10
-"""Trials of each condition of the grid."""
 PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search of the listing of 1973"}
 MOST_SD: Final = 5.0
 """mm: beyond it most holes would be beyond the search."""

@@ -10,7 +10,7 @@ assemble = runs:assemble: Assemble the water pump, or do another task with its o
 run = runs:run: Carry out a plan in the work cell of its task, or stages of it, or step by step.
 resume = runs:resume: Resume an interrupted run.
 dismantle = dismantling:dismantle: Have the arm undo what it did in a run: take the pump apart again.
-show = records:show: Show what a run came to, or how far it has come; its folder stays as it is.
+show = reports:show: Show what a run came to, or how far it has come; its folder stays as it is.
 report = reports:report: Make a page of a run, or of two: one file with what happened, why, and what was seen and felt.
 video = videos:video: Make a video of a recorded run; nothing is simulated.
 view = views:view: Show the live cell in a browser, and step a run or teach positions there; or show a run that was recorded.
@@ -67,11 +67,7 @@ class _Command(CommandSpec):
 
 
 def add_commands(app: App, table: str, folder: str = "") -> None:
-    """Add the commands of a table to those there are, which stay; a group stands above its commands.
-
-    Args:
-        folder: the package whose modules the table names; empty: it gives their full names.
-    """
+    """Add the commands of a table to those there are, which stay; modules are full names where no `folder` is given."""
     for line in table.strip().splitlines():
         named, sentence = line.split(": ", 1)
         name, _, path = named.partition(" = ")

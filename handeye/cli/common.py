@@ -17,9 +17,7 @@ from handeye.core.plain_text import folded
 from handeye.core.source import Source
 
 MOST: Final = 1_000_000
-"""Trials, worlds, times and processes that a command takes."""
-LONGEST: Final = 99
-"""Characters of a whole number."""
+LONGEST_NUMBER: Final = 99  # characters
 _USUAL_WIDTH: Final = 80
 
 Script = Annotated[
@@ -52,7 +50,7 @@ def whole(_: type, tokens: Sequence[Token]) -> int:
     typed = tokens[0].value
     if not re.fullmatch(r"[+-]?[0-9]+", typed):
         raise ValueError(f"{quoted(typed)} is not a whole number")
-    if len(typed) > LONGEST:
+    if len(typed) > LONGEST_NUMBER:
         raise ValueError(f"{quoted(typed)} is too large a number")
     return int(typed)
 

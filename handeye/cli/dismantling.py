@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from handeye.runs.snapshot import Checkpoint
 
 COUNT: Final = 20
-"""Trials, if nobody says how many."""
 
 
 def dismantle(
@@ -46,10 +45,13 @@ def dismantle(
     """
     from handeye.cli.job import Job, work
     from handeye.debugger.breakpoints import stage_number
+    from handeye.runs.folder import CHECKPOINTS
     from handeye.runs.systems import listing_of
     from handeye.runs.undo_orders import to_be_undone
 
-    _check_apart(path, out)
+    run = path.parent.parent if path.parent.name == CHECKPOINTS else path
+    if out is not None and run.is_dir() and run.resolve() in (out.resolve(), *out.resolve().parents):
+        raise CannotWrite(f"--out {out}: {path} stays as it is; keep its dismantling in another folder")
     wanted = made_known(task)
     kept = _newest(path)
     check_task(wanted, kept.setup.task, path)
@@ -58,19 +60,8 @@ def dismantle(
     return work(Job(start=start, out=out, overwrite=overwrite, json=json, referee=True, on_stop="abort"))
 
 
-def _check_apart(path: Path, out: Path | None) -> None:
-    """Raises InvalidInput if the dismantling would be kept in the folder of the run, which stays as it is."""
-    from handeye.runs.folder import CHECKPOINTS
-
-    run = path.parent.parent if path.parent.name == CHECKPOINTS else path
-    if out is not None and run.is_dir() and run.resolve() in (out.resolve(), *out.resolve().parents):
-        raise CannotWrite(f"--out {out}: {path} stays as it is; keep its dismantling in another folder")
-
-
 def _newest(path: Path) -> "Checkpoint":
-    """The checkpoint in a file, or a run's folder as the run has left it; what is left out is told; raises InvalidInput
-    if there is none.
-    """
+    """The checkpoint in a file, or a run's folder as the run has left it; raises InvalidInput if there is none."""
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.runs.folder import EVENTS, open_again
     from handeye.runs.undo_orders import caught_up, done_since

@@ -36,7 +36,9 @@ def fmt(
     if not files:
         raise BadArgument("fmt needs the name of a script, or - for standard input")
     for file in files:
-        _check_name(file)
+        if file.name.startswith("-") and file != STANDARD_INPUT and not file.exists():
+            near = suggestion(file.name, ("--check", "--help"))
+            raise BadArgument(f"`fmt` has no option {quoted(file.name)}{f'; {near}' if near else ''}")
     code = 0
     for file in files:
         if file == STANDARD_INPUT:
@@ -45,13 +47,6 @@ def fmt(
             source = read_script(file) if own_language(file.name) is None else read_source(file)
         code = max(code, _fmt(file, source, check=check))
     return code
-
-
-def _check_name(file: Path) -> None:
-    """Raises InvalidInput if a name is meant for an option: cyclopts takes `-` for a file only if it takes all such."""
-    if file.name.startswith("-") and file != STANDARD_INPUT and not file.exists():
-        near = suggestion(file.name, ("--check", "--help"))
-        raise BadArgument(f"`fmt` has no option {quoted(file.name)}{f'; {near}' if near else ''}")
 
 
 def _fmt(file: Path, source: Source, *, check: bool) -> int:

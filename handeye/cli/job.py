@@ -29,13 +29,13 @@ from handeye.results.finishing import finished
 from handeye.results.judging import findings
 from handeye.results.page import page
 from handeye.results.progress import Progress
-from handeye.results.result import Result, to_json
+from handeye.results.result import to_json
 from handeye.runs.advance import AnyStop, Pause
 from handeye.runs.checkpoint_store import CheckpointStore, leave
 from handeye.runs.folder import PICTURES, REPORT, RunFolder, open_new
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
-from handeye.runs.operator import Operator, attend, parse_policy
+from handeye.runs.operator import attend, parse_policy
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
@@ -58,24 +58,16 @@ class Job:
     """A run to begin or to resume, and the options for it."""
 
     start: Checkpoint
-    folder: RunFolder | None = None
-    """Folder of a run that is resumed."""
+    folder: RunFolder | None = None  # Folder of a run that is resumed
     out: Path | None = None
-    """Folder for a new run."""
     overwrite: bool = False
-    """The run in that folder, if any, may be lost."""
     calibrate: bool = False
-    """Calibrate the camera anew, whatever is kept."""
     checkpoints: Path | None = None
     """Another folder for checkpoints at the beginning of stages."""
-    stops: Sequence[AnyStop] = ()
-    """Places where it pauses and the command ends."""
+    stops: Sequence[AnyStop] = ()  # Places where it pauses and the command ends
     breaks: Sequence[str] = ()
-    """Breakpoints, as typed after --break."""
-    halfway: bool = False
-    """Save a checkpoint where it pauses, if it has no folder."""
+    halfway: bool = False  # Save a checkpoint where it pauses, if it has no folder
     step: bool = False
-    """Ask before every step."""
     live: bool = False
     """Tell each line as it begins, and hear what is said while the run goes."""
     server: "Server | None" = None
@@ -83,12 +75,10 @@ class Job:
     on_stop: str | None = None
     json: bool = False
     report: bool = False
-    """Leave a page of the run in its folder."""
     referee: bool = False
     then: Sequence[Then] = ()
     """What is done when the referee has found the work right, one after the other."""
     planning_cpu_s: float = 0.0
-    """Seconds of the planning phase."""
 
 
 class _KeepStages(Observer):
@@ -113,7 +103,11 @@ class _Work:
     def __init__(self, job: Job, panic: PanicButton) -> None:
         self.job = job
         self.panic = panic
-        self.policy = self._policy()  # first: a word nobody knows must not cost a folder
+        policy = self.job.on_stop
+        if policy is None:
+            policy = "ask" if sys.stdin.isatty() and notes.is_terminal and not self.job.json else "abort"
+        # first: an unknown word must not cost a folder
+        self.policy = parse_policy(policy, listing_of(self.job.start.setup).stages)
         self.folder = job.folder
         if self.folder is None and job.out is not None:
             self.folder = open_new(job.out, job.start, overwrite=job.overwrite)
@@ -210,13 +204,6 @@ class _Work:
             breaks = [breakpoint(text, runner.listing) for text in self.job.breaks]
             lines = typed_lines("> ", self._waiting, lambda: (), droppable=False)
             return attend(runner, self.policy or Ask(lines, note), [*breaks, *self.job.stops], self._kept)
-
-    def _policy(self) -> Operator | None:
-        """The rule for when the operator is called; None: somebody is asked."""
-        policy = self.job.on_stop
-        if policy is None:
-            policy = "ask" if sys.stdin.isatty() and notes.is_terminal and not self.job.json else "abort"
-        return parse_policy(policy, listing_of(self.job.start.setup).stages)
 
     def _stepped(self, runner: Runner) -> Pause:
         stepper = Stepper(
@@ -315,7 +302,10 @@ class _Work:
         if pause.kind == "break" and job.halfway and self.folder is None:
             self._keep(runner.checkpoint())
         result = finished(runner, pause, self.meter, judged=job.referee, folder=self.folder)
-        self._print(result)
+        if self.job.json:
+            put(to_json(result, line=self.job.step))
+        else:
+            screen.print(page(result))
         self._report()
         if pause.kind in ("break", "operator"):
             self._tell_how_to_go_on(runner)
@@ -334,12 +324,6 @@ class _Work:
             note(f"there is no report: {fault}")
         else:
             note(f"its report: {place}")
-
-    def _print(self, result: Result) -> None:
-        if self.job.json:
-            put(to_json(result, line=self.job.step))
-        else:
-            screen.print(page(result))
 
 
 def work(job: Job) -> int:

@@ -10,7 +10,6 @@ from types import FrameType
 from typing import Final, Self
 
 ENDING: Final = (signal.SIGINT, signal.SIGTERM)
-"""Signals by which a person, or the system, asks for an end."""
 
 
 @contextmanager

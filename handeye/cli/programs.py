@@ -29,9 +29,7 @@ def compiled(file: Path, work: "Task | None" = None) -> Plan:
 
 
 def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
-    """The script in a file, or the program of that name if there is no such file; and the task it is for; raises
-    InvalidInput if there is no such task, or the program is of another one.
-    """
+    """The script in a file, else the program of that name, and its task; raises InvalidInput if there is none."""
     wanted = None if task_words is None else planned(named(task_words))
     program = None if given.is_file() else _program(given)
     if program is None:
@@ -48,9 +46,7 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
 
 
 def plan_at(given: Path, task_words: str | None = None) -> Plan:
-    """The plan in a file, or that of the program of that name if there is no such file; raises InvalidInput if there is
-    none, it is not sound, or it is for another task.
-    """
+    """The plan in a file, else that of the program of that name; raises InvalidInput if there is none for the task."""
     wanted = None if task_words is None else planned(named(task_words))
     if is_program(given):
         return compiled(*script_at(given, task_words))
@@ -77,9 +73,7 @@ def is_program(given: Path) -> bool:
 
 
 def _program(given: Path) -> "tuple[Path, Task] | None":
-    """The program of a name; None: this is none, but a path; raises InvalidInput if it can only be a name, and no
-    program has it.
-    """
+    """The program of a name; None for a path; raises NoSuchName if it can only be a name, and no program has it."""
     if not _is_name(given):
         return None
     found = program_named(given.name)

@@ -23,12 +23,11 @@ def typed_lines(
     *,
     droppable: bool = True,
 ) -> Iterator[str]:
-    """The lines of standard input, without their ends. At a terminal, Ctrl-D ends them.
+    """The lines of standard input, without their ends; at a terminal, Ctrl-D ends them.
 
     Args:
-        prompt: put out before each line, on a terminal.
         aside: entered while a line is waited for.
-        words: what a word may be completed to.
+        words: completions.
         droppable: at a terminal, Ctrl-C drops the line instead of breaking in.
     """
     terminal = sys.stdin.isatty()

@@ -20,15 +20,17 @@ _CAMERAS: Final[dict[str, CameraKind]] = {"opengl": "gl", "rays": "ray"}
 
 
 def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
-    """The setup of a plan in the world of a recorded run, with its faults, and pictures made as they were; raises
-    InvalidInput if there is no such run, or its world cannot be built here for this plan.
-
-    Args:
-        path: the folder of the run, its trace, or its event list.
-    """
-    begun = _beginning(path)
+    """The setup of a plan in a recorded run's world, faults and camera; raises InvalidInput if it cannot be built."""
+    events = _events(path)
+    if not events or not isinstance(events[0], RunStarted):
+        raise BadFile(f"{path} does not hold the start of a run, which tells its world")
+    begun = events[0]
     _check_drawing(path, begun)
-    _check_parts(path, begun)
+    own = [part for part in begun.own_parts if part != "referee"]
+    if own:
+        raise Refused(
+            f"{path} was carried out with code of its caller for {', '.join(own)}, which is not here"
+        )
     _check_faults(path, begun, plan)
     if begun.task != plan.task:
         raise BadArgument(
@@ -36,14 +38,6 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
         )
     camera = _CAMERAS.get(begun.camera.method, "auto")
     return Setup(plan=plan, world=begun.world, camera=camera, judged=judged)
-
-
-def _beginning(path: Path) -> RunStarted:
-    """The beginning of a recorded run."""
-    events = _events(path)
-    if not events or not isinstance(events[0], RunStarted):
-        raise BadFile(f"{path} does not hold the start of a run, which tells its world")
-    return events[0]
 
 
 def _events(path: Path) -> tuple[AnyEvent, ...]:
@@ -61,15 +55,6 @@ def _check_drawing(path: Path, begun: RunStarted) -> None:
         raise Refused(
             f"the world of {path} was drawn by another handeye: seed {world.seed} gives another world here "
             f"(drawing {world.drawing} there, {DRAWING} here)"
-        )
-
-
-def _check_parts(path: Path, begun: RunStarted) -> None:
-    """Raises InvalidInput if code of its caller, which is not here, had a part in how a run went."""
-    own = [part for part in begun.own_parts if part != "referee"]
-    if own:
-        raise Refused(
-            f"{path} was carried out with code of its caller for {', '.join(own)}, which is not here"
         )
 
 

@@ -1,22 +1,26 @@
-"""Commands that make a page of one run, or of two beside each other."""
+"""Commands that show a run, make a page of it, or compare two."""
 
+import shlex
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, TaskWords, note, put_json, say
+from handeye.cli.common import Json, TaskWords, note, put_json, say, screen
 from handeye.cli.programs import made_known
-from handeye.cli.trace_files import TraceFile, motion_file
+from handeye.cli.trace_files import TraceFile, check_no_batch, motion_file
+from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, InvalidInput
 
 if TYPE_CHECKING:
     from handeye.comparison.comparison import Comparison
     from handeye.comparison.page import Animations
     from handeye.report.recorded import RecordedRun
+    from handeye.results.kept_run import KeptRun
+    from handeye.results.result import Result
 
 DEMO: Final = "demo.html"
-"""The page of the run that comes with handeye, if nobody says otherwise."""
 
 
 def report(
@@ -73,12 +77,7 @@ def _beside(run: Path) -> Path:
 
 
 def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
-    """Write the report of a run; raises InvalidInput if there is no such run, or the report cannot be written there.
-
-    Args:
-        run: its folder, or its trace.
-        overwrite: a report that is there may be replaced.
-    """
+    """Write the report of a run, by its folder or trace; raises InvalidInput if it cannot be made or written there."""
     from handeye.core.files import check_free, check_place, write_over
     from handeye.report.page.document import REPORT
 
@@ -88,15 +87,12 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
 
 
 def page_of(run: Path) -> bytes:
-    """The page of the run in a folder or a trace; raises InvalidInput if there is none, or an older handeye recorded
-    it.
-    """
+    """The page of the run in a folder or a trace; raises InvalidInput if there is none."""
     from handeye.core.entries import entry_named
     from handeye.report.animation import animation
-    from handeye.report.facts.scene import check_scene
-    from handeye.report.page.account_page import account_page
-    from handeye.report.page.document import report_page
+    from handeye.report.page.document import account_page, report_page
     from handeye.report.photographs import album
+    from handeye.report.recorded import check_scene
     from handeye.runs.systems import system_of_files
 
     own = system_of_files(run)
@@ -156,12 +152,7 @@ def compare(
 
 
 def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comparison":
-    """Write the page of two runs, by their folders or traces; what it shows; raises InvalidInput if there is no such
-    run, they cannot be compared, or the page cannot be written there.
-
-    Args:
-        overwrite: a page of two runs that is there may be replaced.
-    """
+    """Write the page of two runs, by their folders or traces; raises InvalidInput if it cannot be written there."""
     from handeye.comparison.comparison import comparison
     from handeye.comparison.page import PAGE, comparison_page
     from handeye.core.files import check_free, check_place, write_over
@@ -177,7 +168,7 @@ def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comp
 def _animations(a: "RecordedRun", b: "RecordedRun") -> "Animations | str":
     """What is shown of both runs to walk round in, or why there is nothing."""
     from handeye.report.animation import animation
-    from handeye.report.facts.scene import check_scene
+    from handeye.report.recorded import check_scene
 
     made = []
     for run in (a, b):
@@ -191,3 +182,52 @@ def _animations(a: "RecordedRun", b: "RecordedRun") -> "Animations | str":
         made.append(shown)
     one, other = made
     return one, other
+
+
+Folder = Annotated[Path, Parameter(help="The folder of a run.")]
+
+
+def show(folder: Folder, /, *, json: Json = False) -> int:
+    """Show what a run came to, or how far it has come; its folder stays as it is.
+
+    Exit code 0: it is shown, whatever the run came to; 2: there is no run that could be shown.
+    """
+    kept = shown(folder, json=json)
+    if not (kept.left and kept.result.completed):
+        note(_way_on(folder, kept.result))
+    return 0
+
+
+def _way_on(folder: Path, result: "Result") -> str:
+    """Tell how a run is gone on with: from Python, if code of its caller belongs to it."""
+    from handeye.runs.parts import deciding
+    from handeye.tasks import known_any, option
+
+    parts = deciding(result.replaced or {})
+    own = [f"{part} {quoted(name)}" for part, name in parts.items()]
+    if known_any(result.task) is None:
+        own.append(f"task {quoted(result.task)}")
+    if not own:
+        return f"resume with: handeye resume {shlex.join([str(folder), *option(result.task)])}"
+    call = ", ".join([repr(str(folder)), *(f"{part}=..." for part in parts)])
+    return (
+        f"the run has a {' and a '.join(own)} of its own: from Python, handeye.begin({call}) goes on with it"
+    )
+
+
+def shown(folder: Path, *, json: bool) -> "KeptRun":
+    """Print what is known of the run in a folder; raises InvalidInput if there is no run that could be shown."""
+    from handeye.results.kept_run import kept_run
+    from handeye.results.page import page
+    from handeye.results.result import to_json
+
+    check_no_batch(folder)
+    kept = kept_run(folder)
+    for fault in kept.faults:
+        note(f"left out: {fault}")
+    if json:
+        sys.stdout.buffer.write(to_json(kept.result))
+        sys.stdout.flush()
+    else:
+        screen.print(page(kept.result))
+    return kept

@@ -236,7 +236,7 @@ def resume(
         A checkpoint, or the folder of a run, which resumes from its newest sound checkpoint.
     """
     from handeye.cli.job import Job, work
-    from handeye.cli.records import shown
+    from handeye.cli.reports import shown
     from handeye.results.kept_run import has_ended
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.runs.folder import CHECKPOINTS, PLAN, open_again

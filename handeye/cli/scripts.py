@@ -74,11 +74,7 @@ def _wait() -> None:
 
 
 def watched(file: Path, check: Callable[[], int], pause: Callable[[], None] = _wait) -> int:
-    """Check a script now and whenever it, what it requires or the file of what is taught changes, until Ctrl-C.
-
-    Returns:
-        the code of the last check; 2 if a file could not be used.
-    """
+    """Check a script now and whenever a file it looks at changes, until Ctrl-C; returns the code of the last check."""
     code = 2
     seen: dict[Path, Version] = {}
     note(f"watching {file}; Ctrl-C ends it")

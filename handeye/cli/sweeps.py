@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from handeye.trials.sweep import Case, Engine, Sweep, TrialRow, Work
 
 FIGURES, TABLES = "figures.html", "tables"
-"""What a sweep leaves in its folder."""
 ROWS: Final = ".csv"
 
 
@@ -91,9 +90,7 @@ def carry_out_sweep(
     """Carry out a sweep: keep and tell each trial as it ends, then the figures, even if broken off; the exit code.
 
     Args:
-        title: of the page.
         again: the command that carries the trial of a row out again.
-        engine: carries the trials out; by default processes of this computer.
         anew: trials that are in the folder are dropped.
         more: what the JSON has besides.
     """
@@ -216,11 +213,7 @@ def _left(seconds: float) -> str:
 
 
 def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
-    """A command that carries out a sweep whose work takes no options: for the table of commands of a system's entry.
-
-    Args:
-        n: trials where nobody says how many.
-    """
+    """A command that carries out a sweep whose work takes no options, `n` trials by default: for a system's entry."""
 
     def command(
         *,

@@ -178,9 +178,7 @@ def teacher_of(
     first: Path | None,
     observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
 ) -> "Teacher":
-    """A cell, and the taught file that is given, or that stands beside a script; raises InvalidInput if a file or an
-    option cannot be used.
-    """
+    """A cell, and the taught file that is given, or that stands beside a script; raises InvalidInput."""
     from handeye.teaching.teacher import Teacher
 
     path = file if file.suffix == ".toml" else beside(file, ".toml")
@@ -211,9 +209,7 @@ def _workplace(
     first: Path | None,
     observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
 ) -> "Workplace":
-    """The cell to work in; raises InvalidInput if a file or an option cannot be used, or the camera cannot work as
-    asked.
-    """
+    """The cell to work in; raises InvalidInput if a file, an option or the camera cannot be used."""
     from handeye.execution.servo import Halted
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.teaching.workplace import Workplace

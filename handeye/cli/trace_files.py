@@ -13,9 +13,7 @@ TraceFile = Annotated[Path, Parameter(help="A trace.mcap, or the folder of a run
 
 
 def trace_file(path: Path) -> Path:
-    """The trace of the run in a folder, or its event list if there is no trace; of a file, the file; raises
-    InvalidInput if the run has not begun, or the folder is a batch's.
-    """
+    """The trace of a run's folder, or its event list; a file itself; raises InvalidInput if the run has not begun."""
     from handeye.runs.folder import EVENTS, TRACE, check_holds_run
     from handeye.trace.recorder import part
 
@@ -43,9 +41,7 @@ def check_no_batch(folder: Path) -> None:
 
 
 def motion_file(path: Path) -> Path:
-    """The same, where it must say where things were; raises InvalidInput if there is no run, it has not begun, or there
-    is only its event list.
-    """
+    """The same, where it must say where things were; raises InvalidInput if there is only an event list."""
     file = trace_file(path)
     if file.suffix == ".jsonl":
         raise Refused(f"{file} is an event list, which does not say where things were; take the trace.mcap")

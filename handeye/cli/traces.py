@@ -20,9 +20,9 @@ from handeye.cli.common import (
     say,
     screen,
 )
-from handeye.cli.photographs import PLAIN, FineOptions
 from handeye.cli.programs import made_known
 from handeye.cli.trace_files import File, TraceFile, trace_file
+from handeye.cli.worlds import PLAIN, FineOptions
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.files import check_place, write_over
 

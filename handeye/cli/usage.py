@@ -18,7 +18,6 @@ from cyclopts import (
 from handeye.core.diagnostics import quoted, suggestion
 
 _NOUNS: Final[dict[object, str]] = {float: "a number", int: "a whole number"}
-"""What a value of a type is called."""
 
 
 def usage_sentence(error: CycloptsError) -> str:

@@ -71,7 +71,10 @@ def video(
     from handeye.video.request import VideoRequest
 
     made_known(task)
-    width, height = _size(size)
+    found = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", size)
+    if found is None:
+        raise BadArgument(f"{quoted(size)} is no size; one is written as 480x360")
+    width, height = int(found[1]), int(found[2])
     wanted = VideoRequest(
         camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
         captions=captions,
@@ -82,14 +85,6 @@ def video(
     how = f"{made.frames} frames of {wanted.width} x {wanted.height}"
     say(f"{made.path}: {made.seconds:.1f} s, {how}, {made.bytes / 1e6:.2f} MB")
     return 0
-
-
-def _size(typed: str) -> tuple[int, int]:
-    """A size as typed; raises InvalidInput if it is none."""
-    found = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", typed)
-    if found is None:
-        raise BadArgument(f"{quoted(typed)} is no size; one is written as 480x360")
-    return int(found[1]), int(found[2])
 
 
 def _trace(run: Path) -> "Trace":

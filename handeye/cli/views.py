@@ -16,9 +16,7 @@ from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.errors import BadArgument
 
 DEMO: Final = ("pace 1x", "continue")
-"""What is said to the run of the demo at first."""
 _RECORDED: Final = (".mcap", ".part", ".jsonl")
-"""Endings of what a run has left."""
 
 
 def view(
@@ -104,9 +102,7 @@ def _play(run: Path, port: int) -> int:
 
 
 def _teach(file: Path, port: int, world: WorldOptions, fault: Faults, camera: str) -> int:
-    """Let positions be taught in a browser; raises InvalidInput if a file or an option cannot be used, or the port
-    cannot be had.
-    """
+    """Let positions be taught in a browser; raises InvalidInput if a file, an option or the port cannot be used."""
     from handeye.debugger.live import Pace
     from handeye.teaching.teach_commands import TeachSession
     from handeye.view.link import Link

@@ -1,23 +1,79 @@
 """The comparison of two runs as facts, from which text, JSON and page are made."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import msgspec
 
-from handeye.comparison.conditions import Condition, conditions
 from handeye.comparison.findings import Corrections, Searches, Stops, corrections, searches, stops
 from handeye.comparison.first import First, first_difference
 from handeye.comparison.pairing import Place, TwoRuns, listing_of
 from handeye.comparison.parting import Parting, Turning, parting
 from handeye.core.entries import require
 from handeye.core.errors import BadFile
+from handeye.core.faults import Fault
+from handeye.core.record import Record
 from handeye.core.units import INCHES, Measures
-from handeye.program.events import StepStarted
+from handeye.program.events import RunStarted, StepStarted
+from handeye.report.facts.again import written
 from handeye.report.facts.outcome import Kind, outcome
 from handeye.report.recorded import RecordedRun
-from handeye.tasks import known_any
+from handeye.tasks import known, known_any
+from handeye.tasks.interface import Task
+from handeye.trace.sentences import renderer_name
 from handeye.trace.stats import StageFigures, statistics
+
+_NONE: Final = "none"
+_DRAWN: Final = "as drawn"
+
+
+class Condition(Record, frozen=True, kw_only=True):
+    """A condition in which two runs differ."""
+
+    what: str
+    """`task`, `plan`, `arm`, `camera`, `seed` and other words of the world, the names of quantities that were set,
+    `version of ...`, `own ...`."""
+    a: str
+    b: str
+
+
+def conditions(a: RunStarted, b: RunStarted) -> tuple[Condition, ...]:
+    """The conditions in which two runs differ."""
+    both = [dict(_conditions(begun)) for begun in (a, b)]
+    drawn = {name: _DRAWN for begun in (a, b) for name in begun.world.overrides.set}
+    names = dict.fromkeys(name for side in both for name in side)
+    told = ((name, *(side.get(name, drawn.get(name, _NONE)) for side in both)) for name in names)
+    return tuple(Condition(what=name, a=one, b=other) for name, one, other in told if one != other)
+
+
+def _conditions(begun: RunStarted) -> Iterator[tuple[str, str]]:
+    yield "task", begun.task
+    yield "program", begun.program
+    yield "plan", begun.plan
+    yield "arm", f"{begun.arm} {begun.arm_digest}"
+    yield from _world(begun)
+    yield "camera", renderer_name(begun.camera)
+    yield "senses that are lacking", ", ".join(begun.lacking) or _NONE
+    yield from ((f"own {part}", name) for part, name in begun.own_parts.items())
+    yield from ((f"version of {name}", version) for name, version in begun.versions.items())
+
+
+def _world(begun: RunStarted) -> Iterator[tuple[str, str]]:
+    world, task = begun.world, known(begun.task)
+    quantities = {} if task is None else task.variation(world.seed).quantities
+    yield "drawing of the world", f"{world.drawing}"
+    yield "seed", f"{world.seed}"
+    yield "level", world.level
+    yield "switched off", ", ".join(world.overrides.without) or _NONE
+    yield from ((name, written(quantities.get(name), value)) for name, value in world.overrides.set.items())
+    yield from ((f"fault {fault.name}", _fault(task, world.seed, fault)) for fault in world.faults)
+
+
+def _fault(task: Task | None, seed: int, fault: Fault) -> str:
+    """A fault as on the command line, where its task is known."""
+    catalogue = None if task is None else task.faults(seed)
+    return str(fault) if catalogue is None or fault.name not in catalogue.kinds else catalogue.written(fault)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,13 +81,10 @@ class Compared:
     """One of the compared runs."""
 
     name: str
-    """Its file."""
     program: str
     world: str
-    """Its seed, and what is said of it."""
     came_to: Kind
     seconds: float
-    """How long it took, simulated."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,25 +95,26 @@ class Stages:
     a: StageFigures | None
     b: StageFigures | None
 
+    @property
+    def seconds(self) -> tuple[float | None, float | None]:
+        """How long it took in both."""
+        a, b = (None if each is None else each.seconds for each in (self.a, self.b))
+        return a, b
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Comparison:
     """Two runs beside each other."""
 
     a: Compared
-    """The first run."""
     b: Compared
-    """The second."""
     measures: Measures
     """Units in which people read the first difference."""
     conditions: tuple[Condition, ...]
-    """Differing conditions."""
     thinned: bool
     """A trace is thinned to some of its servo periods, whose sensor values are then not compared."""
     first: First | None
-    """The first recorded difference, if any."""
     parted: Parting | None
-    """Where they diverged, if anywhere."""
     searches: tuple[Searches, ...]
     """Places that each search tried."""
     stops: tuple[Stops, ...]
@@ -68,7 +122,6 @@ class Comparison:
     corrections: tuple[Corrections, ...]
     """Saved differences, and located parts."""
     stages: tuple[Stages, ...]
-    """Figures of each stage."""
 
     @property
     def same(self) -> bool:
@@ -84,8 +137,13 @@ class Comparison:
 def comparison(a: RecordedRun, b: RecordedRun) -> Comparison:
     """Compare two runs; raises an InvalidInput if one follows no plan, or its trace cannot be understood."""
     for run in (a, b):
-        _check(run)
+        name = run.trace.name
+        require(run.trace.head.system, "compare", name)
+        steps = len(listing_of(run).steps)
+        if any(isinstance(event, StepStarted) and not 0 <= event.step < steps for event in run.trace.events):
+            raise BadFile(f"{name} tells of steps that its plan lacks")
     runs, task = TwoRuns(a, b), known_any(a.trace.head.task)
+    one, other = ({stage.stage: stage for stage in statistics(run.trace.events, {}).stages} for run in (a, b))
     return Comparison(
         a=_compared(a),
         b=_compared(b),
@@ -97,17 +155,10 @@ def comparison(a: RecordedRun, b: RecordedRun) -> Comparison:
         searches=searches(runs),
         stops=stops(runs),
         corrections=corrections(runs),
-        stages=_stages(a, b),
+        stages=tuple(
+            Stages(name=name, a=one.get(name), b=other.get(name)) for name in dict.fromkeys((*one, *other))
+        ),
     )
-
-
-def _check(run: RecordedRun) -> None:
-    """Raises an InvalidInput if a run follows no plan, or has steps that its plan lacks."""
-    name = run.trace.name
-    require(run.trace.head.system, "compare", name)
-    steps = len(listing_of(run).steps)
-    if any(isinstance(event, StepStarted) and not 0 <= event.step < steps for event in run.trace.events):
-        raise BadFile(f"{name} tells of steps that its plan lacks")
 
 
 def _compared(run: RecordedRun) -> Compared:
@@ -121,14 +172,6 @@ def _compared(run: RecordedRun) -> Compared:
     )
 
 
-def _stages(a: RecordedRun, b: RecordedRun) -> tuple[Stages, ...]:
-    """Stages of two runs, in order of their start."""
-    one, other = ({stage.stage: stage for stage in statistics(run.trace.events, {}).stages} for run in (a, b))
-    return tuple(
-        Stages(name=name, a=one.get(name), b=other.get(name)) for name in dict.fromkeys((*one, *other))
-    )
-
-
 def as_json(found: Comparison) -> dict[str, Any]:
     """A comparison as data."""
     first, parted = found.first, found.parted
@@ -139,7 +182,7 @@ def as_json(found: Comparison) -> dict[str, Any]:
         "conditions": found.conditions,
         "thinned": found.thinned,
         "first": None if first is None else _first(first),
-        "parted": None if parted is None else _parted(parted),
+        "parted": parted and {**_where(parted.place), "a": _turning(parted.a), "b": _turning(parted.b)},
         "searches": found.searches,
         "stops": found.stops,
         "corrections": found.corrections,
@@ -160,10 +203,6 @@ def _first(first: First) -> dict[str, Any]:
         "period": first.period,
         "places": (first.a, first.b),
     }
-
-
-def _parted(parted: Parting) -> dict[str, Any]:
-    return {**_where(parted.place), "a": _turning(parted.a), "b": _turning(parted.b)}
 
 
 def _turning(turning: Turning | None) -> dict[str, Any] | None:

@@ -15,8 +15,7 @@ _BEFORE: Final = -1  # pair number for the time before the first step
 class Leg:
     """A segment in which both runs did the same step, or one did a step and the other waited."""
 
-    begin: float
-    """s of the course."""
+    begin: float  # s of the course
     a: float
     """Where the first run stood then, s since it began; it goes evenly to where the next leg finds it."""
     b: float
@@ -29,8 +28,7 @@ class Course:
     """The timeline of two runs."""
 
     legs: tuple[Leg, ...]
-    end: float
-    """s of the course."""
+    end: float  # s of the course
     a: float  # end of the first run, s since it began
     b: float
 
@@ -40,7 +38,7 @@ class Course:
 
 
 @dataclass(frozen=True, slots=True)
-class _Done:
+class _TimedStep:
     """A step of a run, with its times."""
 
     place: Place | None
@@ -61,17 +59,17 @@ def course(runs: TwoRuns) -> Course:
     return Course(legs=tuple(legs), end=time, a=at[0], b=at[1])
 
 
-def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_Done]:
+def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
     """Steps of a run, preceded by the time before; each lasts until the next begins."""
     begun = [each.place for each in steps]
     times = [*(place.time for place in begun), run.ends]
-    first = _Done(None, min(run.begins, times[0]), times[0])
-    return [first, *(_Done(place, *times[number : number + 2]) for number, place in enumerate(begun))]
+    first = _TimedStep(None, min(run.begins, times[0]), times[0])
+    return [first, *(_TimedStep(place, *times[number : number + 2]) for number, place in enumerate(begun))]
 
 
 def _side_by_side(
-    runs: TwoRuns, a: Sequence[_Done], b: Sequence[_Done]
-) -> Iterator[tuple[_Done | None, _Done | None]]:
+    runs: TwoRuns, a: Sequence[_TimedStep], b: Sequence[_TimedStep]
+) -> Iterator[tuple[_TimedStep | None, _TimedStep | None]]:
     """Pairs of steps, and between them those of one run alone, the first run's before the other's."""
     one, other = ([_BEFORE, *(each.turn[0] for each in steps)] for steps in runs.carried_out)
     for tag, i, j, k, m in SequenceMatcher(None, one, other, autojunk=False).get_opcodes():

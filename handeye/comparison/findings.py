@@ -20,11 +20,8 @@ class Correction(Record, frozen=True, kw_only=True):
     place: Place
     kind: Literal["saved", "seen"]
     name: str
-    """Of the difference, or of the part."""
-    at: tuple[float, ...]
-    """x, y and z of a difference; x and y of a part, m."""
-    yaw: float | None = None
-    """Of a part, rad; None: a difference, or a general look."""
+    at: tuple[float, ...]  # x, y and z of a difference; x and y of a part, m
+    yaw: float | None = None  # Of a part, rad; None: a difference, or a general look
 
 
 class Corrections(Record, frozen=True, kw_only=True):
@@ -48,12 +45,8 @@ class Corrections(Record, frozen=True, kw_only=True):
 
 def corrections(runs: TwoRuns) -> tuple[Corrections, ...]:
     """The corrections of two runs, in the order of the script."""
-    both = (_corrections(steps) for steps in runs.carried_out)
+    both = ({each.turn: found for each in steps for found in _found(each)} for steps in runs.carried_out)
     return tuple(Corrections(a=a, b=b) for a, b in side_by_side(*both))
-
-
-def _corrections(steps: Sequence[CarriedOut]) -> Mapping[Turn, Correction]:
-    return {each.turn: found for each in steps for found in _found(each)}
 
 
 def _found(each: CarriedOut) -> Iterator[Correction]:
@@ -69,8 +62,7 @@ class Stop(Record, frozen=True, kw_only=True):
     """The end of a guarded motion."""
 
     place: Place
-    guard: GuardKind | None
-    """The guard that ended it; None: none did."""
+    guard: GuardKind | None  # The guard that ended it; None: none did
     value: float | None = None
     """What the guard looked at then: N, N m, or finger switches as a mask."""
 
@@ -89,12 +81,8 @@ class Stops(Record, frozen=True, kw_only=True):
 
 def stops(runs: TwoRuns) -> tuple[Stops, ...]:
     """The guarded motions of two runs, in the order of the script."""
-    both = (_stops(steps) for steps in runs.carried_out)
+    both = ({each.turn: _stop(each) for each in steps if each.step.guarded} for steps in runs.carried_out)
     return tuple(Stops(a=a, b=b) for a, b in side_by_side(*both))
-
-
-def _stops(steps: Sequence[CarriedOut]) -> Mapping[Turn, Stop]:
-    return {each.turn: _stop(each) for each in steps if each.step.guarded}
 
 
 def _stop(each: CarriedOut) -> Stop:
@@ -107,14 +95,10 @@ def _stop(each: CarriedOut) -> Stop:
 class Search(Record, frozen=True, kw_only=True):
     """A search of a run."""
 
-    place: Place
-    """The step that set it up."""
+    place: Place  # The step that set it up
     places: int = 1
-    """How many it tried."""
-    last: tuple[float, float] = (0.0, 0.0)
-    """The last of them, x and y from the first, m."""
+    last: tuple[float, float] = (0.0, 0.0)  # The last of them, x and y from the first, m
     exhausted: bool = False
-    """It ran out of places."""
 
 
 class Searches(Record, frozen=True, kw_only=True):

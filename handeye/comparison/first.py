@@ -36,28 +36,25 @@ _SAID_TWICE: Final = (LOG, SCENE)
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class StepMessage:
     """A message, with its event if it holds one."""
 
     message: RawMessage
     event: AnyEvent | None
-    since: int
-    """ns since the step began."""
+    since: int  # ns since the step began
 
 
 @dataclass(slots=True)
 class Stretch:
     """The first recorded difference within the same step, if any."""
 
-    started: StepStarted | None
-    """None: before the first step."""
-    begin: int
-    """ns"""
-    told: list[Told] = field(default_factory=list)
+    started: StepStarted | None  # None: before the first step
+    begin: int  # ns
+    told: list[StepMessage] = field(default_factory=list)
 
     def add(self, messages: Iterable[tuple[RawMessage, AnyEvent | None]]) -> None:
         """Add messages, each with its event."""
-        self.told += (Told(message, event, message.time - self.begin) for message, event in messages)
+        self.told += (StepMessage(message, event, message.time - self.begin) for message, event in messages)
 
 
 def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[Stretch]:
@@ -98,41 +95,13 @@ EVENT: Final = ("event",)
 """The quantity that differs where another kind of thing happened next."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Otherwise:
-    """A difference in what was recorded of a step."""
-
-    differing: QuantityDifference
-    period: int | None
-    """The servo period of the step, from 1; None: it is of none."""
-    next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """What happened next, where that is what differs; None: the step went on, or nothing more was recorded."""
-
-
-def otherwise(a: Stretch, b: Stretch, arm: ArmModel | None) -> Otherwise | None:
-    """The first difference in what was recorded of the same step; None: none.
-
-    Args:
-        arm: the arm of both, if it is known.
-    """
-    period = 0
-    for number, (one, other) in enumerate(zip_longest(a.told, b.told)):
-        topics = [told.message.topic for told in (one, other) if told is not None]
-        period += topics == [JOINTS, JOINTS]
-        found = _differing(one, other, arm)
-        if found is not None:
-            next = (_next(a.told, number), _next(b.told, number)) if found.quantity == EVENT else (None, None)
-            beside = period > 0 and any(topic in OF_A_PERIOD for topic in topics)
-            return Otherwise(differing=found, period=period if beside else None, next=next)
-    return None
-
-
-def _differing(one: Told | None, other: Told | None, arm: ArmModel | None) -> QuantityDifference | None:
+def _differing(
+    one: StepMessage | None, other: StepMessage | None, arm: ArmModel | None
+) -> QuantityDifference | None:
     """The difference of two messages."""
     if one is None or other is None or one.message.topic != other.message.topic:
-        return _moved_alone(one, other, arm) or QuantityDifference(
-            quantity=EVENT, a=_kind(one), b=_kind(other)
-        )
+        a, b = (each.message if each and each.message.topic == FRAMES else None for each in (one, other))
+        return differing(a, b, arm) or QuantityDifference(quantity=EVENT, a=_kind(one), b=_kind(other))
     if one.event is not None and other.event is not None:
         return _events_differ(one.event, other.event) or _times_differ(one, other)
     if one.message.data == other.message.data:
@@ -140,16 +109,10 @@ def _differing(one: Told | None, other: Told | None, arm: ArmModel | None) -> Qu
     return _times_differ(one, other) or differing(one.message, other.message, arm)
 
 
-def _times_differ(one: Told, other: Told) -> QuantityDifference | None:
+def _times_differ(one: StepMessage, other: StepMessage) -> QuantityDifference | None:
     if abs(one.since - other.since) <= _CLOCKS:
         return None
     return QuantityDifference(quantity=("time",), unit="s", a=one.since / 1e9, b=other.since / 1e9)
-
-
-def _moved_alone(one: Told | None, other: Told | None, arm: ArmModel | None) -> QuantityDifference | None:
-    """The body that moved in only one of two runs; None: the difference is another."""
-    a, b = (None if told is None or told.message.topic != FRAMES else told.message for told in (one, other))
-    return differing(a, b, arm)
 
 
 def _events_differ(one: AnyEvent, other: AnyEvent) -> QuantityDifference | None:
@@ -163,11 +126,11 @@ def _events_differ(one: AnyEvent, other: AnyEvent) -> QuantityDifference | None:
     return differing_events(one, other)
 
 
-def _kind(told: Told | None) -> str | None:
+def _kind(told: StepMessage | None) -> str | None:
     return None if told is None or told.event is None else type(told.event).__name__
 
 
-def _next(told: Sequence[Told], number: int) -> AnyEvent | None:
+def _next(told: Sequence[StepMessage], number: int) -> AnyEvent | None:
     """The next event; None: a servo period comes first."""
     for each in told[number:]:
         if each.event is not None or each.message.topic in OF_A_PERIOD:
@@ -185,7 +148,6 @@ class First:
     period: int | None = None
     """The servo period of the step, from 1; None: it is of none."""
     differing: QuantityDifference
-    """The quantity, and both values."""
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
     """What happened next, where that is what differs; None: the step went on, or the run ended."""
 
@@ -247,13 +209,19 @@ def _recorded_otherwise(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> 
     assert a is not None
     assert b is not None
     task = known(runs.a.trace.head.task)
-    found = otherwise(a, b, None if task is None else task.arm)
-    if found is None:
-        return None
-    return First(
-        a=_place(runs.a, a.started),
-        b=_place(runs.b, b.started),
-        period=found.period,
-        differing=found.differing,
-        next=found.next,
-    )
+    arm, period = None if task is None else task.arm, 0
+    for number, (one, other) in enumerate(zip_longest(a.told, b.told)):
+        topics = [told.message.topic for told in (one, other) if told is not None]
+        period += topics == [JOINTS, JOINTS]
+        found = _differing(one, other, arm)
+        if found is not None:
+            next = (_next(a.told, number), _next(b.told, number)) if found.quantity == EVENT else (None, None)
+            beside = period > 0 and any(topic in OF_A_PERIOD for topic in topics)
+            return First(
+                a=_place(runs.a, a.started),
+                b=_place(runs.b, b.started),
+                period=period if beside else None,
+                differing=found,
+                next=next,
+            )
+    return None

@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Final, Protocol, TypeVar
+from typing import Final, TypeVar
 
 from handeye.comparison.comparison import Comparison
 from handeye.comparison.course import Course, course
+from handeye.comparison.findings import Correction, Search, Stop
 from handeye.comparison.pairing import Place, TwoRuns
 from handeye.comparison.wording import (
     THINNED,
@@ -39,7 +40,6 @@ from handeye.report.animation import Animation
 from handeye.report.page.document import head, packed, resource
 from handeye.report.page.moments import json_markup
 from handeye.report.recorded import RecordedRun
-from handeye.trace.stats import StageFigures
 
 _MARK: Final = "<!doctype html>\n<!-- handeye comparison -->\n"
 PAGE: Final = Kind("comparison of handeye", _MARK.encode(), ending=".html")
@@ -47,11 +47,7 @@ Animations = tuple[Animation, Animation]
 
 
 def comparison_page(a: RecordedRun, b: RecordedRun, found: Comparison, animated: Animations | str) -> bytes:
-    """The page of two runs; the same for the same traces.
-
-    Args:
-        animated: both animations; or a sentence on why there are none.
-    """
+    """The page of two runs, or instead of their animations a sentence; the same bytes for the same traces."""
     way = course(TwoRuns(a, b))
     views, lacking = ((), animated) if isinstance(animated, str) else (animated, "")
     scripts = [*([player.script()] if views else []), _own("page.js")]
@@ -60,7 +56,11 @@ def comparison_page(a: RecordedRun, b: RecordedRun, found: Comparison, animated:
         _header(found),
         element("main", section("run", "Side by side", *view(way, lacking)), *sections(found, way)),
         moments(way),
-        *(each for side, shown in zip(SIDES, views, strict=False) for each in _carried(side[1], shown)),
+        *(
+            packed(f"{name}-{side}", data)
+            for (_, side), shown in zip(SIDES, views, strict=False)
+            for name, data in (("scene", shown.scene), ("tracks", shown.tracks))
+        ),
         *(element("script", Markup(script)) for script in scripts),
     )
     name = printable(f"{a.trace.head.program} and {b.trace.head.program} compared")
@@ -85,11 +85,6 @@ def _title(found: Comparison) -> str:
     return f"Their ways part: {place_words(found.parted.place)}."
 
 
-def _carried(side: str, shown: Animation) -> Iterator[Markup]:
-    yield packed(f"scene-{side}", shown.scene)
-    yield packed(f"tracks-{side}", shown.tracks)
-
-
 def _own(name: str) -> str:
     return Path(__file__).with_name(name).read_text(encoding="utf-8")
 
@@ -101,11 +96,7 @@ _USUAL: Final = 4
 
 
 def view(way: Course, lacking: str) -> Iterator[Markup]:
-    """Both views, and the controls of both.
-
-    Args:
-        lacking: why there are no animations; empty: there are.
-    """
+    """Both views, and the controls of both; or a note on what is `lacking`."""
     if lacking:
         yield element("p", f"There is nothing to walk round in: {lacking}", class_="missing")
     yield element("div", *(_side(letter, name) for letter, name in SIDES), class_="sides")
@@ -154,14 +145,7 @@ def _line(place: Place | None) -> str:
 _BOTH: Final = ("A", "B")
 
 
-class _Placed(Protocol):
-    """A finding at a step."""
-
-    @property
-    def place(self) -> Place: ...
-
-
-Found = TypeVar("Found", bound=_Placed)
+Found = TypeVar("Found", Search, Stop, Correction)
 
 
 def sections(found: Comparison, way: Course) -> Iterator[Markup]:
@@ -170,7 +154,10 @@ def sections(found: Comparison, way: Course) -> Iterator[Markup]:
     searches = [_row(way, each.a, each.b, search_words, alike=each.alike) for each in found.searches]
     stops = [_row(way, each.a, each.b, stop_words, alike=each.alike) for each in found.stops]
     corrections = [
-        [*_row(way, each.a, each.b, correction_words, alike=each.alike), _apart(each.apart)]
+        [
+            *_row(way, each.a, each.b, correction_words, alike=each.alike),
+            figure_cell("" if each.apart is None else f"{each.apart / INCH:.2f}"),
+        ]
         for each in found.corrections
     ]
     for name, heading, rows, more in (
@@ -225,21 +212,16 @@ def _link(way: Course, a: Place | None, b: Place | None, words: str) -> Markup:
     return element("span", words) if b is None else to_moment(way.at(b, 1), words)
 
 
-def _apart(apart: float | None) -> Markup:
-    return figure_cell("" if apart is None else f"{apart / INCH:.2f}")
-
-
 def _seconds(found: Comparison) -> Markup:
     rows = [
-        [element("th", stage.name, scope="row"), *_figures(_took(stage.a), _took(stage.b))]
+        [
+            element("th", stage.name, scope="row"),
+            *_figures(*stage.seconds),
+        ]
         for stage in found.stages
     ]
     rows.append([element("th", "all", scope="row"), *_figures(found.a.seconds, found.b.seconds)])
     return table([*heads("stage"), *figure_heads(*_BOTH, "B - A")], rows, label="seconds by stage")
-
-
-def _took(figures: StageFigures | None) -> float | None:
-    return None if figures is None else figures.seconds
 
 
 def _figures(a: float | None, b: float | None) -> Iterator[Markup]:

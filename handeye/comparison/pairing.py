@@ -23,7 +23,6 @@ class Place(Record, frozen=True, kw_only=True):
 
     stage: str
     step: int
-    """Its number in its program."""
     file: str = ""
     """The required file it stands in; empty: the source itself."""
     line: int

@@ -27,7 +27,6 @@ class Parting:
     a: Turning | None
     """Where the first run stood, and what happened next; None: it has ended before."""
     b: Turning | None
-    """The second run."""
 
     @property
     def place(self) -> Place | None:

@@ -1,10 +1,9 @@
 """The comparison of two runs as text, in the arm language's units."""
 
-from collections.abc import Iterator, Sequence
-from typing import Final
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, Final
 
-from handeye.comparison.comparison import Comparison
-from handeye.comparison.conditions import Condition
+from handeye.comparison.comparison import Comparison, Condition
 from handeye.comparison.findings import Corrections, Searches, Stops
 from handeye.comparison.first import First
 from handeye.comparison.parting import Parting
@@ -22,7 +21,6 @@ from handeye.comparison.wording import (
 )
 from handeye.core.units import INCH, Measures
 from handeye.trace.account import ASTRAY
-from handeye.trace.stats import StageFigures
 
 _BOTH: Final = ("A", "B")
 
@@ -36,8 +34,8 @@ def comparison_text(found: Comparison) -> list[str]:
     sections = (
         _first(found.first, found.measures),
         _parted(found.parted),
-        _searched(found.searches),
-        _felt(found.stops),
+        _unlike("Searches", "with as many places", found.searches, search_words),
+        _unlike("Guarded motions", "ended alike", found.stops, stop_words),
         _corrected(found.corrections),
         _took(found),
     )
@@ -73,18 +71,13 @@ def _parted(parted: Parting | None) -> Iterator[str]:
 # -- what each searched, felt and corrected ------------------------------------------------------------------------
 
 
-def _searched(found: Sequence[Searches]) -> Iterator[str]:
-    yield from _counted("Searches", "with as many places", found)
+def _unlike(
+    what: str, alike: str, found: Sequence[Searches | Stops], words: Callable[[Any], str]
+) -> Iterator[str]:
+    yield from _counted(what, alike, found)
     for each in found:
         if each.a is not None and each.b is not None and not each.alike:
-            yield f"  {place_words(each.a.place)}: A {search_words(each.a)}, B {search_words(each.b)}"
-
-
-def _felt(found: Sequence[Stops]) -> Iterator[str]:
-    yield from _counted("Guarded motions", "ended alike", found)
-    for each in found:
-        if each.a is not None and each.b is not None and not each.alike:
-            yield f"  {place_words(each.a.place)}: A {stop_words(each.a)}, B {stop_words(each.b)}"
+            yield f"  {place_words(each.a.place)}: A {words(each.a)}, B {words(each.b)}"
 
 
 def _corrected(found: Sequence[Corrections]) -> Iterator[str]:
@@ -99,14 +92,9 @@ def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Correctio
     """The number of findings in both runs, and how many are alike; nothing if there are none."""
     both = [each for each in found if each.a is not None and each.b is not None]
     if found:
-        yield f"{what}: {len(both)} in both, {sum(each.alike for each in both)} {alike}{_alone(found)}"
-
-
-def _alone(found: Sequence[Searches | Stops | Corrections]) -> str:
-    """The number of findings of one run alone."""
-    counts = sum(each.b is None for each in found), sum(each.a is None for each in found)
-    told = (f"; {count} in {letter} alone" for letter, count in zip(_BOTH, counts, strict=True) if count)
-    return "".join(told)
+        counts = sum(each.b is None for each in found), sum(each.a is None for each in found)
+        alone = "".join(f"; {n} in {letter} alone" for letter, n in zip(_BOTH, counts, strict=True) if n)
+        yield f"{what}: {len(both)} in both, {sum(each.alike for each in both)} {alike}{alone}"
 
 
 # -- what they took --------------------------------------------------------------------------------------------
@@ -117,12 +105,8 @@ def _took(found: Comparison) -> Iterator[str]:
     wide = max(map(len, ("Seconds", *(stage.name for stage in found.stages))))
     yield f"{'Seconds':{wide}}{'A':>9}{'B':>9}{'B - A':>9}"
     for stage in found.stages:
-        yield _row(stage.name, wide, _seconds(stage.a), _seconds(stage.b))
+        yield _row(stage.name, wide, *stage.seconds)
     yield _row("all", wide, found.a.seconds, found.b.seconds)
-
-
-def _seconds(figures: StageFigures | None) -> float | None:
-    return None if figures is None else figures.seconds
 
 
 def _row(name: str, wide: int, a: float | None, b: float | None) -> str:

@@ -32,7 +32,6 @@ _UNITS: Final[Mapping[GuardKind, str]] = {
     GuardKind.MOMENT: "oz in",
     GuardKind.TORQUE: "oz in",
 }
-"""Units of guards' values."""
 
 
 def same_words(found: Comparison) -> str:

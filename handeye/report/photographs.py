@@ -11,6 +11,7 @@ from handeye.cell.photograph import Near, Photographer
 from handeye.cell.photograph import Photograph as Points
 from handeye.cell.posed import posed
 from handeye.core.errors import InvalidInput
+from handeye.core.markup import Markup, data_address, element
 from handeye.program.events import GuardTripped, StepFinished
 from handeye.report.facts.outcome import Outcome, outcome
 from handeye.report.recorded import RecordedRun
@@ -19,49 +20,41 @@ from handeye.tasks.interface import AnyTask
 from handeye.trace.stages import Stage
 
 MOST: Final = 24
-"""Stages that are photographed, at most."""
 _QUALITY: Final = 80
-_NEAR: Final = 0.62
-"""m from which the hand is looked at."""
+_NEAR: Final = 0.62  # m from which the hand is looked at
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Photograph:
     """A photograph, or why there is none."""
 
-    time: float
-    """s since the run began."""
+    time: float  # s since the run began
     shows: str
     width: int
     height: int
-    webp: bytes | None
-    """The file; None: it could not be taken."""
+    webp: bytes | None  # The file; None: it could not be taken
     missing: str = ""
-    """Why."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Print:
+class _PrintSize:
     """How photographs are made."""
 
     width: int
     height: int
-    finer: int
-    """Points of the drawing for one of the photograph, along a side."""
-    shadow: int
-    """Points along a side of the map of shadows."""
+    finer: int  # Points of the drawing for one of the photograph, along a side
+    shadow: int  # Points along a side of the map of shadows
 
 
-LARGE: Final = _Print(width=960, height=720, finer=2, shadow=4096)
-SMALL: Final = _Print(width=480, height=360, finer=1, shadow=2048)
+LARGE: Final = _PrintSize(width=960, height=720, finer=2, shadow=4096)
+SMALL: Final = _PrintSize(width=480, height=360, finer=1, shadow=2048)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PhotographRequest:
     """A photograph that is to be taken."""
 
-    time: float
-    """s since the run began."""
+    time: float  # s since the run began
     view: str | Near
     shows: str
 
@@ -153,7 +146,9 @@ def _at_hand(run: RecordedRun, time: float) -> str | Near:
     return Near(camera=_room(run), place=ended[-1], distance=_NEAR) if ended else _room(run)
 
 
-def _taken(run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _Print) -> tuple[Photograph, ...]:
+def _taken(
+    run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _PrintSize
+) -> tuple[Photograph, ...]:
     """The photographs, or why there are none."""
     try:
         return tuple(_take(run, wanted, size))
@@ -161,13 +156,13 @@ def _taken(run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _Print)
         return tuple(_none(each, size, f"No photograph: {fault}.") for each in wanted)
 
 
-def _none(wanted: _PhotographRequest, size: _Print, why: str) -> Photograph:
+def _none(wanted: _PhotographRequest, size: _PrintSize, why: str) -> Photograph:
     return Photograph(
         time=wanted.time, shows=wanted.shows, width=size.width, height=size.height, webp=None, missing=why
     )
 
 
-def _take(run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _Print) -> Iterator[Photograph]:
+def _take(run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _PrintSize) -> Iterator[Photograph]:
     wide, high = size.finer * size.width, size.finer * size.height
     photographer = Photographer(run.trace.scene, width=wide, height=high, shadow=size.shadow)
     begin, end = run.trace.covers
@@ -179,9 +174,23 @@ def _take(run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _Print) 
         )
 
 
-def _webp(fine: Points, size: _Print) -> bytes:
+def _webp(fine: Points, size: _PrintSize) -> bytes:
     """A photograph at its size as a WebP file."""
     small = cv2.resize(fine, (size.width, size.height), interpolation=cv2.INTER_AREA)
     done, data = cv2.imencode(".webp", small[:, :, ::-1], [cv2.IMWRITE_WEBP_QUALITY, _QUALITY])
     assert done
     return data.tobytes()
+
+
+def shown(photograph: Photograph, **attributes: str | None) -> Markup:
+    """A photograph with its caption as a figure, or in its place why there is none."""
+    if photograph.webp is None:
+        return element("p", photograph.missing, class_="missing")
+    image = element(
+        "img",
+        src=data_address("image/webp", photograph.webp),
+        alt=photograph.shows,
+        width=photograph.width,
+        height=photograph.height,
+    )
+    return element("figure", image, element("figcaption", photograph.shows), **attributes)

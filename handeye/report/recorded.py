@@ -1,11 +1,16 @@
 """A recorded run, with all that its report is made of."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadFile
 from handeye.planfile.plan import Plan
 from handeye.program.program import Program
 from handeye.results.result import Result
+from handeye.tasks import known
+from handeye.tasks.interface import HistoricalTiming
 from handeye.trace.reading import plan_of
 from handeye.trace.trace import Trace
 
@@ -22,17 +27,21 @@ class RecordedRun:
     end: bytes | None = None
     """The picture of its end that it has left, a PNG or WebP file; None: it left none."""
     remarks: tuple[str, ...] = ()
-    """What of its folder could not be read, a sentence each."""
 
     @cached_property
     def plan(self) -> Plan:
-        """Its plan."""
         return plan_of(self.trace)
 
     @property
     def program(self) -> Program:
-        """Its program."""
         return self.plan.program
+
+    @property
+    def period(self) -> HistoricalTiming | None:
+        """The times of its day, if the program is one that was timed then."""
+        task = known(self.trace.head.task)
+        then = None if task is None else task.period
+        return then if then is not None and then.program == self.trace.head.program else None
 
     @property
     def begins(self) -> float:
@@ -47,3 +56,25 @@ class RecordedRun:
     def seconds(self, clock: float) -> float:
         """The time for a time of the cell's clock."""
         return self.trace.elapsed(clock)
+
+
+def check_scene(run: RecordedRun) -> None:
+    """Raise InvalidInput if something that moved in a run is not in the scene that its task has here."""
+    scene = run.trace.scene
+    there = {scene.body(number).name for number in range(scene.nbody)}
+    for begin in run.trace.times[:1]:
+        for name in run.trace.at(float(begin)).poses:
+            if name not in there:
+                raise BadFile(f"{run.trace.name} is of another scene: here there is no {quoted(name)}")
+
+
+def told_faults(run: RecordedRun) -> Iterator[tuple[str, str]]:
+    """Each fault as it would be typed, and what it does: a sentence, empty where its task is not known."""
+    world = run.trace.head.world
+    task = known(run.trace.head.task)
+    for fault in world.faults:
+        if task is None:
+            yield str(fault), ""
+        else:
+            catalogue = task.faults(world.seed)
+            yield catalogue.written(fault), catalogue.kind(fault.name).meaning

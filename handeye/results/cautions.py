@@ -10,11 +10,7 @@ from handeye.trace.sentences import renderer_name
 
 
 def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
-    """Tell in what a run goes on otherwise than it began, and what it could not keep, a sentence each.
-
-    Args:
-        judged: the task's own referee is to be called.
-    """
+    """Tell in what a run goes on otherwise than it began, and what it could not keep, a sentence each."""
     if runner.system.unkept is not None:
         yield f"the calibration of the camera is not kept for other runs: {runner.system.unkept}"
     begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)

@@ -6,22 +6,82 @@ from itertools import groupby
 from pathlib import Path
 from typing import Final, Literal
 
+import msgspec
+
 from handeye.cell.gltf import glb
+from handeye.cell.mjcf import MESHES, SCENE, TEXTURES, mjcf_files
 from handeye.cell.solids import SolidScene, Weighed
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.files import Kind, check_place, write_over
-from handeye.core.folders import check_folder, write_folder
-from handeye.core.plain_text import counted
+from handeye.core.folders import FolderKind, check_folder, write_folder
+from handeye.core.plain_text import counted, printable
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
-from handeye.results.exported_scene import EXPORT, scene_files, shows, told
+from handeye.core.versions import HANDEYE, versions
 from handeye.runs.exported_state import ExportedState, MomentKind
 from handeye.tasks import task
 
+README: Final = "README.md"
+_MARK: Final = "handeye exported this scene; README.md says what it shows"
+EXPORT: Final = FolderKind(
+    name="an export of handeye",
+    known_by=SCENE,
+    begins=f"<!-- {_MARK} -->".encode(),
+    holds=(SCENE, README, f"{MESHES}/*.obj", f"{TEXTURES}/*.png"),
+)
+
+
+def scene_files(exhibit: ExportedState) -> dict[str, bytes]:
+    """The files of an export by name, the same bytes for the same state; raises InvalidInput if there is no scene."""
+    scene = task(exhibit.task).exported(exhibit.world, exhibit.truth, exhibit.moment)
+    files = mjcf_files(scene.spec, _MARK, told(exhibit))
+    return {README: _readme(exhibit, scene.about).encode(), **files}
+
+
+def told(exhibit: ExportedState) -> dict[str, str]:
+    """What the files of an exhibit tell programs, by name."""
+    return {
+        "moment": exhibit.moment,
+        "shows": shows(exhibit),
+        "world": msgspec.json.encode(exhibit.world).decode(),
+        "handeye": HANDEYE,
+    }
+
+
+def shows(exhibit: ExportedState) -> str:
+    """What an exhibit shows, as a piece of a sentence."""
+    world = f"the world of {exhibit.world}"
+    if exhibit.moment == "drawn":
+        return f"{world}, as it is drawn, before anything happened"
+    program = printable(exhibit.program or "")
+    done = f"{program} in {world}, after {counted(exhibit.steps, 'step')}"
+    if exhibit.moment == "final":
+        return f"{done}: its end"
+    where = "" if exhibit.stage is None else f", at “{printable(exhibit.stage)}”"
+    return f"{done}{where}: unfinished"
+
+
+def _readme(exhibit: ExportedState, about: str) -> str:
+    made = ", ".join(f"{name} {version}" for name, version in versions().items())
+    return f"""# A scene of handeye
+
+This shows {shows(exhibit)}.
+
+`{SCENE}` is a model of MuJoCo that needs nothing but the folders beside it:
+`mujoco.MjModel.from_xml_path("{SCENE}")`. What it shows is its last keyframe, `{exhibit.moment}`,
+and the state that it begins with. Lengths are in m, angles in rad, masses in kg. World frame:
+origin at a corner of the table, z up, table top z = 0. The texts in `<custom>` say the same for
+programs: `moment` (`drawn`, `final` or `unfinished`), `shows`, and `world`.
+
+{about.strip()}
+
+Made with {made}.
+"""
+
+
 GLB: Final = Kind("GLB file", rb"glTF", ending=".glb")
 WHOLE: Final = "cell"
-"""The part that is everything."""
 TOLERANCE: Final = 0.01
 """Tolerated share of a mass: a cylinder is a prism of 64 sides in the file, .2 per cent lighter."""
 
@@ -30,19 +90,15 @@ TOLERANCE: Final = 0.01
 class ExportedSolids:
     """The solids of a cell, or of a part of it."""
 
-    file: bytes
-    """GLB."""
+    file: bytes  # GLB
     solids: int
-    open: tuple[str, ...]
-    """Names of those whose surface is not closed."""
+    open: tuple[str, ...]  # Names of those whose surface is not closed
     weighed: tuple[Weighed, ...]
     """Bodies of which the density is known."""
 
 
 def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
-    """The solids of an exhibit; equal exhibits give equal bytes; raises InvalidInput if its task exports no scene, or
-    has no such part.
-    """
+    """The solids of an export; the same bytes for the same state; raises InvalidInput if there is no such part."""
     exported = task(exhibit.task).exported(exhibit.world, exhibit.truth, exhibit.moment)
     parts = {**exported.parts, WHOLE: None}
     if part not in parts:
@@ -112,9 +168,7 @@ class Export(Record, frozen=True, kw_only=True):
 
 
 def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:
-    """Write the folder of a scene; raises InvalidInput if it cannot be written there, there is nothing to show, or its
-    task exports no scene.
-    """
+    """Write the folder of a scene; raises InvalidInput if there is no scene, or it cannot be written there."""
     check_folder(path, EXPORT, overwrite=overwrite)
     exhibit = shown()
     write_folder(path, scene_files(exhibit))
@@ -124,9 +178,7 @@ def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:
 
 
 def export_glb(path: Path, shown: Shown, *, part: str = WHOLE) -> Export:
-    """Write the solids of a cell, or of a part of it, in the place of any GLB file that is there; raises InvalidInput
-    if it cannot be written there, there is nothing to show, or its task has no such part.
-    """
+    """Write the solids of a cell, or of a part of it, over any GLB file; raises InvalidInput if that is impossible."""
     check_place(path, GLB)
     exhibit = shown()
     made = exported_solids(exhibit, part)
@@ -139,19 +191,15 @@ def export_glb(path: Path, shown: Shown, *, part: str = WHOLE) -> Export:
         world=exhibit.world,
         solids=made.solids,
         open=made.open,
-        weights=tuple(_weights(made)),
+        weights=tuple(
+            Weight(body=each.body, by_volume=each.mass, in_model=each.mass_there) for each in made.weighed
+        ),
         remarks=tuple(checks(made)),
     )
 
 
-def _weights(made: ExportedSolids) -> list[Weight]:
-    return [Weight(body=each.body, by_volume=each.mass, in_model=each.mass_there) for each in made.weighed]
-
-
 def export(path: Path, shown: Shown, *, part: str | None, overwrite: bool) -> Export:
-    """Write solids to a file whose name ends in .glb, and a scene to any other folder; raises InvalidInput if it cannot
-    be written there, or a part of a scene is asked for.
-    """
+    """Write solids to a file that ends in .glb, else a scene to a folder; raises InvalidInput if that is impossible."""
     if path.suffix == GLB.ending:
         return export_glb(path, shown, part=WHOLE if part is None else part)
     if part is not None:

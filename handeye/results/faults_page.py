@@ -19,15 +19,13 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
     meaning: str
     size: Size | None
     """None: it has no value."""
-    from_start: bool
-    """It can be there only from the beginning."""
+    from_start: bool  # It can be there only from the beginning
     usual_stage: int | None
     """Number of the stage with which it sets in where nobody names one; None: it is there from the beginning then."""
     expected: Expected
     must: str
     """What must happen with it, a sentence."""
     matrix: bool
-    """`handeye faults` tries it where nobody names others."""
 
 
 class FaultsReport(msgspec.Struct, frozen=True, kw_only=True):

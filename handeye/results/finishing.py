@@ -1,14 +1,33 @@
 """The end of a run, or a pause in it: account, verdict, pictures and result, in its folder."""
 
+import msgspec
+from msgspec import UNSET
+
 from handeye.core.files import write_whole
-from handeye.results.judging import Referee
-from handeye.results.outcome import outcome
+from handeye.results.judging import Referee, findings
 from handeye.results.pictures import keep_pictures
 from handeye.results.result import Result, to_json
+from handeye.results.summary import summary
 from handeye.runs.advance import Pause
 from handeye.runs.folder import PICTURES, RESULT, RunFolder
 from handeye.runs.host_seconds import Meter
+from handeye.runs.parts import deciding, name_of
 from handeye.runs.runner import Runner
+
+
+def outcome(
+    runner: Runner, pause: Pause, meter: Meter, *, judged: bool, referee: Referee | None = None
+) -> Result:
+    """The result of a run as it pauses; `judged`: the referee, by default the task's, looks at one that has ended."""
+    asked = judged and pause.kind != "break" and runner.system.cell is not None
+    found = findings(runner, pause, referee) if asked else None
+    built = runner.system.built() if asked and runner.undone else {}
+    result = summary(runner, pause, findings=found, built=built, host=meter.seconds(runner))
+    others = deciding(runner.setup.replaced) | ({} if referee is None else {"referee": name_of(referee)})
+    limits = runner.setup.limits if found is not None and referee is None else None
+    return msgspec.structs.replace(
+        result, limits=limits or UNSET, replaced=others or UNSET, without=runner.setup.without or UNSET
+    )
 
 
 def finished(
@@ -22,13 +41,7 @@ def finished(
 ) -> Result:
     """Finish a run, unless it only pauses; its result, which is kept in its folder with the pictures.
 
-    The result is written last: where there is one, all else is there, too. Raises InvalidInput if the folder cannot be
-    written to.
-
-    Args:
-        meter: measures what the run costs the host.
-        judged: the referee is called to a run that has ended.
-        referee: takes the place of the task's.
+    The result is written last: where there is one, all else is there, too. Raises InvalidInput if it cannot be written.
     """
     if pause.kind != "break":
         runner.finish()

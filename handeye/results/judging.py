@@ -17,11 +17,9 @@ Limits = Mapping[str, float]
 
 
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
-    """Ask a referee, by default that of the task, its limits those of the run.
+    """Findings of a referee, by default the task's with the limits of the run; none before the program's end.
 
-    There are no findings on a program that has not come to its end.
-    Where the arm has undone all it did, it is asked whether everything lies where it was found, and is remembered as
-    it was taught.
+    Where the arm has undone everything, whether all lies where it was found, and is remembered as it was taught.
     """
     if pause.kind != "end":
         return {}
@@ -39,9 +37,7 @@ def findings_so_far(runner: Runner) -> Findings:
 
 
 def checked_findings(referee: str, findings: object) -> Findings:
-    """Findings that a referee of somebody's own gave; the referee is told by its name; raises InvalidInput if they are
-    none.
-    """
+    """The findings of a caller's own referee; raises InvalidInput if they are none."""
     if not isinstance(findings, Mapping) or not all(
         isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
     ):
@@ -62,9 +58,7 @@ def checked_limits(limits: Limits) -> dict[str, float]:
 
 
 def check_limits(runner: Runner) -> None:
-    """Make sure before a run that each of its limits has a finding: at its end it would be late; raises InvalidInput if
-    one has none.
-    """
+    """Check before a run that each of its limits has a finding: at its end it would be late; raises InvalidInput."""
     if runner.setup.limits:
         limited(runner.task.judge(runner.cell.truth), runner.setup.limits)
 

@@ -28,7 +28,6 @@ from handeye.runs.folder import CHECKPOINTS, EVENTS, HOST, PLAN, RESULT, check_h
 from handeye.runs.host_seconds import HostSeconds, read_host_seconds
 from handeye.runs.parts import deciding
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.system import Listing
 from handeye.runs.systems import system_named
 from handeye.trace.eventlist import effective, read_events
 
@@ -39,15 +38,11 @@ class KeptRun:
 
     result: Result
     faults: tuple[str, ...] = ()
-    """What of the folder cannot be read, a sentence each."""
     left: bool = True
-    """The run has left a result."""
 
 
 def kept_run(path: Path) -> KeptRun:
-    """What the folder of a run tells of it; raises InvalidInput if it is no folder of a run, the run has not begun, or
-    what is there cannot be read.
-    """
+    """What the folder of a run tells of it; raises InvalidInput if it cannot be read, or the run has not begun."""
     faults = []
     if (path / RESULT).exists():
         result = read_result(path / RESULT)
@@ -104,7 +99,11 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
     begun, last = events[0], events[-1]
     if not isinstance(begun, RunStarted):
         raise BadFile(f"{path / EVENTS} is an event list without the start of a run")
-    listing = _listing(path, begun)
+    kind, data = system_named(begun.system), read_whole(path / PLAN)
+    plan = kind.decode(data, str(path / PLAN))
+    if written_digest(kind.encode(plan)) != begun.plan:
+        raise BadFile(f"{path / PLAN} is not the plan that was carried out")
+    listing = kind.listing(plan)
     stages = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}
     if not stages <= set(listing.stages):
         raise BadFile(f"{path / EVENTS} tells of stages that the plan beside it lacks")
@@ -113,11 +112,13 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
     state = None if checkpoint is None or checkpoint.snapshot is None else checkpoint.snapshot.state
     calibration = None if state is None else system_named(begun.system).calibration(state)
     call = _call(events)
+    turn = next((e for e in reversed(events) if isinstance(e, StageStarted | StageFinished)), None)
+    done = turn is None or (isinstance(turn, StageFinished) and turn.status != "stopped")
     result = Result(
         assembled=None,
         completed=isinstance(last, RunFinished) and last.completed,
         paused=not isinstance(last, RunFinished),
-        stopped_at=_stage(events),
+        stopped_at=None if done or turn is None else turn.stage,
         error=None if call is None else call.error,
         message=_message(events, call),
         interventions=tuple(interventions(events)),
@@ -137,17 +138,6 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
     return KeptRun(result=result, faults=(*faults, *unread, *damaged), left=False)
 
 
-def _listing(path: Path, begun: RunStarted) -> Listing:
-    """Stages and steps of the plan in a folder; raises InvalidInput if it is not sound, or not the one that is carried
-    out.
-    """
-    kind, data = system_named(begun.system), read_whole(path / PLAN)
-    plan = kind.decode(data, str(path / PLAN))
-    if written_digest(kind.encode(plan)) != begun.plan:
-        raise BadFile(f"{path / PLAN} is not the plan that was carried out")
-    return kind.listing(plan)
-
-
 def _host(path: Path) -> tuple[HostSeconds, list[str]]:
     """What a run has cost the host, as far as that is recorded, and what is wrong with the record."""
     try:
@@ -160,13 +150,6 @@ def _call(events: Sequence[AnyEvent]) -> OperatorCalled | None:
     """The call of the operator that a run stands at."""
     standing = [event for event in events if not isinstance(event, StageFinished | RunFinished)]
     return standing[-1] if standing and isinstance(standing[-1], OperatorCalled) else None
-
-
-def _stage(events: Sequence[AnyEvent]) -> str | None:
-    """The stage under way, or the one in which a run was stopped."""
-    turn = next((e for e in reversed(events) if isinstance(e, StageStarted | StageFinished)), None)
-    done = turn is None or (isinstance(turn, StageFinished) and turn.status != "stopped")
-    return None if done or turn is None else turn.stage
 
 
 def _message(events: Sequence[AnyEvent], call: OperatorCalled | None) -> str:

@@ -124,10 +124,7 @@ def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]
 
 
 def period(result: Result) -> HistoricalTiming | None:
-    """The times of 1973, or of whenever it was, if they are those of this program; None of a task unknown here.
-
-    In its day nothing was undone.
-    """
+    """The times of 1973, or of whenever it was, if they are those of this program; in its day nothing was undone."""
     if result.apart is not UNSET:
         return None
     task = known(result.task)

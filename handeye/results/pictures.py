@@ -17,14 +17,11 @@ from handeye.runs.systems import written
 from handeye.vision.drawing import annotate
 
 _WIDE: Final = 480
-"""Points of a small picture, from left to right."""
 _QUALITY: Final = 70
 
 
 def annotated_png(system: RunningSystem, name: str) -> bytes:
-    """A picture the program took, with what it found in it, as a PNG file; raises InvalidInput if what it found is so
-    far outside that it cannot be drawn.
-    """
+    """A picture with its findings, as a PNG file; raises InvalidInput if they are too far outside to be drawn."""
     done, data = cv2.imencode(".png", _annotated(system, name))
     assert done
     return data.tobytes()
@@ -48,9 +45,7 @@ def _annotated(system: RunningSystem, name: str) -> NDArray[np.uint8]:
 
 
 def keep_pictures(folder: Path, runner: Runner) -> None:
-    """Write the program's pictures, and photographs of the cell as it is where there is OpenGL; raises InvalidInput if
-    the folder cannot be written to.
-    """
+    """Write the program's pictures, and with OpenGL photographs of the cell as it is; raises InvalidInput."""
     try:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
     except OSError as error:

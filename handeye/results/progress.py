@@ -23,19 +23,14 @@ from handeye.program.events import (
 from handeye.runs.observer import Observer
 from handeye.trace.sentences import sentence
 
-_CLOCK: Final = 7
-"""Columns of the time."""
+_CLOCK: Final = 7  # Columns of the time
 _BAR: Final = 12
-_STATEMENT: Final = 8
-"""Columns that are too few to tell a statement by."""
+_STATEMENT: Final = 8  # Columns that are too few to tell a statement by
 _CALIBRATING: Final = "calibrating: view {} of {}"
 
 
 class Progress(Observer):
-    """Shows how far the camera is calibrated, then the stage, the statement being executed, and the time of the run.
-
-    Without a terminal it prints one line a stage.
-    """
+    """Shows calibration, stage, statement and time of a run; without a terminal it prints one line a stage."""
 
     def __init__(self, stages: tuple[str, ...], console: Console) -> None:
         self._stages = stages

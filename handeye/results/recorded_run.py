@@ -13,23 +13,14 @@ from handeye.trace.trace import Trace
 
 
 def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> RecordedRun:
-    """A run of which the trace was read.
-
-    Args:
-        run: its folder, or its trace.
-        whole: the trace was read to its end.
-    """
+    """A run of which the trace was read, with what its folder (`run`) tells besides."""
     result, remarks = _result(run)
-    return RecordedRun(trace=trace, whole=whole, result=result, end=_end(run, trace), remarks=remarks)
-
-
-def _end(run: Path, trace: Trace) -> bytes | None:
-    """The picture of its end in the folder of a run: that which shows the work."""
     task = known(trace.head.task)
     views = () if task is None else task.photographs
     files = (run / PICTURES / f"end_{view}{ending}" for view in views[-1:] for ending in (".png", ".webp"))
     found = next(filter(Path.is_file, files), None)
-    return None if found is None else read_whole(found)
+    end = None if found is None else read_whole(found)
+    return RecordedRun(trace=trace, whole=whole, result=result, end=end, remarks=remarks)
 
 
 def _result(run: Path) -> tuple[Result | None, tuple[str, ...]]:

@@ -14,8 +14,7 @@ from handeye.core.variation import WorldSpec
 from handeye.judge.finding import Finding, Relation
 from handeye.program.senses import Sense
 
-_LARGEST: Final = 1 << 24
-"""Bytes: thousands of times what a result has."""
+_LARGEST: Final = 1 << 24  # Bytes: thousands of times what a result has
 Status = Literal["done", "under way", "skipped", "stopped", "not reached", "undone"]
 """How far a stage has come."""
 

@@ -38,15 +38,11 @@ from handeye.vision.calibration import Calibration
 def summary(
     runner: Runner, pause: Pause, *, findings: Findings | None, built: Findings, host: HostSeconds
 ) -> Result:
-    """Summarize a run.
-
-    Args:
-        findings: the referee's; None if nobody was asked.
-        built: the referee's on what a job has built and taken back since; none: it has not.
-        host: what the run has cost the host.
-    """
+    """Summarize a run; `built`: findings on what a job has built and taken back since."""
     completed = pause.kind == "end"
     names = runner.listing.stages
+    cell = runner.system.cell
+    renderer = Renderer(method="none") if cell is None else cell.renderer
     return Result(
         assembled=_assembled(runner, findings, built, completed=completed),
         apart=(all_right(findings) if findings else None) if runner.undone else UNSET,
@@ -65,7 +61,7 @@ def summary(
         program=runner.listing.name,
         seed=runner.setup.world.seed,
         world=runner.setup.world,
-        camera=_camera(runner),
+        camera=camera_report(renderer, runner.kind.calibration(runner.system.state)),
         versions=versions(),
     )
 
@@ -161,12 +157,6 @@ def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
         elif isinstance(event, CameraBusy) and event.action == "wait":
             busy -= event.seconds
     return max(busy - max(ready - clock, 0.0), 0.0)
-
-
-def _camera(runner: Runner) -> CameraReport:
-    cell = runner.system.cell
-    renderer = Renderer(method="none") if cell is None else cell.renderer
-    return camera_report(renderer, runner.kind.calibration(runner.system.state))
 
 
 def camera_report(renderer: Renderer, calibration: Calibration | None) -> CameraReport:

@@ -20,7 +20,6 @@ class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
     value: float
     unit: str
     si: float
-    """The value in SI units."""
     distribution: str
     spread: float | tuple[float, float] | None
     """Sigma, half range or size at the level of this world; least and greatest of a range."""

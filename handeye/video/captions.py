@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from handeye.cell.photograph import Photograph
 
-Mask = NDArray[np.float32]
-"""Ink coverage of each point, 0 to 1, shape (height, width)."""
+Mask = NDArray[np.float32]  # Ink coverage of each point, 0 to 1, shape (height, width)
 _BAND, _BAR, _LETTERS, _MARGIN = 0.105, 0.016, 0.05, 0.025
 """Heights of the caption band, the stage bar below it and the letters, and the margin, as fractions of the frame
 height.
@@ -68,7 +67,8 @@ def _put_words(frame: Photograph, caption: Caption) -> None:
     band = frame[top:bottom]
     margin = round(2 * _MARGIN * height)
     clock = lettered(caption.clock, band.shape[:2], width, right=True, margin=margin)
-    free = width - 3 * margin - _inked(clock)
+    columns = np.flatnonzero(clock.any(axis=0))
+    free = width - 3 * margin - (int(np.ptp(columns)) if len(columns) else 0)
     ink = np.maximum(clock, lettered(caption.words, band.shape[:2], free, margin=margin))[..., None]
     band[:] = (band * _DARK * (1 - ink) + _INK * ink).astype(np.uint8)
 
@@ -88,7 +88,7 @@ def _put_bar(frame: Photograph, caption: Caption) -> None:
 def lettered(words: str, size: Sequence[int], room: int, *, margin: int, right: bool = False) -> Mask:
     """A line of text in the middle of a band (height, width), within `room` (points)."""
     height, width = size
-    words, scale = _fitted(words, _FINER * height * _LETTERS / _BAND / _letter_height(), _FINER * room)
+    words, scale = _fitted(words, _FINER * height * _LETTERS / _BAND / _extent("M", 1)[1], _FINER * room)
     long, high = _extent(words, scale)
     left = _FINER * (width - margin) - long if right else _FINER * margin
     large = np.zeros((_FINER * height, _FINER * width), dtype=np.uint8)
@@ -116,16 +116,5 @@ def _extent(words: str, scale: float) -> tuple[int, int]:
     return long, high
 
 
-def _letter_height() -> float:
-    """Height of a capital at scale 1, points."""
-    return float(_extent("M", 1)[1])
-
-
 def _weight(scale: float) -> int:
     return max(round(1.6 * scale), 1)
-
-
-def _inked(mask: Mask) -> int:
-    """Width of the inked area."""
-    columns = np.flatnonzero(mask.any(axis=0))
-    return int(np.ptp(columns)) if len(columns) else 0

@@ -16,11 +16,18 @@ from numpy.typing import NDArray
 from handeye.cell.photograph import Photograph
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.files import Kind
-from handeye.video.frames import RATE, Frames, bgr
+
+RATE: Final = 12  # frames a second
+Frames = Iterator[Photograph]
+
+
+def bgr(frame: Photograph) -> Photograph:
+    """A frame in OpenCV's order: blue, green, red."""
+    return np.ascontiguousarray(frame[:, :, ::-1])
+
 
 _QUALITY: Final = 75
-_ALIKE: Final = 5
-"""Differences that libwebp ignores at this quality."""
+_ALIKE: Final = 5  # Differences that libwebp ignores at this quality
 _BLOCK: Final = 8  # side of an ignored block, points
 
 
@@ -75,7 +82,9 @@ def webm(frames: Frames, held: int) -> bytes:
         for _ in range(held):
             writer.write(bgr(frame))
         writer.release()
-        return _numbered(path.read_bytes())
+        data = path.read_bytes()
+        track = _TRACK.search(data)
+        return data if track is None else data.replace(track[1], (1).to_bytes(8))
 
 
 def _writer(path: Path, width: int, height: int) -> cv2.VideoWriter:
@@ -103,12 +112,6 @@ def _quiet() -> Iterator[None]:
     finally:
         os.dup2(kept, 2)
         os.close(kept)
-
-
-def _numbered(data: bytes) -> bytes:
-    """A WebM file with track number 1."""
-    track = _TRACK.search(data)
-    return data if track is None else data.replace(track[1], (1).to_bytes(8))
 
 
 _MAX_BYTES: Final = 1 << 30  # of a WebP animation's frames, all in memory at once
@@ -163,4 +166,3 @@ REFUSED: Final = {
     (".png", ".apng"): "an animated PNG would be twenty times as large",
     (".mp4", ".m4v", ".mov"): "every browser would play H.264 there, which OpenCV does not write",
 }
-"""Endings that are refused, and why."""

@@ -13,9 +13,8 @@ from handeye.cell.posed import posed
 from handeye.core.entries import require
 from handeye.core.errors import BadFile, Taken
 from handeye.core.files import check_place, write_over
-from handeye.report.facts.scene import check_scene
 from handeye.report.facts.seen import SeenPicture
-from handeye.report.recorded import RecordedRun
+from handeye.report.recorded import RecordedRun, check_scene
 from handeye.trace.trace import Trace
 from handeye.video.captions import captioned
 from handeye.video.formats import format_of

@@ -18,7 +18,7 @@ from handeye.trace.reading import stage_names
 from handeye.trace.stages import BROKEN_OFF, Stage
 from handeye.trace.trace import SHOWN, Trace
 from handeye.video.captions import Caption
-from handeye.video.frames import RATE
+from handeye.video.formats import RATE
 from handeye.video.passages import Passage, Span, at_speed, passage_at, passages, within
 from handeye.video.request import FOLLOW, LONGEST, ORBIT, SECONDS, VideoRequest
 

@@ -10,7 +10,7 @@ from report_pages import Node, renamed, tree
 from handeye.api.trace import Trace
 from handeye.core.errors import InvalidInput
 from handeye.report import animation
-from handeye.report.facts import scene
+from handeye.report import recorded as scene
 from handeye.report.recorded import RecordedRun
 from handeye.trace.reading import read_trace_as
 

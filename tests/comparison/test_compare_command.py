@@ -14,8 +14,7 @@ from report_pages import changed, recorded
 from told_runs import saved, told
 from toy_system import TOY
 
-from handeye.comparison.comparison import Comparison, comparison
-from handeye.comparison.conditions import Condition
+from handeye.comparison.comparison import Comparison, Condition, comparison
 from handeye.comparison.findings import corrections
 from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.text import comparison_text

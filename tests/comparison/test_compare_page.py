@@ -71,7 +71,7 @@ def test_the_same_traces_give_the_same_page(run: RecordedRun) -> None:
 def traces(command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two traces, whose scene this test does not draw."""
     monkeypatch.setattr(animation, "scene_bytes", lambda _: b"scene")
-    monkeypatch.setattr("handeye.report.facts.scene.check_scene", lambda _: None)
+    monkeypatch.setattr("handeye.report.recorded.check_scene", lambda _: None)
     for name in ("a.mcap", "b.mcap"):
         record(tmp_path / name)
 
@@ -112,7 +112,7 @@ def test_without_a_scene_the_page_says_so_and_has_all_else(
     def lacking(_: RecordedRun) -> None:
         raise InvalidInput("a.mcap is of another scene: here there is no `base`")
 
-    monkeypatch.setattr("handeye.report.facts.scene.check_scene", lacking)
+    monkeypatch.setattr("handeye.report.recorded.check_scene", lacking)
     assert command("compare", "a.mcap", "b.mcap", "-o", "page.html")[0] == 0
     page = tree(Path("page.html").read_text(encoding="utf-8"))
     said = "There is nothing to walk round in: a.mcap is of another scene: here there is no `base`."

@@ -12,9 +12,7 @@ from handeye.planfile.store import encode
 from handeye.program import events as happened
 from handeye.program.diagnosis.causes import PlacesTried
 from handeye.program.events import AnyEvent
-from handeye.report.facts.corrections import Mover, corrections
-from handeye.report.facts.planned import EndReason, ends
-from handeye.report.facts.searches import searches
+from handeye.report.facts.planned import EndReason, Mover, corrections, ends, searches
 from handeye.report.recorded import RecordedRun
 
 

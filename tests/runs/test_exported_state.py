@@ -8,7 +8,7 @@ from toy_system import begin_toy
 
 from handeye.core.errors import InvalidInput
 from handeye.core.variation import WorldSpec
-from handeye.results.exported_scene import scene_files
+from handeye.results.export import scene_files
 from handeye.runs.advance import advance
 from handeye.runs.exported_state import ExportedState, kept_state
 from handeye.runs.folder import open_new

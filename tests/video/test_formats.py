@@ -10,8 +10,7 @@ import pytest
 
 from handeye.cell.photograph import Photograph
 from handeye.core.errors import InvalidInput
-from handeye.video.formats import format_of, settled, webm, webp
-from handeye.video.frames import RATE
+from handeye.video.formats import RATE, format_of, settled, webm, webp
 
 LEVELS = (40, 90, 140, 190)
 

@@ -25,8 +25,15 @@ def command(run: RecordedRun) -> str | None:
     else:
         judged = run.result is not None and run.result.assembled is not None
         words = ["run", "plan.json", *option(head.task), *(["--judge"] if judged else [])]
+    kind = _CAMERAS.get(run.trace.head.camera.method)
     return shlex.join(
-        ["handeye", *words, *world_words(head.world, head.task), *sense_words(head.lacking), *_camera(run)]
+        [
+            "handeye",
+            *words,
+            *world_words(head.world, head.task),
+            *sense_words(head.lacking),
+            *([] if kind is None else ["--camera", kind]),
+        ]
     )
 
 
@@ -37,11 +44,6 @@ def is_shipped(digest: str) -> bool:
     assert task.script is not None
     made = (plans() / task.script).with_suffix(".plan.json")
     return made.is_file() and written_digest(made.read_bytes()) == digest
-
-
-def _camera(run: RecordedRun) -> list[str]:
-    kind = _CAMERAS.get(run.trace.head.camera.method)
-    return [] if kind is None else ["--camera", kind]
 
 
 def sense_words(senses: Sequence[Sense]) -> list[str]:

@@ -17,10 +17,8 @@ from handeye.trace.stages import DoneStep, done_steps
 class Trip(NamedTuple):
     """A guard that was met."""
 
-    time: float
-    """s since the run began."""
-    value: float
-    """N, N m, or finger switches as a mask."""
+    time: float  # s since the run began
+    value: float  # N, N m, or finger switches as a mask
     limit: float
 
 
@@ -35,10 +33,8 @@ class GuardedMotion:
     """Ends of the periods, shape (n,), s since the run began."""
     values: Array
     """Force along the guard's axis (N), moment about it, torque of the screwdriver (N m), or switches, shape (n,)."""
-    limit: float
-    """N, N m, or switches."""
+    limit: float  # N, N m, or switches
     trip: Trip | None
-    """None: it was not met."""
 
 
 def guarded_motions(run: RecordedRun) -> tuple[GuardedMotion, ...]:
@@ -67,6 +63,7 @@ def _motions(run: RecordedRun, forces: Forces) -> Iterator[GuardedMotion]:
 def _motion(run: RecordedRun, forces: Forces, step: DoneStep, watched: Array, stage: str) -> GuardedMotion:
     """A motion, by the servo periods in which a guard watched."""
     kind = GuardKind(str(forces.guard[watched[0]]))
+    met = next((event for event in step.events if isinstance(event, GuardTripped)), None)
     return GuardedMotion(
         stage=stage,
         step=step.started,
@@ -74,13 +71,8 @@ def _motion(run: RecordedRun, forces: Forces, step: DoneStep, watched: Array, st
         times=forces.times[watched] - run.trace.head.time,
         values=forces.value[watched],
         limit=float(forces.limit[watched[-1]]),
-        trip=_trip(run, step),
+        trip=None if met is None else Trip(run.seconds(met.time), met.value, met.limit),
     )
-
-
-def _trip(run: RecordedRun, step: DoneStep) -> Trip | None:
-    met = next((event for event in step.events if isinstance(event, GuardTripped)), None)
-    return None if met is None else Trip(run.seconds(met.time), met.value, met.limit)
 
 
 def _stages(run: RecordedRun) -> dict[tuple[float, int], str]:

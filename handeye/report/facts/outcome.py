@@ -24,16 +24,11 @@ class Outcome:
     """The outcome of a run."""
 
     kind: Kind
-    time: float
-    """The moment to be looked at, s since the run began."""
+    time: float  # The moment to be looked at, s since the run began
     stage: str | None = None
-    """The stage under way then."""
-    step: StepStarted | None = None
-    """The step under way then, or done last."""
+    step: StepStarted | None = None  # The step under way then, or done last
     call: OperatorCalled | None = None
-    """The call of the operator that it was stopped by."""
     wrong: tuple[Check, ...] = ()
-    """What the referee found wrong."""
     doubts: tuple[Check, ...] = ()
     """What he found not as it should be, and does not hold against it."""
 

@@ -1,18 +1,26 @@
-"""Planned and found: where motions were to end, where they did, and why."""
+"""Planned and found: where motions ended and why, which goals were moved by what, and the searches."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
 from handeye.core.pose import Array
+from handeye.core.record import Vector3
+from handeye.program.diagnosis.causes import PlacesTried
 from handeye.program.events import (
     Adjusted,
     AnyEvent,
+    ErrorRaised,
     GuardTripped,
+    PartSeen,
+    Restored,
+    Saved,
+    SearchAdvanced,
     StepStarted,
 )
+from handeye.program.operation import Operation, Use
 from handeye.report.recorded import RecordedRun
 from handeye.trace.account import ASTRAY
 from handeye.trace.stages import DoneStep, done_steps
@@ -31,11 +39,9 @@ class EndReason(StrEnum):
 class MotionEnd:
     """The end of a motion."""
 
-    time: float
-    """s since the run began."""
+    time: float  # s since the run began
     step: StepStarted
-    off: float
-    """Distance of the hand from where the plan has it, m."""
+    off: float  # Distance of the hand from where the plan has it, m
     why: EndReason
 
 
@@ -69,3 +75,152 @@ def _why(events: list[AnyEvent], off: Array, before: Array) -> EndReason:
         return EndReason.MOVED
     carried = np.linalg.norm(off) > ASTRAY and np.linalg.norm(off - before) < np.linalg.norm(off)
     return EndReason.CARRIED if carried else EndReason.PLANNED
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Search:
+    """A search that went on from its first place."""
+
+    step: StepStarted  # The step that sent it on last
+    times: tuple[float, ...]  # When it went on, s since the run began
+    places: tuple[tuple[float, float], ...]
+    """All of them, from the first on: x and y from the first, m."""
+    exhausted: bool
+
+
+def searches(run: RecordedRun) -> tuple[Search, ...]:
+    """The searches that went on, in order."""
+    return tuple(_search(run, tries) for tries in _tries(run.trace.events))
+
+
+def _tries(events: tuple[AnyEvent, ...]) -> Iterator[list[tuple[StepStarted, AnyEvent]]]:
+    """The steps that went on in a search, with what came of it, search by search."""
+    step: StepStarted | None = None
+    tries: list[tuple[StepStarted, AnyEvent]] = []
+    for event in events:
+        if isinstance(event, StepStarted):
+            step = event
+        if step is None or not (
+            isinstance(event, SearchAdvanced)
+            or (isinstance(event, ErrorRaised) and isinstance(event.cause, PlacesTried))
+        ):
+            continue
+        if isinstance(event, SearchAdvanced) and event.count == 1 and tries:
+            yield tries
+            tries = []
+        tries.append((step, event))
+    if tries:
+        yield tries
+
+
+def _search(run: RecordedRun, tries: list[tuple[StepStarted, AnyEvent]]) -> Search:
+    gone_on = [event for _, event in tries if isinstance(event, SearchAdvanced)]
+    return Search(
+        step=tries[-1][0],
+        times=tuple(run.seconds(event.time) for event in gone_on),
+        places=((0.0, 0.0), *(event.offset for event in gone_on)),
+        exhausted=isinstance(tries[-1][1], ErrorRaised),
+    )
+
+
+class Mover(StrEnum):
+    """What a goal is moved by."""
+
+    SAVE = "saved in"
+    LOOK = "seen in"
+    SEARCH = "of the search in"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cause:
+    """What moved a goal: a difference that was saved, a part that was seen, or the place that a search was at."""
+
+    name: str
+    by: Mover
+    place: str
+    """The line of its SAVE, of the look, or that sent the search on."""
+    time: float
+    """When that was, s since the run began."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Correction:
+    """A goal that was moved off its planned place before the motion began."""
+
+    time: float  # s since the run began
+    step: StepStarted
+    goal: str
+    shift: Vector3  # m
+    causes: tuple[Cause, ...]
+
+
+def corrections(run: RecordedRun) -> tuple[Correction, ...]:
+    """The goals that were moved, in order."""
+    return tuple(_corrections(run))
+
+
+def _corrections(run: RecordedRun) -> Iterator[Correction]:
+    known: dict[tuple[Mover, str], Cause] = {}
+    search = _Search()
+    for step in done_steps(run.trace.events):
+        search = _Search() if _concerns_search(_operation(run, step).writes) else search
+        for event in step.events:
+            match event:
+                case Saved():
+                    known[Mover.SAVE, event.name] = _cause(run, step, event.name, event.time, Mover.SAVE)
+                case PartSeen():
+                    known[Mover.LOOK, event.part] = _cause(run, step, event.part, event.time, Mover.LOOK)
+                case SearchAdvanced():
+                    cause = _cause(run, step, f"place {event.count + 1}", event.time, Mover.SEARCH)
+                    search = _Search(offset=event.offset, cause=cause)
+                case Adjusted():
+                    yield Correction(
+                        time=run.seconds(event.time),
+                        step=step.started,
+                        goal=event.goal,
+                        shift=event.shift,
+                        causes=tuple(_causes(run, step, event, known, search)),
+                    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Search:
+    """The place that a search is at."""
+
+    offset: tuple[float, float] = (0.0, 0.0)  # From its first, m
+    cause: Cause | None = None  # None: it is at its first
+
+
+def _cause(run: RecordedRun, step: DoneStep, name: str, time: float, by: Mover) -> Cause:
+    return Cause(name=name, by=by, place=step.started.place, time=run.seconds(time))
+
+
+def _causes(
+    run: RecordedRun,
+    step: DoneStep,
+    adjusted: Adjusted,
+    known: Mapping[tuple[Mover, str], Cause],
+    search: _Search,
+) -> Iterator[Cause]:
+    """What moved a goal: the look at its part, for what nothing else explains; differences, and the search."""
+    restored = [event for event in step.events if isinstance(event, Restored)]
+    rest = np.subtract(adjusted.shift, np.sum([[0, 0, 0], *(event.difference for event in restored)], axis=0))
+    searched = _concerns_search(_operation(run, step).reads) and search.cause is not None
+    if searched:
+        rest = rest - np.array([*search.offset, 0.0])
+    position = run.program.positions.get(adjusted.goal)
+    if position is not None and position.of is not None and np.linalg.norm(rest) > ASTRAY:
+        yield from filter(None, [known.get((Mover.LOOK, position.of))])
+    yield from filter(None, (known.get((Mover.SAVE, event.name)) for event in restored))
+    if searched and search.cause is not None:
+        yield search.cause
+
+
+def _concerns_search(uses: Iterable[Use]) -> bool:
+    """The search that is set up is among what an operation reads or writes."""
+    return any(use.kind == "search" for use in uses)
+
+
+def _operation(run: RecordedRun, step: DoneStep) -> Operation:
+    """What a step does."""
+    return run.program.steps[step.started.step].operation

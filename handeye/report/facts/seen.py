@@ -11,7 +11,7 @@ from handeye.program.events import ErrorRaised, PartInspected, PartMatched, Part
 from handeye.report.recorded import RecordedRun
 from handeye.trace.channels import ANNOTATIONS, nanoseconds
 from handeye.trace.messages import read_annotations
-from handeye.trace.stages import DoneStep, done_steps
+from handeye.trace.stages import done_steps
 from handeye.vision.marks import Mark
 
 Finding = PartSeen | PartInspected | PartMatched | ErrorRaised
@@ -21,17 +21,12 @@ Finding = PartSeen | PartInspected | PartMatched | ErrorRaised
 class SeenPicture:
     """A picture that was taken."""
 
-    time: float
-    """s since the run began."""
+    time: float  # s since the run began
     name: str
-    lens: float
-    """Focal length, m."""
-    picture: Picture
-    """Levels 0 to 15, shape (rows, columns)."""
+    lens: float  # Focal length, m
+    picture: Picture  # Levels 0 to 15, shape (rows, columns)
     marks: tuple[Mark, ...]
-    """Marks of what was found in it."""
     findings: tuple[Finding, ...]
-    """What that was, or why it was not found."""
 
 
 def seen_pictures(run: RecordedRun) -> tuple[SeenPicture, ...]:
@@ -76,13 +71,8 @@ def _findings(run: RecordedRun) -> dict[float, list[Finding]]:
     taken: dict[str, float] = {}
     for step in done_steps(run.trace.events):
         taken |= {event.picture: event.time for event in step.events if isinstance(event, PictureTaken)}
-        examined = _examined(run, step) if taken else None
+        examined = run.program.steps[step.started.step].operation.examines if taken else None
         if examined in taken:
             findings = [event for event in step.events if isinstance(event, Finding)]
             found.setdefault(taken[examined], []).extend(findings)
     return found
-
-
-def _examined(run: RecordedRun, step: DoneStep) -> str | None:
-    """The name of the picture that a step looks at; None: at none."""
-    return run.program.steps[step.started.step].operation.examines

@@ -1,10 +1,17 @@
-"""What a run was told by its senses, and told people, one after another."""
+"""What a run was told by its senses, at a moment and event by event, and told people."""
 
+from dataclasses import dataclass
 from typing import Final, NamedTuple
 
+import msgspec
+from msgspec import UNSET
+
+from handeye.core.errors import BadFile
 from handeye.program import events as happened
 from handeye.program.events import AnyEvent
 from handeye.report.recorded import RecordedRun
+from handeye.trace.channels import HAND, nanoseconds
+from handeye.trace.hand_message import Axes, read_hand
 
 SENSED: Final = (
     happened.Adjusted,
@@ -29,14 +36,12 @@ SENSED: Final = (
     happened.SearchAdvanced,
     happened.SystemEvent,
 )
-"""Events worth a caption."""
 
 
 class CaptionedEvent(NamedTuple):
     """An event worth a caption."""
 
-    time: float
-    """s since the run began."""
+    time: float  # s since the run began
     event: AnyEvent
 
 
@@ -47,3 +52,31 @@ def told(run: RecordedRun) -> tuple[CaptionedEvent, ...]:
         for event in run.trace.events
         if isinstance(event, SENSED)
     )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Senses:
+    """What hand and fingers told in a servo period."""
+
+    gap: float  # Opening of the fingers, m
+    fingers: tuple[bool, bool]
+    force: float | None  # Size of the force of the hand, N; None: it was not estimated
+
+
+def senses_at(run: RecordedRun, seconds: float) -> Senses | None:
+    """What the senses told at a time since the run began, if recorded; raises InvalidInput if that is damaged."""
+    until = nanoseconds(run.trace.head.time + seconds)
+    told = [message for message in run.trace.messages if message.topic == HAND and message.time <= until]
+    if not told:
+        return None
+    try:
+        message = read_hand(told[-1].data)
+        force = message.force
+        size = (
+            None
+            if force is UNSET or not isinstance(force, Axes)
+            else float((force.array() ** 2).sum() ** 0.5)
+        )
+        return Senses(gap=message.gap, fingers=(message.finger_1, message.finger_2), force=size)
+    except msgspec.DecodeError:
+        raise BadFile(f"{run.trace.name}: a message about the hand cannot be understood") from None

@@ -1,4 +1,4 @@
-"""The whole page: one file that fetches nothing, and runs no script but its own."""
+"""The whole page, with or without a plan: one file that fetches nothing, and runs no script but its own."""
 
 from base64 import b64encode
 from collections.abc import Iterator, Sequence
@@ -7,33 +7,29 @@ from pathlib import Path
 from typing import Final
 
 from handeye.core.files import Kind
-from handeye.core.markup import Markup, element
+from handeye.core.markup import Markup, element, section
 from handeye.core.plain_text import printable
 from handeye.report import player
 from handeye.report.animation import Animation
-from handeye.report.facts.corrections import corrections
 from handeye.report.facts.felt import guarded_motions, lost_trips
 from handeye.report.facts.outcome import outcome
-from handeye.report.facts.planned import ends
-from handeye.report.facts.searches import searches
+from handeye.report.facts.planned import corrections, ends, searches
 from handeye.report.facts.seen import lost_pictures, seen_pictures
 from handeye.report.facts.told import told
-from handeye.report.page.channels import channels_section
-from handeye.report.page.felt import How, felt_section
+from handeye.report.page.felt import How, channels_section, felt_section
 from handeye.report.page.moments import moments
 from handeye.report.page.planned import planned_section
-from handeye.report.page.record import record_section
-from handeye.report.page.referee import referee_section
+from handeye.report.page.record import facts, record_section
+from handeye.report.page.referee import findings_table, referee_section
 from handeye.report.page.seen import seen_section
 from handeye.report.page.timing import timing_section
-from handeye.report.page.title import title
-from handeye.report.page.verdict import verdict
+from handeye.report.page.verdict import title, verdict
 from handeye.report.page.view import view_section, widths
 from handeye.report.photographs import Album
 from handeye.report.recorded import RecordedRun
+from handeye.trace.account import account
 
 MARK: Final = "<!doctype html>\n<!-- handeye report -->\n"
-"""What every report begins with."""
 REPORT: Final = Kind("report of handeye", MARK.encode(), ending=".html")
 
 
@@ -104,3 +100,23 @@ def _digest(content: str) -> str:
 def resource(name: str) -> str:
     """A file that goes into the page as it is."""
     return Path(__file__).with_name(name).read_text(encoding="utf-8")
+
+
+def account_page(run: RecordedRun) -> bytes:
+    """The report of a run of any system; the same for the same trace and result."""
+    came = outcome(run)
+    said = title(run, came)
+    top = element("header", element("h1", said), class_="failed" if came.failed else None)
+    body = element("body", top, element("main", *_account_sections(run)))
+    name = printable(f"{run.trace.head.program}: {said}")
+    page = element("html", head(name, resource("page.css"), []), body, lang="en")
+    return f"{MARK}{page}\n".encode()
+
+
+def _account_sections(run: RecordedRun) -> Iterator[Markup]:
+    yield section("account", "What happened", element("pre", "\n".join(account(run.trace.events))))
+    yield timing_section(run)
+    yield channels_section(run.trace)
+    if run.result is not None and run.result.checks:
+        yield section("referee", "What the referee measured", findings_table(run.result.checks))
+    yield section("record", "World and versions", facts(run))

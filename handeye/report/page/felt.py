@@ -1,4 +1,4 @@
-"""What the hand felt: for every guarded motion, what its guard looked at against time."""
+"""What the hand felt in guarded motions, and what machines sensed on channels of their own, against time."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from enum import StrEnum
@@ -12,7 +12,9 @@ from handeye.program.guards import GuardKind
 from handeye.report.facts.felt import GuardedMotion
 from handeye.report.page.figures import exact_clock, felt
 from handeye.report.page.plots import HIGH, WIDE, Scale, curve, dot, drawing, rule, words
+from handeye.trace.replay import ChannelCurve
 from handeye.trace.thinning import FELT
+from handeye.trace.trace import Trace
 
 _TOP, _BOTTOM = 14.0, HIGH - 16.0
 
@@ -95,7 +97,7 @@ def _strokes(
     yield rule(0, y(motion.limit), WIDE, y(motion.limit), class_="limit")
     yield words(2, y(motion.limit) - 3, _short(motion.guard, motion.limit), class_="limit")
     yield curve(np.array([x(t) for t in times]), np.array([y(v) for v in values]), class_="curve")
-    yield words(WIDE - 2, HIGH - 4, _length(motion), anchor="end")
+    yield words(WIDE - 2, HIGH - 4, f"{float(motion.times[-1] - motion.times[0]):.1f} s", anchor="end")
     if motion.trip is not None:
         yield dot(x(motion.trip.time), y(motion.trip.value), 3.2, class_="trip")
 
@@ -107,6 +109,24 @@ def _short(kind: GuardKind, limit: float) -> str:
     return f"{limit:.2f} N m" if turning else f"{limit:.1f} N"
 
 
-def _length(motion: GuardedMotion) -> str:
-    """How long the motion went on."""
-    return f"{float(motion.times[-1] - motion.times[0]):.1f} s"
+def channels_section(trace: Trace) -> Markup:
+    """The section; nothing where no machine has a channel."""
+    if not trace.channels:
+        return Markup("")
+    figures = (_channel_figure(channel, trace.head.time) for channel in trace.channels)
+    about = note("What machines sensed besides where their axes were, in the course of the run.")
+    return section("channels", "Channels of the machines", about, element("div", *figures, class_="figures"))
+
+
+def _channel_figure(channel: ChannelCurve, begun: float) -> Markup:
+    times, values = channel.times - begun, channel.values
+    low, high = float(values.min()), float(values.max())
+    x = Scale(float(times[0]), max(float(times[-1]), float(times[0]) + 1e-9), 2.0, WIDE - 2.0)
+    y = Scale(min(low, 0.0), max(high, 0.0) or min(low, 0.0) + 1.0, _BOTTOM, _TOP)
+    drawn = curve(np.array([x(t) for t in times]), np.array([y(v) for v in values]), class_="curve")
+    lasts = words(WIDE - 2, HIGH - 4, f"{times[-1] - times[0]:.1f} s", anchor="end")
+    said = f"{low:.3g} to {high:.3g} {channel.unit}".rstrip()
+    figure = drawing(rule(0, y(0), WIDE, y(0), class_="axis"), drawn, lasts, label=f"{channel.name}: {said}")
+    return element(
+        "figure", figure, element("figcaption", element("b", channel.name), " ", element("span", said))
+    )

@@ -19,9 +19,7 @@ from handeye.core.markup import (
 )
 from handeye.core.plain_text import counted, one_line
 from handeye.core.units import INCH, MILLIMETRE
-from handeye.report.facts.corrections import Cause, Correction
-from handeye.report.facts.planned import EndReason, MotionEnd
-from handeye.report.facts.searches import Search
+from handeye.report.facts.planned import Cause, Correction, EndReason, MotionEnd, Search
 from handeye.report.page.figures import clock, exact_clock, millimetres
 from handeye.report.page.plots import Scale, dot, drawing, rule, words
 from handeye.trace.stages import Stage
@@ -42,8 +40,7 @@ _MEANING: Final = {
     EndReason.GUARD: "a guard ended it",
     EndReason.CARRIED: "began off its plan, and went on so",
 }
-_DECADES: Final = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
-"""mm"""
+_DECADES: Final = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)  # mm
 
 
 def planned_section(
@@ -160,7 +157,6 @@ def _cause(cause: Cause) -> Markup:
 
 
 _SPIRAL: Final = 220.0
-"""Side of a drawing, in its own units."""
 
 
 def searched(searches: Sequence[Search]) -> Iterator[Markup]:

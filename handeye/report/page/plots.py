@@ -9,8 +9,7 @@ from handeye.core.markup import Content, Markup, element
 from handeye.core.polyline import Rows, needed_rows
 from handeye.core.pose import Array
 
-WIDE, HIGH = 240.0, 90.0
-"""Width and height of a small figure, in its own units."""
+WIDE, HIGH = 240.0, 90.0  # Width and height of a small figure, in its own units
 TOLERANCE: Final = 0.4
 """In units of the figure: a line may be that far off its points."""
 
@@ -65,17 +64,15 @@ def kept_points(points: Array, tolerance: float) -> Array:
     """Points without those nearer than a tolerance to the line through the rest, shape (n, 2)."""
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:
-        return _distances(points[row], points[first], points[last]) / tolerance
+        begins = points[first]
+        along, off = points[last] - begins, points[row] - begins
+        lengths = np.hypot(*along.T)
+        across = np.abs(along[:, 0] * off[:, 1] - along[:, 1] * off[:, 0])
+        return (
+            np.where(lengths > 0, across / np.where(lengths > 0, lengths, 1.0), np.hypot(*off.T)) / tolerance
+        )
 
     return points[needed_rows(off, sorted({0, len(points) - 1}))]
-
-
-def _distances(points: Array, begins: Array, ends: Array) -> Array:
-    """Distances of points from straight lines, each through two others, shape (n,)."""
-    along, off = ends - begins, points - begins
-    lengths = np.hypot(*along.T)
-    across = np.abs(along[:, 0] * off[:, 1] - along[:, 1] * off[:, 0])
-    return np.where(lengths > 0, across / np.where(lengths > 0, lengths, 1.0), np.hypot(*off.T))
 
 
 def _at(value: float) -> str:

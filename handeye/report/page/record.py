@@ -21,8 +21,7 @@ from handeye.core.versions import HANDEYE
 from handeye.program.events import ExperimentMade, LineTyped, OperatorAnswered
 from handeye.program.senses import ASSUMPTIONS
 from handeye.report.facts.again import command
-from handeye.report.facts.faults import told_faults
-from handeye.report.recorded import RecordedRun
+from handeye.report.recorded import RecordedRun, told_faults
 from handeye.results.world_page import QuantityReport, report
 from handeye.tasks import known
 from handeye.trace.sentences import renderer_name
@@ -57,7 +56,7 @@ def facts(run: RecordedRun) -> Markup:
         ("seed", str(head.world.seed)),
         ("errors", f"{head.world.level}, drawing {head.world.drawing}"),
         ("plan", element("code", head.plan)),
-        ("arm", joined_code(head.arm, head.arm_digest)),
+        ("arm", element("span", f"{head.arm} ", element("code", head.arm_digest))),
         ("pictures by", renderer_name(head.camera)),
         *((f"without {sense}", ASSUMPTIONS[sense]) for sense in head.lacking),
         *((f"{part} by", name) for part, name in head.own_parts.items()),
@@ -67,11 +66,6 @@ def facts(run: RecordedRun) -> Markup:
         *(("left out", remark) for remark in run.remarks),
     ]
     return element("dl", *(element("div", element("dt", name), element("dd", said)) for name, said in rows))
-
-
-def joined_code(name: str, digest: str) -> Markup:
-    """A name with its digest."""
-    return element("span", f"{name} ", element("code", digest))
 
 
 def _overrides(run: RecordedRun) -> Iterator[tuple[str, Content]]:

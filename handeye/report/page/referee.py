@@ -10,8 +10,7 @@ from handeye.report.recorded import RecordedRun
 from handeye.results.result import Check
 
 _WIDE: Final = 160.0
-_FULL: Final = 120.0
-"""Where a bar reaches its limit."""
+_FULL: Final = 120.0  # Where a bar reaches its limit
 _HIGH: Final = 5.0
 
 

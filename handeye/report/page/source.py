@@ -15,7 +15,6 @@ from handeye.program.program import Program
 
 _COLOURS: Final = ((Comment, "c"), (Keyword, "k"), (Name.Label, "l"), (Number, "n"))
 _AROUND: Final = 2
-"""Lines before and behind that are shown with one."""
 
 
 def line_id(line: int, file: str = "", files: tuple[str, ...] = ()) -> str:

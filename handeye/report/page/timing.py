@@ -20,33 +20,24 @@ from handeye.program.events import FrictionMeasured
 from handeye.report.page.figures import clock, duration
 from handeye.report.page.plots import bar, drawing
 from handeye.report.recorded import RecordedRun
-from handeye.tasks import known
 from handeye.tasks.interface import HistoricalTiming
 from handeye.trace.reading import stage_names
 from handeye.trace.stats import Figures, StageFigures, statistics
 
 _WIDE: Final = 300.0
-"""Width of the column of bars, in units of the drawing."""
 _HIGH: Final = 7.0
 
 
 def timing_section(run: RecordedRun) -> Markup:
     """The section."""
     figures = statistics(run.trace.events, {})
-    then = _period(run)
+    then = run.period
     return section(
         "timing",
         "What it took" if then is None else f"What it took, beside {then.year}",
         *_beside(run, figures.total, then),
         *_by_stage(run, figures.stages),
     )
-
-
-def _period(run: RecordedRun) -> HistoricalTiming | None:
-    """The times of its day, if the program is one that was timed then."""
-    task = known(run.trace.head.task)
-    then = None if task is None else task.period
-    return then if then is not None and then.program == run.trace.head.program else None
 
 
 def _beside(run: RecordedRun, total: Figures, then: HistoricalTiming | None) -> Iterator[Markup]:
@@ -106,7 +97,16 @@ def _by_stage(run: RecordedRun, stages: list[StageFigures]) -> Iterator[Markup]:
     begins = {stage.name: run.seconds(stage.begin) for stage in reversed(run.trace.stages)}
     longest = max(1e-9, *(stage.seconds for stage in stages))
     rows = [_stage(number, stage, begins[stage.stage], longest) for number, stage in enumerate(stages, 1)]
-    rows += [_missing(number, name) for number, name in _unreached(run, stages)]
+    left = [name for name in stage_names(run.trace) if name not in {stage.stage for stage in stages}]
+    rows += [
+        [
+            figure_cell(str(number)),
+            element("th", name, scope="row", class_="unreached"),
+            cell("not reached"),
+            joined([cell()] * 5),
+        ]
+        for number, name in enumerate(left, len(stages) + 1)
+    ]
     yield element("h3", "Stage by stage")
     figures = figure_heads("begins", "took", "of it camera", "steps")
     yield table([*figure_heads(""), *heads("stage", "ended"), *figures, *heads("")], rows, label="stages")
@@ -127,20 +127,4 @@ def _stage(number: int, stage: StageFigures, begin: float, longest: float) -> li
         figure_cell(duration(stage.camera_s) if stage.camera_s else ""),
         figure_cell(str(stage.steps)),
         element("td", drawing(*bars, wide=_WIDE, high=_HIGH + 2, label=told), class_="bars"),
-    ]
-
-
-def _unreached(run: RecordedRun, stages: list[StageFigures]) -> Iterator[tuple[int, str]]:
-    begun = {stage.stage for stage in stages}
-    left = [name for name in stage_names(run.trace) if name not in begun]
-    return enumerate(left, len(stages) + 1)
-
-
-def _missing(number: int, name: str) -> list[Markup]:
-    empty = joined([cell()] * 5)
-    return [
-        figure_cell(str(number)),
-        element("th", name, scope="row", class_="unreached"),
-        cell("not reached"),
-        empty,
     ]

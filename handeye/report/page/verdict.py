@@ -4,6 +4,8 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Final
 
+from msgspec import UNSET
+
 from handeye.core.markup import Markup, element, joined, note, to_moment
 from handeye.core.plain_text import counted
 from handeye.core.units import INCH
@@ -19,35 +21,61 @@ from handeye.program.events import (
     PictureTaken,
     StepStarted,
 )
-from handeye.report.facts.faults import told_faults
 from handeye.report.facts.outcome import Outcome
-from handeye.report.facts.senses import Senses, senses_at
-from handeye.report.facts.told import CaptionedEvent
+from handeye.report.facts.told import CaptionedEvent, Senses, senses_at
 from handeye.report.page.figures import clock, duration, exact_clock, millimetres
-from handeye.report.page.photograph import shown
 from handeye.report.page.referee import used
 from handeye.report.page.source import excerpt
-from handeye.report.page.title import title
-from handeye.report.photographs import Photograph
-from handeye.report.recorded import RecordedRun
+from handeye.report.photographs import Photograph, shown
+from handeye.report.recorded import RecordedRun, told_faults
 from handeye.results.result import Check
 from handeye.tasks import known
+from handeye.tasks.interface import Words
 from handeye.trace.sentences import sentence
+
+_NEUTRAL: Final = Words(done="The referee found everything right.", product="the work")
+
+
+def title(run: RecordedRun, outcome: Outcome) -> str:
+    """What a run came to, in one sentence."""
+    task = known(run.trace.head.task)
+    words = _NEUTRAL if task is None else task.words
+    apart = None if run.result is None else run.result.apart
+    line = "" if outcome.step is None else f"line {outcome.step.place}"
+    match outcome.kind:
+        case "right":
+            return words.apart if apart else words.done
+        case "wrong" if apart is False:
+            return "The arm has undone what it did, but not everything is back."
+        case "wrong":
+            return f"The program reported success, but {words.product} is not right."
+        case "ended" if run.result is not None and run.result.apart is not UNSET:
+            return "What the arm was to undo is undone."
+        case "ended":
+            return "The program came to its end."
+        case "stopped":
+            return f"Stopped in “{outcome.stage}”."
+        case "panic":
+            return f"The panic button was hit in “{outcome.stage}”."
+        case "paused":
+            return f"The run pauses before its end{f', after {line}' if line else ''}."
+        case "broken off":
+            return f"The trace breaks off{f' at {line}' if line else ''}."
 
 
 def verdict(
     run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent], photograph: Photograph
 ) -> Markup:
     """The head of the page."""
-    words = element("div", _name(run), element("h1", title(run, outcome)), *_said(run, outcome, told))
-    return element("header", words, shown(photograph), class_="failed" if outcome.failed else None)
-
-
-def _name(run: RecordedRun) -> Markup:
-    """What the page is a report of."""
     head = run.trace.head
     arm = f"the simulated {head.arm} arm carries out " if head.arm else ""
-    return element("p", f"Report of a run: {arm}{head.program} in the world of {head.world}", class_="name")
+    words = element(
+        "div",
+        element("p", f"Report of a run: {arm}{head.program} in the world of {head.world}", class_="name"),
+        element("h1", title(run, outcome)),
+        *_said(run, outcome, told),
+    )
+    return element("header", words, shown(photograph), class_="failed" if outcome.failed else None)
 
 
 def _said(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
@@ -79,9 +107,8 @@ def _course(run: RecordedRun) -> Iterator[str]:
     steps = counted(sum(isinstance(event, StepStarted) for event in run.trace.events), "step")
     stages = counted(len(run.trace.stages), "stage")
     yield f"{steps} in {stages}, {duration(run.ends)} min on the cell’s clock."
-    task = known(run.trace.head.task)
-    then = None if task is None else task.period
-    if then is not None and then.program == run.trace.head.program:
+    then = run.period
+    if then is not None:
         yield f" In {then.year} it took {clock(then.times['manipulation'] + then.times['lens'])}."
 
 
@@ -130,7 +157,6 @@ def _figures(run: RecordedRun) -> Iterator[tuple[int, str]]:
 _UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, CameraStarted, PictureTaken)
 """Events that are no word of the senses, or the reason itself."""
 _SAID: Final = 4
-"""Last sentences of the senses that are told."""
 
 
 def why(outcome: Outcome) -> Iterator[Markup]:
@@ -168,7 +194,11 @@ def _capital(words: str) -> str:
 
 def where(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
     """How far the run came, the line at which it stands, and what the senses said last."""
-    yield _reached(run, outcome)
+    line = "" if outcome.step is None else f"Line {outcome.step.place}, "
+    done = {stage.name for stage in run.trace.stages if stage.status == "done"}
+    at = to_moment(outcome.time, exact_clock(outcome.time))
+    stages = counted(len(run.program.stages), "stage")
+    yield element("h2", joined([line, at, f" after it began, {len(done)} of {stages} done"]))
     if outcome.step is not None:
         yield excerpt(run.program, outcome.step)
     yield from _senses(run, outcome, told)
@@ -203,12 +233,3 @@ def _now(senses: Senses) -> str:
     force = "" if senses.force is None else f", the hand presses with {senses.force:.1f} N"
     gap = f"{millimetres(senses.gap)} mm ({senses.gap / INCH:.2f} in)"
     return f"the fingers are {gap} open, {fingers}{force}"
-
-
-def _reached(run: RecordedRun, outcome: Outcome) -> Markup:
-    """How far the run came."""
-    line = "" if outcome.step is None else f"Line {outcome.step.place}, "
-    done = {stage.name for stage in run.trace.stages if stage.status == "done"}
-    at = to_moment(outcome.time, exact_clock(outcome.time))
-    stages = counted(len(run.program.stages), "stage")
-    return element("h2", joined([line, at, f" after it began, {len(done)} of {stages} done"]))

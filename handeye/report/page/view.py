@@ -5,9 +5,8 @@ from typing import Final
 
 from handeye.core.markup import Markup, element, joined, section, to_moment
 from handeye.report.page.figures import clock
-from handeye.report.page.photograph import shown
 from handeye.report.page.source import listing
-from handeye.report.photographs import Photograph
+from handeye.report.photographs import Photograph, shown
 from handeye.report.recorded import RecordedRun
 from handeye.trace.stages import Stage
 
@@ -24,8 +23,16 @@ _KEYS: Final = (
 
 def view_section(run: RecordedRun, strip: Sequence[Photograph]) -> Markup:
     """The section."""
+    pairs = joined((joined([element("kbd", key), f" {does}"]) for key, does in _KEYS), ", ")
     viewer = element(
-        "div", _screen(strip), _caption(), _bar(run), _controls(run), _instead(), _keys(), class_="viewer"
+        "div",
+        _screen(strip),
+        element("p", id="caption", class_="caption", hidden=True),
+        _bar(run),
+        _controls(run),
+        element("p", id="instead", class_="keys", hidden=True),
+        element("p", pairs, id="keys", class_="keys", hidden=True),
+        class_="viewer",
     )
     script = element(
         "div",
@@ -56,11 +63,6 @@ def _photographs(strip: Sequence[Photograph]) -> Iterator[Markup]:
     for each in strip:
         if each.webp is not None:
             yield shown(each, data_time=f"{each.time:.2f}")
-
-
-def _caption() -> Markup:
-    """Where it is told what was sensed last."""
-    return element("p", id="caption", class_="caption", hidden=True)
 
 
 def _bar(run: RecordedRun) -> Markup:
@@ -110,13 +112,3 @@ def _controls(run: RecordedRun) -> Markup:
     speed = element("select", *options, id="speed", aria_label="speed", aria_keyshortcuts="[ ]")
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     return element("div", play, time, now, speed, views, id="controls", class_="controls", hidden=True)
-
-
-def _instead() -> Markup:
-    """Where it is told why photographs stand in the place of the view."""
-    return element("p", id="instead", class_="keys", hidden=True)
-
-
-def _keys() -> Markup:
-    pairs = joined((joined([element("kbd", key), f" {does}"]) for key, does in _KEYS), ", ")
-    return element("p", pairs, id="keys", class_="keys", hidden=True)

@@ -47,7 +47,6 @@ MODULES: Final = (
 )  # fmt: skip
 """The script's modules, each after those that it imports from."""
 SOURCES: Final = Path(__file__).with_name("script")
-"""The folder that they are in."""
 
 
 def scene_bytes(trace: Trace) -> bytes:

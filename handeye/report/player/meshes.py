@@ -21,7 +21,6 @@ class Piece:
     """A surface of one material."""
 
     name: str
-    """As people read it."""
     surface: Surface
     material: int
 
@@ -88,7 +87,13 @@ class Meshes:
 
     def _tell(self, fine: Sequence[Piece], coarse: Sequence[Piece], scale: list[float]) -> dict[str, Any]:
         first, count = sum(map(len, self._triangles)), _corners(fine)
-        told = {"fine": [first, count], "scale": scale, "ball": _ball(fine)}
+        points = _points(fine)
+        middle = (points.min(axis=0) + points.max(axis=0)) / 2
+        told = {
+            "fine": [first, count],
+            "scale": scale,
+            "ball": rounded(np.array([*middle, np.linalg.norm(points - middle, axis=1).max()])),
+        }
         return {**told, "coarse": [first + count, _corners(coarse)]} if coarse else told
 
 
@@ -111,13 +116,6 @@ def _corners(pieces: Sequence[Piece]) -> int:
 
 def _points(pieces: Sequence[Piece]) -> Array:
     return np.concatenate([piece.surface.points for piece in pieces])
-
-
-def _ball(pieces: Sequence[Piece]) -> list[float]:
-    """Middle and radius of a ball around pieces, m."""
-    points = _points(pieces)
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    return rounded(np.array([*middle, np.linalg.norm(points - middle, axis=1).max()]))
 
 
 CELLS: Final = 14

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from handeye.cell.looks import BOX, CYLINDER, MESH, SPHERE
 from handeye.core.pose import Array
 
-SIDES: Final = 32
-"""Sides of the prism that stands for a cylinder."""
+SIDES: Final = 32  # Sides of the prism that stands for a cylinder
 CREASE: Final = np.cos(np.radians(35.0))
 """Cosine of the angle between two faces from which on the edge between them is an edge, and not part of a curve."""
 
@@ -21,10 +20,8 @@ CREASE: Final = np.cos(np.radians(35.0))
 class Surface:
     """Triangles."""
 
-    points: Array
-    """Corners, shape (n, 3), m."""
-    normals: Array
-    """Normals of the surface at the corners, shape (n, 3)."""
+    points: Array  # Corners, shape (n, 3), m
+    normals: Array  # Normals of the surface at the corners, shape (n, 3)
     triangles: NDArray[np.int64]
     """Numbers of corners, shape (m, 3), counterclockwise from outside."""
 
@@ -51,7 +48,12 @@ def surface(model: Any, shape: int) -> Surface | None:
     elif kind == SPHERE:
         local = _scaled(_ball(), size[[0, 0, 0]])
     elif kind == MESH:
-        local = _mesh(model, model.geom_dataid[shape])
+        mesh = model.geom_dataid[shape]
+        first, corner = model.mesh_vertadr[mesh], model.mesh_faceadr[mesh]
+        points = model.mesh_vert[first : first + model.mesh_vertnum[mesh]].astype(float)
+        triangles = model.mesh_face[corner : corner + model.mesh_facenum[mesh]].astype(np.int64)
+        distinct, number = _distinct(points)
+        local = creased(points[distinct], number[triangles])
     else:
         return None
     R = rotation(model.geom_quat[shape])
@@ -109,14 +111,6 @@ def _meeting(corner: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.i
     one = np.repeat(np.arange(len(order)), many)
     inside = np.arange(len(one)) - np.repeat(np.cumsum(many) - many, many)
     return order[one], order[np.repeat(begin, many) + inside]
-
-
-def _mesh(model: Any, mesh: int) -> Surface:
-    first, corner = model.mesh_vertadr[mesh], model.mesh_faceadr[mesh]
-    points = model.mesh_vert[first : first + model.mesh_vertnum[mesh]].astype(float)
-    triangles = model.mesh_face[corner : corner + model.mesh_facenum[mesh]].astype(np.int64)
-    distinct, number = _distinct(points)
-    return creased(points[distinct], number[triangles])
 
 
 def _scaled(unit: Surface, size: Array) -> Surface:

@@ -12,12 +12,9 @@ from handeye.core.pose import Array
 from handeye.report.player.packing import columns, packed, quantised, rounded, zigzag
 from handeye.trace.messages import Poses
 
-PLACE: Final = 1.5e-4
-"""How far a body may be from where it was, m, before numbers are rounded."""
-TURN: Final = 2e-3
-"""How far it may be turned, rad."""
-_STILL: Final = 1e-6
-"""What is no movement: m, and parts of a quaternion."""
+PLACE: Final = 1.5e-4  # How far a body may be from where it was, m, before numbers are rounded
+TURN: Final = 2e-3  # How far it may be turned, rad
+_STILL: Final = 1e-6  # What is no movement: m, and parts of a quaternion
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -26,8 +23,7 @@ class Track:
 
     spans: tuple[tuple[int, int, int], ...]
     """Servo periods from which and to which (exclusive) it is there, and how many of the poses are of them."""
-    periods: NDArray[np.int64]
-    """Servo periods of the poses, shape (n,)."""
+    periods: NDArray[np.int64]  # Servo periods of the poses, shape (n,)
     poses: Array
     """Shape (n, 7): place (m), then a unit quaternion w, x, y, z, each as near to the one before as it can be."""
 
@@ -74,9 +70,7 @@ def tracks_bytes(
 
     Args:
         poses: of bodies in all servo periods, shape (n, 7); NaN where one is not there.
-        times: ends of the servo periods since the run began, shape (n,), s.
-        begin: from when on the page shows the run, s.
-        end: until when.
+        times: ends of the servo periods, shape (n,), s since the run began, as `begin` and `end` of the page.
         lowest: height below which a body is put away, m.
     """
     found = {name: Track.of(rows, lowest) for name, rows in poses.items()}

@@ -11,7 +11,7 @@ from typing import Final
 from handeye.core.files import write_whole
 from handeye.execution.servo import ServoPeriod
 from handeye.program.events import OperatorAnswered, OperatorCalled
-from handeye.results.outcome import outcome
+from handeye.results.finishing import outcome
 from handeye.results.result import to_json
 from handeye.runs.advance import Pause, StopCondition, keep, paused_before
 from handeye.runs.folder import EVENTS, RESULT, open_again, open_new

@@ -4,7 +4,7 @@ import pytest
 from trig_bench import low_job
 
 from handeye.judge.finding import Findings, all_right
-from handeye.results.outcome import outcome
+from handeye.results.finishing import outcome
 from handeye.runs.advance import Pause, advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner

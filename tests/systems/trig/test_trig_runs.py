@@ -19,8 +19,8 @@ from handeye.execution.servo import Halted
 from handeye.execution.state import Undoing
 from handeye.judge.finding import all_right
 from handeye.program.events import Choice, OperatorCalled, StepFinished, StepStarted
+from handeye.results.finishing import outcome
 from handeye.results.judging import findings
-from handeye.results.outcome import outcome
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode
 from handeye.runs.folder import TRACE, RunFolder, open_again, open_new

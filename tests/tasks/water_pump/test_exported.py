@@ -15,8 +15,7 @@ from finished import exhibit, finished, finished_cell, put
 from handeye.core.folders import write_folder
 from handeye.core.pose import Array, planar
 from handeye.core.variation import WorldSpec
-from handeye.results.export import exported_solids
-from handeye.results.exported_scene import scene_files
+from handeye.results.export import exported_solids, scene_files
 from handeye.runs.exported_state import initial_state
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.exported import RENAMED

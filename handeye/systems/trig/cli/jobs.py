@@ -151,8 +151,7 @@ def _carried_out(
     video: "JobVideo | None",
 ) -> "tuple[JobReport, TaughtJob]":
     """Teach a job and carry it out; its result is in the folder before the user can interrupt."""
-    from handeye.results.finishing import finished
-    from handeye.results.outcome import outcome
+    from handeye.results.finishing import finished, outcome
     from handeye.runs.host_seconds import Meter
     from handeye.systems.trig.run.job import account, carry_out, job_of
 

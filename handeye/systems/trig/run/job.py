@@ -6,7 +6,7 @@ from typing import Final, Literal
 from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
-from handeye.results.outcome import outcome
+from handeye.results.finishing import outcome
 from handeye.results.result import Check, Result
 from handeye.runs.advance import Pause, advance
 from handeye.runs.host_seconds import Meter

@@ -18,8 +18,7 @@ from handeye.core.pose import Array
 from handeye.report.page.figures import clock
 from handeye.systems.trig.jobs.benches import TaughtJob
 from handeye.video.captions import Caption, captioned
-from handeye.video.formats import format_of
-from handeye.video.frames import RATE
+from handeye.video.formats import RATE, format_of
 
 WIDTH, HEIGHT = 400, 300  # points
 MAX_SECONDS: Final = 20.0
