@@ -92,7 +92,7 @@ def explain(word: str | None = None, /) -> int:
 
 def lsp() -> int:
     """Serve an editor over standard input and output (language server protocol)."""
-    from handeye.editor.answers import serve
+    from handeye.editor.server import serve
 
     serve()
     return 0

@@ -33,14 +33,27 @@ def completions(document: Document, offset: int) -> tuple[Span, list[Proposal]]:
     word = _word_before(before)
     span = Span(start=offset - len(word), end=offset)
     line = scan(before[: len(before) - len(word)] + "\n")[0]
-    if line.comment is not None or _in_string(before) or start < 0:
+    whole = scan(before + "\n")[0].tokens
+    in_string = whole and whole[-1].kind is TokenKind.STRING and before.endswith(whole[-1].text)
+    if line.comment is not None or in_string or start < 0:
         return span, []
     definition, tokens = instruction(line)
     if not tokens:
-        return span, [*_instructions(), *_named(document, MACRO)]
+        known = (
+            Proposal(text=i.op, kind="instruction", detail=i.usage, help=i.help) for i in EXPLAINED.values()
+        )
+        return span, [*known, *_named(document, MACRO)]
     usage = definition or called(line, document.macros)
     wanted = expected(usage, tokens[1:]) if usage is not None else []
-    found = list(_parameters(document, start)) if wanted else []
+    macro = document.macro_at(start) if wanted else None
+    found = (
+        []
+        if macro is None
+        else [
+            Proposal(text=token.text, kind=PARAMETER, detail=f"parameter of {macro.head.word}")
+            for token in macro.head.parameters
+        ]
+    )
     last = tokens[-1].text.upper()
     for operand in wanted:
         stands = [operand]
@@ -63,29 +76,11 @@ def names(document: Document, kind: str) -> dict[str, str]:
     return dict(sorted(found.items()))
 
 
-def _parameters(document: Document, offset: int) -> Iterator[Proposal]:
-    """Parameters of the macro around an offset."""
-    macro = document.macro_at(offset)
-    if macro is not None:
-        for token in macro.head.parameters:
-            yield Proposal(text=token.text, kind=PARAMETER, detail=f"parameter of {macro.head.word}")
-
-
 def _word_before(text: str) -> str:
     at = len(text)
     while at and (text[at - 1].isalnum() or text[at - 1] in "_."):
         at -= 1
     return text[at:]
-
-
-def _in_string(text: str) -> bool:
-    tokens = scan(text + "\n")[0].tokens
-    return bool(tokens) and tokens[-1].kind is TokenKind.STRING and text.endswith(tokens[-1].text)
-
-
-def _instructions() -> Iterator[Proposal]:
-    for each in EXPLAINED.values():
-        yield Proposal(text=each.op, kind="instruction", detail=each.usage, help=each.help)
 
 
 def _operand(document: Document, operand: Operand, *, after: str) -> Iterator[Proposal]:

@@ -96,6 +96,12 @@ class Document:
         number = self.source.position(offset)[0]
         return self.lines[number - 1] if number <= len(self.lines) else None
 
+    def line_of(self, offset: int) -> Line:
+        """The line of an offset that is in the text."""
+        line = self.line_at(offset)
+        assert line is not None
+        return line
+
     def name_at(self, offset: int) -> Occurrence | None:
         """The name at an offset, its end included."""
         return next((name for name in self.names if name.span.start <= offset <= name.span.end), None)

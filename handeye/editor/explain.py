@@ -1,19 +1,22 @@
-"""Explanations of codes, error numbers and instructions."""
+"""Explanations of codes, instructions and error numbers: what raises each, and what a script can do about it."""
 
+from dataclasses import dataclass
 from functools import cache
+from textwrap import fill, indent
 from typing import Final
 
 from handeye.al import extensions
 from handeye.al.compiler import compile_text
 from handeye.al.definition import Instruction
+from handeye.al.formatter import format_text
 from handeye.al.includes import sewn_of
 from handeye.al.instructions import EXPLAINED
 from handeye.al.operand_help import origin, part, takes
+from handeye.core import errors
 from handeye.core.codes import CODES
 from handeye.core.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
 from handeye.core.errors import ERRORS, NoSuchName
 from handeye.core.source import Source
-from handeye.editor.error_numbers import error_text
 from handeye.editor.samples import SAMPLE
 from handeye.program.language import own_languages
 
@@ -23,6 +26,7 @@ _FOUND: Final = {
     "strict": "by `handeye check --strict-1973` only",
 }
 _NUMBERS: Final = {str(number): number for number in ERRORS}
+SENTENCE_WIDTH: Final = 100  # columns
 _MAX_FILES = 2  # required files of an example that are shown
 
 
@@ -110,3 +114,155 @@ def example(code: str) -> tuple[Source, Diagnostic | None]:
     if CODES[code].phase == "strict":
         found = [*found, *extensions(source)]
     return source, next((diagnostic for diagnostic in found if diagnostic.code == code), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Remedy:
+    """What a script can do about an error, and a text that does it."""
+
+    advice: str
+    example: str
+
+
+REMEDIES: Final[dict[int, Remedy]] = {
+    errors.JOINT_LIMIT: Remedy(
+        "The planner tells of it where a place is planned. In work it comes up when a part lies farther off than "
+        "planned: go another way.",
+        "MOVE T\nSKIPE 1 ;T has come to lie too far off\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
+    ),
+    errors.NOTHING_HELD: Remedy(
+        "Give CLOSE or CENTER a minimum gap. When there is nothing, open the hand and try elsewhere, or ask.",
+        'MOVE P\nCLOSE .1\nSKIPN 2 ;something is in the hand\nWAIT "NO PIN THERE"\nMOVE T',
+    ),
+    errors.NO_SOLUTION: Remedy(
+        "The planner tells of it where a place is planned. In work it comes up when what was seen lies too far "
+        "off: leave that part alone.",
+        "MOVE T\nSKIPE 3 ;T has come to lie out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
+    ),
+    errors.SERVO_LAG: Remedy(
+        "Something stands where nothing was expected. Expect it with a STOP, on which the motion ends, or "
+        "ask.",
+        'MOVE T\nCHANGE [0 0 -1] .5\nSKIPN 4 ;nothing is in the way\nWAIT "CLEAR THE TABLE"\nMOVE P',
+    ),
+    errors.WATCHDOG: Remedy(
+        "It is the computer that failed, and not the work: leave it untested, or put it into words for the operator.",
+        'MOVE T\nSKIPN 5 ;the computer kept up\nWAIT "THE COMPUTER WAS LATE"\nMOVE P',
+    ),
+    errors.SEARCH_EXHAUSTED: Remedy(
+        "A search has 49 places, or what its STEPS say. Untested, the error calls the operator, which is mostly right: "
+        "it is not here. Count with SOJG to give up sooner.",
+        "ASSIGN TRIES 9\nSEARCH .07\nL: MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPN 23 ;it met something\n"
+        'JUMP IN\nSOJG TRIES NEXT\nWAIT "NO HOLE HERE"\nNEXT: AOJ L\nIN: OPEN 1',
+    ),
+    errors.WRONG_THICKNESS: Remedy(
+        "Give CLOSE a maximum gap too. What is too thick is something else: let go of it.",
+        "MOVE P\nCLOSE .1 .3\nSKIPE 7 ;too thick for a pin\nJUMP HELD\nOPEN 1\nHELD: PARK",
+    ),
+    errors.WRONG_TRAVEL: Remedy(
+        "A motion that a force ended may have ended too soon, as with a pin on the rim of its hole. TRAVEL asks how "
+        "far it went.",
+        "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met at all\nJUMP OUT\nTRAVEL .5 .6\n"
+        'SKIPN 8 ;as deep as the hole\nOUT: WAIT "NOT IN ITS HOLE"\nOPEN 1',
+    ),
+    errors.WRONG_HEIGHT: Remedy(
+        "HEIGHT compares two touches at one place, so that what the arm is off by cancels: a layer is missing, or it "
+        "is not the one that was meant.",
+        "OPEN 0\nMOVE T\nSTOP [0 0 -40]\nCHANGE [0 0 -1] .7 .5\nSAVE BARE\nPARK\nMOVE T\nSTOP [0 0 -40]\n"
+        'CHANGE [0 0 -1] .7 .5\nHEIGHT BARE .04 .08\nSKIPN 9 ;one gasket thick\nWAIT "SEE TO THE GASKET"\nPARK',
+    ),
+    errors.NO_FORCE: Remedy(
+        "It says that nothing was met. That may be what was hoped for: a pin that meets nothing is in its hole.",
+        "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met: the pin is in\n"
+        'WAIT "THERE IS NO HOLE"\nOPEN 1',
+    ),
+    errors.NO_TORQUE: Remedy(
+        "The screw never resisted: it has found no thread, or there is none in the driver.",
+        'MOVE T\nTOOL 100\nTORQUE 42\nCHANGE [0 0 -1] .5\nSKIPN 24 ;it is tight\nWAIT "NOT TIGHT"\nTOOL 0',
+    ),
+    errors.NO_TOUCH: Remedy(
+        "Neither finger met anything: the thing is not where the hand felt for it.",
+        'MOVE P\nOPEN 1\nTOUCH 3\nCHANGE X 1\nSKIPN 25 ;a finger touches it\nWAIT "NOTHING THERE"\nPARK',
+    ),
+    errors.PART_NOT_SEEN: Remedy(
+        "Nothing of the size of the part stands out in the picture: ask for the part.",
+        'LOOK V\nGENERAL BASE V\nSKIPN 30 ;it is there\nWAIT "PUT A BASE ON THE TABLE"\nMOVE P',
+    ),
+    errors.FEATURES_NOT_SEEN: Remedy(
+        "The part is there, but its two largest holes do not show: it lies upside down, or in a shadow.",
+        'LOOK V\nGENERAL BASE V\nLOOK W\nSPECIFIC BASE W\nSKIPN 31 ;its holes are found\nWAIT "TURN THE BASE"\nMOVE P',
+    ),
+    errors.GASKET_WRONG: Remedy(
+        "The pictures before and after do not differ as a gasket makes them differ: lay it on anew, or ask.",
+        "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
+        'WAIT "CHECK THE GASKET"\nPARK',
+    ),
+    errors.PART_ASTRAY: Remedy(
+        "Somebody has moved the part since the earlier picture, or taken it away; or the arm stands elsewhere and "
+        "throws its shadow there: look again, or ask.",
+        "LOOK BEFORE\nMOVE P\nLOOK AFTER HOLD\nMATCH BASE BEFORE AFTER\nSKIPN 33 ;it stands as it stood\n"
+        'WAIT "SOMEBODY HAS MOVED THE BASE"\nPARK',
+    ),
+    errors.SWITCH_WRONG: Remedy(
+        "A switch that is closed while its finger stands off everything is stuck; so is one that stays open while the "
+        "fingers press on something. Nothing counts that is felt by it: leave the error untested, or put it into "
+        "words for the operator.",
+        'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
+    ),
+    errors.GAP_WRONG: Remedy(
+        "Where there is room for the fingers, the gap's potentiometer is broken: leave the error untested. Where they "
+        "may meet something as they open, open them less.",
+        "OPEN 1.8\nSKIPN 51 ;the fingers came to where they should\nOPEN 1.5\nMOVE P",
+    ),
+    errors.FORCE_WRONG: Remedy(
+        "The first motion after a MOVE that should feel something finds a force already: declare with LOAD what the "
+        "hand carries, and LOAD 0 when it has let go. Where that is right, something leans on the hand, or a drive or "
+        "a tachometer fails.",
+        "MOVE P\nCLOSE .1\nLOAD 30 ;else it would be felt\nMOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7",
+    ),
+    errors.JOINT_SENSE_WRONG: Remedy(
+        "The arm does not know where it is: leave the error untested, or put it into words for the operator.",
+        'MOVE T\nSKIPN 53 ;both sensors of each joint agree\nWAIT "SEE TO THE ARM\'S POTENTIOMETERS"\nMOVE P',
+    ),
+    errors.CURRENT_WRONG: Remedy(
+        "A motor takes current to start. Where none is read, no TORQUE can be met, and no screw is known to be tight.",
+        "MOVE T\nTOOL 100\nTORQUE 42\nCHANGE [0 0 -1] .5\nSKIPN 54 ;the motor shows current\n"
+        'WAIT "SEE TO THE DRIVER"\nTOOL 0',
+    ),
+    errors.PICTURE_WRONG: Remedy(
+        "Noise makes two pictures of a live camera differ, even of a scene at rest. One that is the same as an "
+        "earlier one, or of one intensity all over, shows nothing.",
+        'LOOK V\nSKIPN 55 ;it is a live picture\nWAIT "SEE TO THE CAMERA"\nGENERAL BASE V',
+    ),
+}
+
+_MOTIONS: Final = ("MOVE P", "CHANGE Z 1", "TURN T 10", "PARK", "PLACE")
+ACTIONS: Final = "\n".join(
+    (
+        *_MOTIONS, *(f"{guard}\n{motion}" for guard in ("STOP 9", "TORQUE 42", "TOUCH 3") for motion in _MOTIONS[:-1]),
+        "SEARCH .1\nL: MOVE T\nRESTORE H\nAOJ L", "OPEN 1", "CLOSE .1 .3", "CENTER .1", "CHANGE Z 1\nTRAVEL .1 .9",
+        "SAVE H\nHEIGHT H .1 .9",
+        "LENS 25", "AIM BASE", "LOOK V HOLD", "GENERAL BASE V", "SPECIFIC BASE V", "INSPECT BASE V V", "MATCH BASE V V",
+    )
+)  # fmt: skip
+"""Every instruction that can raise an error, with everything that lets it raise more."""
+
+
+@cache
+def raised_by() -> dict[int, tuple[str, ...]]:
+    """Instructions by the error numbers they raise."""
+    program, _ = compile_text(Source(name="actions.al", text=ACTIONS), SAMPLE)
+    assert program is not None
+    raising = {(number, step.word) for step in program.steps for number in step.operation.raises}
+    return {number: tuple(sorted(word for raised, word in raising if raised == number)) for number in ERRORS}
+
+
+def error_text(number: int) -> str:
+    """The explanation of an error number; no final newline."""
+    tested = (
+        f"SKIPE {number} skips the next instruction if the error was raised, SKIPN {number} if it was not. Untested, "
+        "it sets the brakes and calls the operator."
+    )
+    example = indent(format_text(REMEDIES[number].example).rstrip("\n"), "    ")
+    by = fill(f"raised by {', '.join(raised_by()[number])}", SENTENCE_WIDTH, subsequent_indent="    ")
+    advice, tested = fill(REMEDIES[number].advice, SENTENCE_WIDTH), fill(tested, SENTENCE_WIDTH)
+    return f"error {number}: {ERRORS[number]}\n{by}\n\n{advice}\n\n{tested}\n\nfor example\n\n{example}"

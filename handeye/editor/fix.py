@@ -45,9 +45,7 @@ def at(offset: int) -> Span:
 
 def line_of(document: Document, diagnostic: Diagnostic) -> Line:
     """The line of a diagnostic."""
-    line = document.line_at(diagnostic.primary.span.start)
-    assert line is not None
-    return line
+    return document.line_of(diagnostic.primary.span.start)
 
 
 def word_of(line: Line) -> str:

@@ -44,8 +44,7 @@ def remove_unused(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def _remove_label(document: Document, span: Span) -> Iterator[Fix]:
-    line = document.line_at(span.start)
-    assert line is not None
+    line = document.line_of(span.start)
     title = f"remove the label {quoted(document.text[span.start : span.end])}"
     if len(line.tokens) == 2 and line.comment is None:
         yield replace(document.whole_line(line.number), "", title)
@@ -60,8 +59,7 @@ def label_first(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     if not diagnostic.secondary:
         return
     label = document.text[diagnostic.primary.span.start : diagnostic.primary.span.end]
-    modifier = document.line_at(diagnostic.secondary[0].span.start)
-    assert modifier is not None
+    modifier = document.line_of(diagnostic.secondary[0].span.start)
     for removed in _remove_label(document, diagnostic.primary.span):
         put = Edit(span=Span(start=modifier.start, end=modifier.start), text=f"{label}:\n")
         yield Fix(title=f"put the label before `{word_of(modifier)}`", edits=(put, *removed.edits))
@@ -107,8 +105,7 @@ def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     """Remove blank lines between a modifier at the end of a macro and its motion, if the macro then ends in time."""
-    behind = document.line_at(diagnostic.secondary[0].span.start)
-    assert behind is not None
+    behind = document.line_of(diagnostic.secondary[0].span.start)
     body = list(takewhile(lambda line: not line.is_blank, document.lines[behind.number :]))
     words = {word_of(line) for line in body if line.split()[1]}
     macros = {name.name for name in document.names if name.kind == MACRO}
@@ -125,6 +122,5 @@ def begin_search(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     )
     made = [n for n in document.names if n.makes and label is not None and n.name == label.name]
     if made:
-        before = document.line_at(made[0].span.start)
-        assert before is not None
+        before = document.line_of(made[0].span.start)
         yield insert(before.start, "        SEARCH  .07\n", "begin a search with steps of .07 in")

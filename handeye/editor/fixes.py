@@ -1,7 +1,4 @@
-"""Fixes of diagnostics.
-
-Diagnostics with `meant` carry the fix as data; for the others there is a table by code.
-"""
+"""Fixes of diagnostics: those with `meant` carry theirs as data; for the others there is a table by code."""
 
 from collections.abc import Callable, Iterator
 from typing import Final

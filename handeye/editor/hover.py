@@ -15,7 +15,7 @@ from handeye.arm.ik import solve
 from handeye.arm.model import ArmModel
 from handeye.core.errors import ERRORS
 from handeye.core.pose import Pose, hand_angles
-from handeye.core.source import Source, Span, line_name
+from handeye.core.source import Span, line_name
 from handeye.core.units import DEGREE, INCH
 from handeye.editor.checking import arm
 from handeye.editor.document import Document
@@ -48,10 +48,8 @@ def hover(document: Document, offset: int) -> Hover | None:
     if line is None:
         return None
     token = next((t for t in line.tokens if t.start <= offset < t.end), None)
-    if token is None:
-        return None
-    text = _text(document, line, token)
-    return None if text is None else Hover(span=token.span, text=text)
+    text = None if token is None else _text(document, line, token)
+    return None if token is None or text is None else Hover(span=token.span, text=text)
 
 
 def _text(document: Document, line: Line, token: Token) -> str | None:
@@ -110,21 +108,17 @@ def _about_name(document: Document, name: Occurrence) -> str | None:
         return "\n\n".join([title, *_position(document, name.name)])
     if name.kind == PART and name.name in document.taught.parts:
         x, y, z, turn = document.taught.parts[name.name].at
-        at = f"planned at {_inches(x, y, z)} in, turned {turn / DEGREE:g} degrees"
-        return f"{title}\n\n{at}"
+        return f"{title}\n\nplanned at {_inches(x, y, z)} in, turned {turn / DEGREE:g} degrees"
     everywhere = [*((document.source, own) for own in document.names), *document.required_names]
     made = [(text, text.position(o.span.start)[0]) for text, o in everywhere if o.makes and same(o, name)]
     if not made:
         return None
     lines = ", ".join(line_name(line, text.key) for text, line in made)
-    shown = [text.line(line) for text, line in made] if name.kind != MACRO else _macro(*made[0])
+    shown = [text.line(line) for text, line in made]
+    if name.kind == MACRO:
+        text, line = made[0]
+        shown = [*takewhile(str.strip, text.text.split("\n")[line - 1 :])]
     return f"{title}, line {lines}\n\n```armal\n" + "\n".join(shown) + "\n```"
-
-
-def _macro(text: Source, line: int) -> list[str]:
-    """Lines of a macro, from its head."""
-    body = text.text.split("\n")[line - 1 :]
-    return list(takewhile(lambda each: each.strip(), body))
 
 
 def _position(document: Document, name: str) -> list[str]:

@@ -67,11 +67,8 @@ def uses(macros: Macros, macro: str, parameter: str, seen: frozenset[str] = froz
         if usage is None:
             continue
         for place in places(usage, tokens[1:]):
-            if (
-                place.operand is None
-                or place.token.kind is not TokenKind.NAME
-                or place.token.text != parameter
-            ):
+            given = place.token.kind is TokenKind.NAME and place.token.text == parameter
+            if place.operand is None or not given:
                 continue
             if call is None:
                 yield Use(definition=usage, operand=place.operand)

@@ -1,7 +1,6 @@
 """Definitions, references and renaming."""
 
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -29,13 +28,10 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Edit:
-    """A replacement in the script, in the taught file, or in a required file given by its key."""
+class Edit(Place):
+    """A replacement at a place."""
 
-    span: Span
     text: str
-    taught: bool = False
-    file: str = ""
 
 
 def definition(document: Document, offset: int) -> list[Place]:
@@ -85,8 +81,10 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
     others = [*document.names, *document.taught_names, *(o for _, o in document.required_names)]
     if new != name.name and any(_meets(other, name, new) for other in others):
         raise Refused(f"there is a {name.kind} {quoted(new)} already")
-    if new != name.name and (macro := _hidden(others, name, new)):
-        raise Refused(f"in macro {quoted(macro)} {quoted(new)} stands for something else")
+    used = {other.macro for other in others if same(other, name)} - {""}
+    for other in others if new != name.name else ():
+        if other.name == new and other.macro in used and PARAMETER in (other.kind, name.kind):
+            raise Refused(f"in macro {quoted(other.macro)} {quoted(new)} stands for something else")
     return [Edit(span=f.span, text=new, taught=f.taught, file=f.file) for _, f in _all(document, name)]
 
 
@@ -99,15 +97,6 @@ def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
     kinds = (POSITION, PART) if name.kind in (POSITION, PART) else (name.kind,)
     called = new.upper() if name.kind == MACRO else new
     return other.kind in kinds and other.name == called and not same(other, name)
-
-
-def _hidden(others: Iterable[Occurrence], name: Occurrence, new: str) -> str | None:
-    """The macro where the rename would shadow another name, or None."""
-    used = {other.macro for other in others if same(other, name)} - {""}
-    for other in others:
-        if other.name == new and other.macro in used and PARAMETER in (other.kind, name.kind):
-            return other.macro
-    return None
 
 
 def _all(document: Document, name: Occurrence) -> list[tuple[Occurrence, Place]]:
@@ -153,8 +142,7 @@ def outline(document: Document) -> list[Symbol]:
 
 def _line(document: Document, at: Span) -> Span:
     """Span of the line of a name."""
-    line = document.line_at(at.start)
-    assert line is not None
+    line = document.line_of(at.start)
     return Span(start=line.start, end=max(line.end, at.end))
 
 
@@ -172,18 +160,8 @@ def _stages(document: Document) -> list[Symbol]:
         definition, tokens = instruction(line)
         if definition is not None and definition.op == "STAGE" and len(tokens) > 1:
             quoted = tokens[1].text.strip('"') if tokens[1].kind is TokenKind.STRING else tokens[1].text
-            _close(found, line.start)
-            found.append(
-                Symbol(
-                    name=quoted or STAGE,
-                    kind=STAGE,
-                    span=Span(start=line.start, end=len(document.text)),
-                    at=tokens[1].span,
-                )
-            )
+            if found:
+                found[-1].span = Span(start=found[-1].span.start, end=line.start)
+            span = Span(start=line.start, end=len(document.text))
+            found.append(Symbol(name=quoted or STAGE, kind=STAGE, span=span, at=tokens[1].span))
     return found
-
-
-def _close(stages: list[Symbol], end: int) -> None:
-    if stages:
-        stages[-1].span = Span(start=stages[-1].span.start, end=end)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from handeye.al.definition import Instruction, Refers
-from handeye.al.heads import MacroHead, heads
+from handeye.al.heads import heads
 from handeye.al.parameters import braced
 from handeye.al.scanner import Line, Token, TokenKind, scan
 from handeye.al.syntax import Name
@@ -40,7 +40,12 @@ def occurrences(text: str, parts: Iterable[str], macros: Macros) -> list[Occurre
     """Every name in a text, in order; `parts` tells parts from positions."""
     found = list(_walk(scan(text), macros, set(parts)))
     own = {(o.name, o.scope) for o in found if o.kind == LABEL and o.makes}
-    return [_in_scope(occurrence, own) for occurrence in found]
+    return [
+        replace(o, scope="")  # a jump to a label that its macro lacks goes to one of the text
+        if o.kind == LABEL and o.scope and not o.makes and (o.name, o.scope) not in own
+        else o
+        for o in found
+    ]
 
 
 def same(one: Occurrence, other: Occurrence) -> bool:
@@ -59,14 +64,15 @@ def _walk(lines: Sequence[Line], macros: Macros, parts: set[str]) -> Iterator[Oc
     for line in lines:
         labels, tokens = line.split()
         for label in labels:
-            yield Occurrence(
-                kind=LABEL, name=label.text, span=label.span, makes=True, scope=scope, macro=scope
-            )
+            yield _of(label, LABEL, scope, makes=True)
         if ends(line):
             scope, parameters = "", set()
             for head in heads([line]):
                 scope, parameters = head.word, {token.text for token in head.parameters}
-                yield from _head(head)
+                yield Occurrence(kind=MACRO, name=head.word, span=head.name.span, makes=True)
+                names = (token for token in reversed(head.parameters) if token.kind is TokenKind.NAME)
+                for token in reversed({token.text: token for token in names}.values()):
+                    yield _of(token, PARAMETER, scope, makes=True)
         else:
             if tokens and tokens[0].text.upper() in macros:
                 word = tokens[0].text.upper()
@@ -74,13 +80,9 @@ def _walk(lines: Sequence[Line], macros: Macros, parts: set[str]) -> Iterator[Oc
             yield from _operands(line, _Context(macros, scope, parameters, parts))
 
 
-def _head(head: MacroHead) -> Iterator[Occurrence]:
-    yield Occurrence(kind=MACRO, name=head.word, span=head.name.span, makes=True)
-    first = {token.text: token for token in reversed(head.parameters) if token.kind is TokenKind.NAME}
-    for token in reversed(first.values()):
-        yield Occurrence(
-            kind=PARAMETER, name=token.text, span=token.span, makes=True, scope=head.word, macro=head.word
-        )
+def _of(token: Token, kind: str, macro: str, *, makes: bool) -> Occurrence:
+    """A label or parameter of a macro, or a label of the text."""
+    return Occurrence(kind=kind, name=token.text, span=token.span, makes=makes, scope=macro, macro=macro)
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,14 +135,6 @@ def _operands(line: Line, where: _Context) -> Iterator[Occurrence]:
             if definition is None:
                 found = list(uses(where.macros, usage.op, operand.name))
             yield from dict.fromkeys(name for use in found for name in where.names(token, use))
-
-
-def _in_scope(occurrence: Occurrence, own: set[tuple[str, str]]) -> Occurrence:
-    """A jump to a label that its macro lacks, moved to the scope of the text."""
-    inside = occurrence.kind == LABEL and occurrence.scope and not occurrence.makes
-    if not inside or (occurrence.name, occurrence.scope) in own:
-        return occurrence
-    return replace(occurrence, scope="")
 
 
 _KINDS: Final = {"positions": POSITION, "parts": PART}

@@ -53,7 +53,9 @@ class _Walk:
     def go(self) -> Iterator[OperandToken]:
         for number, operand in enumerate(self.operands):
             if self.at == len(self.tokens):
-                self.expected = self._open(number)
+                rest = self.operands[number:]
+                needed = next((i for i, o in enumerate(rest) if not o.optional), len(rest) - 1)
+                self.expected = list(rest[: needed + 1])
                 return
             if operand.word:
                 if self.tokens[self.at].text.upper() != operand.word:
@@ -68,24 +70,15 @@ class _Walk:
         while self.at < len(self.tokens):
             yield self._take(None)
 
-    def _open(self, number: int) -> list[Operand]:
-        rest = self.operands[number:]
-        needed = next((i for i, operand in enumerate(rest) if not operand.optional), len(rest) - 1)
-        return list(rest[: needed + 1])
-
     def _value(self, operand: Operand) -> Iterator[OperandToken]:
         if operand.free:
             while self.at < len(self.tokens):
                 yield self._take(operand)
-        elif self.tokens[self.at].text == "[":
-            yield self._take(operand)
-            yield from self._components(operand)
-        else:
-            yield self._take(operand)
-
-    def _components(self, operand: Operand) -> Iterator[OperandToken]:
+            return
+        vector = self.tokens[self.at].text == "["
+        yield self._take(operand)
         component, limit = 0, len(operand.units) if Vector in operand.takes else 0
-        while self.at < len(self.tokens):
+        while vector and self.at < len(self.tokens):
             token = self.tokens[self.at]
             yield self._take(operand, min(component, max(limit - 1, 0)))
             if token.text == "]":

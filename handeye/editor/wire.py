@@ -9,14 +9,11 @@ from handeye.core.diagnostics import Diagnostic
 from handeye.core.source import Source, Span
 
 Units = Callable[[str], int]  # number of code units of a text in the agreed encoding
+_UNUSED: Final = ("label", "macro", "parameter", "position", "vector")
 _UNNECESSARY: Final = {
     "unreachable-code",
-    "unused-label",
-    "unused-macro",
-    "unused-parameter",
-    "unused-position",
-    "unused-vector",
-}  # codes of superfluous code, which editors show paler
+    *(f"unused-{kind}" for kind in _UNUSED),
+}  # which editors show paler
 
 
 def position(source: Source, offset: int, units: Units) -> lsp.Position:
@@ -47,12 +44,7 @@ def range_(source: Source, span: Span, units: Units) -> lsp.Range:
 def diagnostic(
     found: Diagnostic, at: lsp.Range, related: Sequence[tuple[lsp.Location, str]], where: str = ""
 ) -> lsp.Diagnostic:
-    """A diagnostic for an editor: texts, notes and help are lines of the message.
-
-    Args:
-        related: other places, with texts.
-        where: prefix of the message, for a diagnostic of another file.
-    """
+    """A diagnostic for an editor; texts, notes and help are lines of the message, which `where` begins."""
     severity = lsp.DiagnosticSeverity.Error if found.severity == "error" else lsp.DiagnosticSeverity.Warning
     said = [found.message, found.primary.text, *found.notes, *([f"help: {found.help}"] if found.help else [])]
     return lsp.Diagnostic(

@@ -40,9 +40,8 @@ _WORDS: Final[dict[str, str]] = {}  # what `--task` said of those that it has ma
 def register(task: AnyTask) -> None:
     """Make a task known by its name, and its arm by its own.
 
-    Raises:
-        InvalidInput: it is no task, has no name, its arm cannot stand where it is parked, or another task, or another
-            arm, has the name.
+    Raises InvalidInput if it is no task, has no name, its arm cannot stand where it is parked, or the name, or that of
+    its arm, is taken.
     """
     if not isinstance(task, AnyTask):
         raise BadArgument(f"a task is an object of a class that is derived from handeye.Task, not {task!r}")
@@ -63,11 +62,7 @@ def register(task: AnyTask) -> None:
 
 
 def named(words: str) -> AnyTask:
-    """The task that `--task` names: one that is known, or MODULE:NAME, found on the path or in the current folder.
-
-    Raises:
-        InvalidInput: there is none such.
-    """
+    """The task that `--task` names: one that is known, or MODULE:NAME, found on the path or in the current folder."""
     if ":" not in words:
         return any_task(words)
     found = _loaded(words)
@@ -111,11 +106,7 @@ def planned(task: AnyTask) -> Task:
 
 
 def known_any(name: str) -> AnyTask | None:
-    """The task of a name; None: this process does not know it, as it may be another program's own.
-
-    Raises:
-        InvalidInput: it is known where it is, and cannot be imported.
-    """
+    """The task of a name; None: it may be another program's own; raises InvalidInput if it cannot be imported."""
     if name not in _REGISTERED and (place := _BUILT_IN.get(name) or _ours().get(name)) is not None:
         return _loaded(place)
     if name not in _REGISTERED and name in _entry_points():

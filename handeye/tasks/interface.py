@@ -119,11 +119,7 @@ class AnyTask(ABC):
         return self.scene(spec)
 
     def shown(self, spec: WorldSpec, plan: bytes | None = None) -> mujoco.MjModel:
-        """The scene of a world, or of a run with a plan, checked for what pictures need.
-
-        Raises:
-            InvalidInput: there is no such world, or the scene lacks a camera or anything to be seen.
-        """
+        """The scene of a world, or of a run with a plan; raises InvalidInput if it lacks what pictures need."""
         scene = self.scene(spec) if plan is None else self.recorded_scene(spec, plan)
         _check_scene(self, scene)
         return scene
@@ -219,11 +215,7 @@ class Task(AnyTask):
         raise Refused(f"the task {quoted(self.name)} exports no scene")
 
     def check_arm(self, plan: Plan) -> None:
-        """See that a plan was made for the arm of this task.
-
-        Raises:
-            InvalidInput: it was made for another one.
-        """
+        """See that a plan was made for the arm of this task; raises Refused if it was made for another one."""
         if (plan.arm, plan.arm_digest) != (self.arm.name, digest(self.arm)):
             raise Refused(f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again")
         joints = len(self.arm.joints)

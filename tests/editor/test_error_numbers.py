@@ -8,7 +8,7 @@ from handeye.al.compiler import compile_text
 from handeye.core.errors import ERRORS
 from handeye.core.source import Source
 from handeye.editor.checking import planning
-from handeye.editor.error_numbers import ACTIONS, REMEDIES, error_text, raised_by
+from handeye.editor.explain import ACTIONS, REMEDIES, error_text, raised_by
 from handeye.editor.samples import SAMPLE
 from handeye.program.operation import Operation
 from handeye.program.operations import AnyOperation

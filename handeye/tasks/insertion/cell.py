@@ -1,4 +1,4 @@
-"""Cell of the insertion bench: an arm, a hand, and a witness of the truth of each physics step, for the referee."""
+"""The insertion bench: an arm, a pin in a holder, a face with one hole, and a witness of the truth for the referee."""
 
 import math
 from typing import Final
@@ -9,13 +9,108 @@ import numpy as np
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.hand import SimulatedHand
+from handeye.cell.looks import MESH, SEEN
 from handeye.cell.physics_stepper import PhysicsStepper
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.pose import Array
-from handeye.tasks.insertion.scene import FACE, PUSH, build, in_holder
+from handeye.core.resources import scenes
+from handeye.core.units import INCH
 from handeye.tasks.insertion.world import InsertionWorld
-from handeye.tasks.stanford_cell.arm import ARM
-from handeye.tasks.stanford_cell.dimensions import PARK, dimensions
+from handeye.tasks.stanford_cell.arm import ARM, add_arm
+from handeye.tasks.stanford_cell.dimensions import PARK, base_top, dimensions, pin_seat
+from handeye.tasks.stanford_cell.shapes import Bore, Shaper, add_camera
+
+HOLE: Final = (25 * INCH, 38 * INCH)
+"""Place of the hole as the program was taught it, m: among those of the pump's base."""
+HOLDER: Final = (15 * INCH, 35 * INCH)
+"""Place of the holder in which the pin stands, m: as in the pump's cell."""
+FACE: Final = base_top()  # height of the face around the hole, m
+CORNERS: Final = 48  # corners of a section of the nose, which is .005 mm slimmer between them
+WEDGES: Final = 24
+"""Wedges around the hole, which is .02 mm wider between them. With that nose, the play is .057 to .063 mm of .057."""
+PUSH: Final = "push"
+"""Sensor of the force of the plate on the pin, which no device reads: the resultant of all their contacts, N, W."""
+_NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
+"""What the sensor measures: the force, of all contacts (their resultant), one of them."""
+_RIM: Final = 0.070  # radius of the face around the hole, m
+_METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
+"""Classes of shapes that rub as the world's parts do."""
+
+
+def build(world: InsertionWorld) -> mujoco.MjModel:
+    """The compiled scene. Its arm is at joint zero, which joint 3 forbids: set a posture before stepping."""
+    spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
+    add_arm(spec, world)  # first: free bodies before it would shift its joints
+    shaper = Shaper(spec=spec)
+    for style in _METAL:
+        shaper.style(style).geom.friction[0] *= world.friction["part"]
+    _add_room(shaper)
+    _add_plate(shaper, world)
+    _add_holder(shaper)
+    spec.add_sensor(
+        name=PUSH, type=mujoco.mjtSensor.mjSENS_CONTACT, intprm=_NET_FORCE,
+        objtype=mujoco.mjtObj.mjOBJ_BODY, objname="plate", reftype=mujoco.mjtObj.mjOBJ_BODY, refname="pin",
+    )  # fmt: skip
+    return spec.compile()
+
+
+def _add_room(shaper: Shaper) -> None:
+    d, body = dimensions(), shaper.spec.worldbody
+    width, depth = d.all("table.size")
+    eye, at = np.array([2.1, 1.8, 1.0]), np.array([0.52, 0.72, 0.15])
+    add_camera(shaper.spec, "studio", eye, at).fovy = 37.0
+    body.add_light(pos=[0.2, 0.4, 2.0], dir=[0.3, 0.4, -1.0])
+    table = shaper.box(body, "solid", (0, 0, -d("table.thickness")), (width, depth, 0), "table", "table")
+    table.group = SEEN
+
+
+def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
+    """A face with the hole: the nose meets wedges around it; the shoulder a flat land, as on the pump's base."""
+    d = dimensions()
+    at = [HOLE[0] + world.plate[0], HOLE[1] + world.plate[1], 0.0]
+    plate = shaper.spec.worldbody.add_body(name="plate", pos=at)
+    radius, depth = d("pin.nose_radius") + world.clearance / 2, d("base.screw_holes.depth")
+    hole = Bore(radius=radius, outer=_RIM, height=depth, above=world.chamfer, sectors=WEDGES)
+    for wedge in shaper.ring(plate, "plate", hole, (0, 0, FACE - depth), lambda _: "tap"):
+        wedge.group, wedge.material = SEEN, "machined"
+    shaper.box(plate, "base_land", (-_RIM, -_RIM, FACE - 0.010), (_RIM, _RIM, FACE))
+    shaper.hole(plate, "hole", (0, 0, FACE), radius)
+
+
+def _add_holder(shaper: Shaper) -> None:
+    """A holder like that of the pump's pins, with the pin in it; the pin's origin is in the plane of its shoulder."""
+    d, (x, y) = dimensions(), HOLDER
+    radius, chamfer, height = d("pin_holder.hole_radius"), d("pin_holder.chamfer"), d("pin_holder.height")
+    hole = Bore(radius=radius, outer=0.0125, height=0.021, above=chamfer)
+    holder = shaper.spec.worldbody.add_body(name="holder", pos=[x, y, 0.0])
+    for wedge in shaper.ring(holder, "holder", hole, (0, 0, height - hole.height), lambda _: "bore"):
+        wedge.group, wedge.material = SEEN, "enamel"
+    pin = shaper.spec.worldbody.add_body(name="pin", pos=in_holder().tolist())
+    pin.add_freejoint(name="pin")
+    _add_pin(shaper, pin)
+
+
+def in_holder() -> Array:
+    """Place of the pin's origin as it stands in its holder, m, W, shape (3,)."""
+    d = dimensions()
+    seat = pin_seat(d("pin_holder.chamfer"), d("pin_holder.hole_radius"))
+    return np.array([*HOLDER, d("pin_holder.height") + seat])
+
+
+def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
+    """The aligning pin of the pump, with a rounder nose."""
+    d = dimensions()
+    r, length, bevel = d("pin.nose_radius"), d("pin.nose_length"), d("pin.nose_bevel")
+    nose = [(r - bevel, -length), (r, bevel - length), (r, 0.0)]
+    r, length, bevel = d("pin.body_radius"), d("pin.body_length"), d("pin.body_bevel")
+    shank = [(r, 0.0), (r, length - bevel), (r - bevel, length)]
+    for name, style, profile, corners in (("nose", "nose", nose, CORNERS), ("body", "shoulder", shank, 16)):
+        turns = 2 * math.pi * np.arange(corners) / corners
+        points = np.array([(r * math.cos(a), r * math.sin(a), z) for r, z in profile for a in turns])
+        mesh = shaper.convex(f"pin_{name}", points)
+        geom = body.add_geom(shaper.style(style), type=MESH, meshname=mesh, group=SEEN)
+        geom.material = "pin"
+
 
 SEATED: Final = 2e-4
 """Height of the shoulder over the face up to which a pin is seated, m. Chosen: a hundredth of its way."""

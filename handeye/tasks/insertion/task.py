@@ -43,7 +43,7 @@ class Insertion(Inserting):
         return VARIATION
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        from handeye.tasks.insertion.scene import build
+        from handeye.tasks.insertion.cell import build
         from handeye.tasks.insertion.world import InsertionWorld
 
         return build(InsertionWorld.draw(spec))
@@ -76,8 +76,7 @@ class Insertion(Inserting):
         return {"hole.clearance": clearance, "hole.chamfer": chamfer, "plate.x": 0.0, "plate.y": 0.0}
 
     def off(self, truth: Truth, error: tuple[float, float]) -> dict[str, float]:
-        from handeye.tasks.insertion.cell import tip
-        from handeye.tasks.insertion.scene import HOLE
+        from handeye.tasks.insertion.cell import HOLE, tip
 
         end = tip(truth.data)
         return {f"plate.{axis}": float(end[k] - HOLE[k] + error[k]) for k, axis in enumerate("xy")}

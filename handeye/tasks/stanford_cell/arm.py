@@ -34,17 +34,13 @@ def _differ(arm: mujoco.MjSpec, build: ArmBuild) -> None:
     for i, friction in enumerate(build.friction):
         link, joint = arm.body(f"link{i + 1}"), arm.joint(f"j{i + 1}")
         link.mass *= build.link_mass[i]
-        link.inertia = _possible(link.inertia * build.link_mass[i])
+        moments: Array = link.inertia * build.link_mass[i]
+        greatest = int(np.argmax(moments))  # no more than the others together, where rounding makes it so
+        moments[greatest] = min(moments[greatest], np.delete(moments, greatest).sum())
+        link.inertia = moments
         link.ipos *= build.mass_centre[i]
         joint.armature *= build.armature[i]
         joint.damping *= build.damping[i]
         joint.frictionloss = friction
     for tip in (arm.body("finger_a"), arm.body("finger_b"), arm.site("tool")):
         tip.pos[2] += build.hand_length
-
-
-def _possible(moments: Array) -> Array:
-    """Principal moments, the greatest no more than the others together, where rounding makes it so of a flat body."""
-    greatest = int(np.argmax(moments))
-    moments[greatest] = min(moments[greatest], np.delete(moments, greatest).sum())
-    return moments

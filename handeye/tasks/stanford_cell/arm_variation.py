@@ -72,12 +72,8 @@ def arm() -> Iterator[Quantity]:
         f"Amplitude of the waviness of the reading. {_READING} The waviness decides how far a saved correction "
         "carries; its amplitude is a placeholder.",
     )  # fmt: skip
-    yield from group(
-        "arm.wave_phase",
-        {str(n): Phase() for n in range(1, 7)},
-        "deg",
-        "Where the waviness of the reading begins.",
-    )
+    phases: dict[str, Distribution] = {str(n): Phase() for n in range(1, 7)}
+    yield from group("arm.wave_phase", phases, "deg", "Where the waviness of the reading begins.")
     yield from _sensors()
     yield from _drives()
     yield from _links()

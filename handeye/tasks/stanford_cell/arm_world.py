@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -42,30 +42,25 @@ def arm_values(world: World, rubbing: Sequence[str]) -> dict[str, Any]:
     }
 
 
+_OF_JOINTS: Final = (
+    "offset", "scale", "wave", "pot_noise", "pot_step", "tachometer_noise", "tachometer_step", "torque_step"
+)  # fmt: skip
+
+
 def _arm(world: World) -> ArmErrors:
     size = np.array([UNITS[unit].size for unit in JOINT_UNITS])
     return ArmErrors(
-        offset=_joints(world, "offset"),
-        scale=_joints(world, "scale"),
-        wave=_joints(world, "wave"),
+        **{name: _joints(world, name) for name in _OF_JOINTS},
         period=np.array(ARM_PERIOD) * size,
         phase=_joints(world, "wave_phase"),
         centre=np.array(ARM_CENTRE) * size,
-        pot_noise=_joints(world, "pot_noise"),
-        pot_step=_joints(world, "pot_step"),
-        tachometer_noise=_joints(world, "tachometer_noise"),
-        tachometer_step=_joints(world, "tachometer_step"),
-        torque_step=_joints(world, "torque_step"),
         drive_gain=1 + _joints(world, "drive_gain"),
     )
 
 
 def _arm_build(world: World) -> ArmBuild:
     return ArmBuild(
-        link_mass=1 + _joints(world, "link_mass"),
-        mass_centre=1 + _joints(world, "mass_centre"),
-        armature=1 + _joints(world, "armature"),
-        damping=1 + _joints(world, "damping"),
+        **{name: 1 + _joints(world, name) for name in ("link_mass", "mass_centre", "armature", "damping")},
         friction=_joints(world, "friction"),
         hand_length=world["arm.hand_length"],
     )
@@ -78,10 +73,7 @@ def _joints(world: World, name: str) -> Array:
 
 def _hand(world: World) -> HandErrors:
     return HandErrors(
-        gap_offset=world["hand.gap_offset"],
-        gap_scale=world["hand.gap_scale"],
-        gap_noise=world["hand.gap_noise"],
-        gap_step=world["hand.gap_step"],
+        **{name: world[f"hand.{name}"] for name in ("gap_offset", "gap_scale", "gap_noise", "gap_step")},
         switch_force=(world["hand.switch_force.plus_y"], world["hand.switch_force.minus_y"]),
         torque_noise=world.values.get("screwdriver.torque_noise", 0.0),
     )

@@ -13,7 +13,7 @@ from handeye.cell.threads import THREAD_FRICTION, ThreadFigures, Threads
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.clamping import Clamping
-from handeye.tasks.water_pump.faults.before import crossing_threads, scarred_threads, slipping_screws
+from handeye.tasks.water_pump.faults.before import bad_threads, slipping_screws
 from handeye.tasks.water_pump.faults.devices import defects
 from handeye.tasks.water_pump.faults.during import Mishaps, due
 from handeye.tasks.water_pump.scene import build
@@ -22,11 +22,10 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: bool = True) -> SimulatedCell:
-    """The cell of a world; raises InvalidInput if pictures cannot be made so here.
+    """The cell of a world; without `rest` no part sleeps or is welded where clamped: the same, slower.
 
-    Args:
-        camera: how to make pictures: `auto`, `gl` or `ray`, or what makes their renderer.
-        rest: let parts sleep at rest and move as one when clamped; without, the same, slower.
+    `camera` says how to make pictures: `auto`, `gl` or `ray`, or what makes their renderer. Raises InvalidInput if
+    pictures cannot be made so here.
     """
     model = build(world)
     data = mujoco.MjData(model)
@@ -43,8 +42,8 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
     figures = ThreadFigures(
         phases=world.thread_phase,
         friction=THREAD_FRICTION * world.friction["thread"],
-        scarred=scarred_threads(faults),
-        crossing=crossing_threads(faults),
+        scarred=bad_threads(faults, "scarred"),
+        crossing=bad_threads(faults, "crosses"),
         slipping=slipping_screws(faults, len(world.thread_phase)),
     )
     threads = Threads(model, data, driver, figures, lines)

@@ -5,7 +5,6 @@ In the cell a screw in its thread is a carrier, and the screw itself lies on a t
 base. Carriers, tray, and what couples the driver's motor to a carrier are left out.
 """
 
-from collections.abc import Iterator
 from typing import Final
 
 import mujoco
@@ -48,7 +47,11 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
     model.eq_data[:] = spec.compile().eq_data  # of bonds that are left out
     spec.copy_back(model)
     add_textures(spec)
-    threaded = dict(_threaded(truth, data))
+    threaded = {
+        f"screw{thread.screw}": body_pose(data, f"carrier{hole}")
+        for hole, thread in enumerate(holes_of(truth))
+        if thread.screw is not None
+    }
     for kind, names in _MECHANISMS.items():
         for thing in [thing for thing in getattr(spec, kind) if thing.name.startswith(names)]:
             spec.delete(thing)
@@ -73,13 +76,6 @@ def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
         for solid in names
     }
     return {**table, **dict.fromkeys(_FASTENERS, float(steel.geom.density))}
-
-
-def _threaded(truth: Truth, data: mujoco.MjData) -> Iterator[tuple[str, Pose]]:
-    """The screws that are in their threads, and `X_WS` of each."""
-    for hole, thread in enumerate(holes_of(truth)):
-        if thread.screw is not None:
-            yield f"screw{thread.screw}", body_pose(data, f"carrier{hole}")
 
 
 def _weld(spec: mujoco.MjSpec, screw: str, X_BS: Pose) -> None:

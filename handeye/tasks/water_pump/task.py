@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 from handeye.arm.robots.stanford import STANFORD
@@ -24,25 +25,6 @@ if TYPE_CHECKING:
     from handeye.program.program import Fixture
     from handeye.tasks.trial import Trial
 
-PERIOD: Final = HistoricalTiming(
-    year=1973,
-    program="water_pump",
-    times={"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0},
-)  # Bolles and Paul, STAN-CS-73-396
-
-
-HOLDS_FROM: Final = {
-    "base": 3, "gasket": 5, "top": 7, "screws_depth": 8, "screws_place": 8, "screws_crossed": 8, "pins": 9,
-}  # fmt: skip
-CONTACTS: Final = {
-    "grasp": ("WEB",),
-    "pin": ("T1", "T2"),
-    "gasket": ("GON",),
-    "top": ("TOPON",),
-    "screw": ("H0", "H1", "H2", "H3", "H4", "H5"),
-    "rotor": ("CRANK",),
-}
-
 
 class WaterPump(Task):
     """Put gasket and top on the base of an automobile water pump, and screw them down."""
@@ -55,9 +37,18 @@ class WaterPump(Task):
     other_scripts = ("water_pump_1973.al",)
     eye = CameraSetup(drawing=DRAWING, looks=LOOKS)
     photographs = ("studio", "pump")
-    period = PERIOD
-    contacts = CONTACTS
-    holds_from = HOLDS_FROM
+    period = HistoricalTiming(
+        year=1973,
+        program="water_pump",
+        times={"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0},
+    )  # Bolles and Paul, STAN-CS-73-396
+    contacts = MappingProxyType({
+        "grasp": ("WEB",), "pin": ("T1", "T2"), "gasket": ("GON",), "top": ("TOPON",),
+        "screw": ("H0", "H1", "H2", "H3", "H4", "H5"), "rotor": ("CRANK",),
+    })  # fmt: skip
+    holds_from = MappingProxyType({
+        "base": 3, "gasket": 5, "top": 7, "screws_depth": 8, "screws_place": 8, "screws_crossed": 8, "pins": 9,
+    })  # fmt: skip
 
     @property
     def trials(self) -> Mapping[str, Trial[Any]]:

@@ -9,8 +9,7 @@ import pytest
 from handeye.cell.physics_stepper import PhysicsStepper
 from handeye.core.pose import Array
 from handeye.core.variation import Overrides, WorldSpec
-from handeye.tasks.insertion.cell import SEATED, Witness, shoulder, tip
-from handeye.tasks.insertion.scene import CORNERS, FACE, HOLE, build
+from handeye.tasks.insertion.cell import CORNERS, FACE, HOLE, SEATED, Witness, build, shoulder, tip
 from handeye.tasks.insertion.task import INSERTION
 from handeye.tasks.insertion.world import InsertionWorld
 from handeye.tasks.stanford_cell.dimensions import PARK, dimensions

@@ -11,7 +11,7 @@ from handeye.core.faults import Fault
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
-from handeye.tasks.water_pump.faults.before import GONE, METAL, part_faults, scarred_threads, slipping_screws
+from handeye.tasks.water_pump.faults.before import GONE, METAL, bad_threads, part_faults, slipping_screws
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.variation import SEVENTH
@@ -151,7 +151,7 @@ def test_a_jammed_rotor_and_a_smooth_bit_rub_otherwise() -> None:
 
 
 def test_threads_are_scarred_by_number() -> None:
-    assert scarred_threads([Fault(name="thread.2.scarred"), Fault(name="hole.3.blocked")]) == {1}
+    assert bad_threads([Fault(name="thread.2.scarred"), Fault(name="hole.3.blocked")], "scarred") == {1}
 
 
 @pytest.mark.parametrize("fault", ["screw.1.slotless", "bit.smooth"])

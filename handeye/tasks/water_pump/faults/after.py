@@ -4,7 +4,7 @@ The hand that does it is not simulated. What is taken away lies on the tray unde
 meets it; what is moved is elsewhere, at rest; what is glued is welded. A hand that tightens a screw is a torque.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping
 from typing import Final
 
 import mujoco
@@ -25,46 +25,6 @@ THIN_RATIO: Final = 0.6  # thickness of the pin that takes the place of another
 TOP_ON_STAGE: Final = 7
 _FINGERS: Final = (f"{ARM}finger_a", f"{ARM}finger_b")
 _PARTS: Final = ("base", "gasket", "top", "pin0", "pin1", "driver")
-
-
-def disturbances() -> tuple[Disturbance, ...]:
-    """The disturbances of a whole pump, then those of one whose top has just been put on."""
-    return (*_of_a_pump(), *_of_a_stack())
-
-
-def _of_a_pump() -> Iterator[Disturbance]:
-    yield Disturbance(
-        name="screw.tightened", meaning="A screw is tightened by hand, with 1.5 N m.", make=_tighten
-    )
-    for axis, way in (("x", (MOVED_M, 0.0)), ("y", (0.0, -MOVED_M))):
-        yield Disturbance(
-            name=f"pump.moved.{axis}",
-            meaning=f"The pump is moved by 5 mm along table {axis}, away from its block.",
-            make=_moved(way),
-        )
-    yield Disturbance(
-        name="driver.removed", meaning="The screwdriver is taken out of its rack.", make=_removed("driver")
-    )
-    yield Disturbance(name="magnet.dead", meaning="The magnet of the screwdriver is dead.", make=_demagnetize)
-    yield Disturbance(name="pin.removed", meaning="A pin is taken out of its holder.", make=_removed("pin0"))
-    yield Disturbance(
-        name="pin.swapped", meaning="A pin is swapped for one of .6 of its thickness.", make=_thinned("pin1")
-    )
-
-
-def _of_a_stack() -> Iterator[Disturbance]:
-    for name, meaning, make in (
-        ("gasket.glued", "The gasket is glued to the base.", _glued("gasket")),
-        ("top.glued", "The top is glued to the base.", _glued("top")),
-        ("top.removed", "The top is taken away.", _removed("top")),
-        ("gasket.removed", "The gasket is taken out from under the top.", _removed("gasket")),
-        (
-            "stack.moved",
-            "The base is moved by 5 mm along table x, with gasket and top.",
-            _moved((MOVED_M, 0.0)),
-        ),
-    ):
-        yield Disturbance(name=name, meaning=meaning, make=make, after=TOP_ON_STAGE)
 
 
 Make = Callable[[SimulatedCell], None]
@@ -130,6 +90,36 @@ def _glued(layer: str) -> Make:
 
 def _pose(data: mujoco.MjData, body: str) -> Array:
     return pose(data.body(body).xmat.reshape(3, 3), data.body(body).xpos)
+
+
+_OF_A_PUMP: Final[Mapping[str, tuple[str, Make]]] = {
+    "screw.tightened": ("A screw is tightened by hand, with 1.5 N m.", _tighten),
+    "pump.moved.x": ("The pump is moved by 5 mm along table x, away from its block.", _moved((MOVED_M, 0.0))),
+    "pump.moved.y": (
+        "The pump is moved by 5 mm along table y, away from its block.",
+        _moved((0.0, -MOVED_M)),
+    ),
+    "driver.removed": ("The screwdriver is taken out of its rack.", _removed("driver")),
+    "magnet.dead": ("The magnet of the screwdriver is dead.", _demagnetize),
+    "pin.removed": ("A pin is taken out of its holder.", _removed("pin0")),
+    "pin.swapped": ("A pin is swapped for one of .6 of its thickness.", _thinned("pin1")),
+}
+_OF_A_STACK: Final[Mapping[str, tuple[str, Make]]] = {
+    "gasket.glued": ("The gasket is glued to the base.", _glued("gasket")),
+    "top.glued": ("The top is glued to the base.", _glued("top")),
+    "top.removed": ("The top is taken away.", _removed("top")),
+    "gasket.removed": ("The gasket is taken out from under the top.", _removed("gasket")),
+    "stack.moved": ("The base is moved by 5 mm along table x, with gasket and top.", _moved((MOVED_M, 0.0))),
+}
+
+
+def disturbances() -> tuple[Disturbance, ...]:
+    """The disturbances of a whole pump, then those of one whose top has just been put on."""
+    return tuple(
+        Disturbance(name=name, meaning=meaning, make=make, after=after)
+        for after, those in ((None, _OF_A_PUMP), (TOP_ON_STAGE, _OF_A_STACK))
+        for name, (meaning, make) in those.items()
+    )
 
 
 # -- their effects ------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
 
@@ -44,11 +44,6 @@ GONE: Final = {
 OVER_TRAY_M: Final = 0.12  # what hangs below a part's origin
 
 _JAM_FRICTION_NM: Final = 20.0  # more than the arm can turn
-_THREAD: Final = "thread"
-_SCARRED: Final = "scarred"
-_CROSSES: Final = "crosses"
-_SCREW: Final = "screw"
-_SLOTLESS: Final = "slotless"
 _SMOOTH: Final = "bit.smooth"
 _CARD_HALF_M: Final = 0.08
 _FOREMOST: Final = 3  # priority in a contact, over all shapes of the scene
@@ -191,12 +186,8 @@ def _moved(part: str, article: str, expected: Mapping[str, Expected]) -> Iterato
 def _pins() -> Iterator[PartFault]:
     for number in (1, 2):
         pin = f"pin{number - 1}"
-        yield _fault(
-            f"pin.{number}.missing",
-            f"Aligning pin {number} is not in its holder.",
-            _missing(pin),
-            detect.NO_PIN,
-        )
+        meaning = f"Aligning pin {number} is not in its holder."
+        yield _fault(f"pin.{number}.missing", meaning, _missing(pin), detect.NO_PIN)
         yield _fault(
             f"pin.{number}.thick", f"The nose of aligning pin {number} is so much thicker, in radius.",
             _thick_nose(pin), detect.NO_HOLE_FOR_PIN, Size(unit="mm", usual=0.2, limits=(-1.0, 0.25)),
@@ -220,7 +211,7 @@ def _screws(count: int) -> Iterator[PartFault]:
             Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip
         yield _fault(
-            f"{_SCREW}.{number}.{_SLOTLESS}", f"The head of screw {number} has no slot: the bit slips on it, and no "
+            f"screw.{number}.slotless", f"The head of screw {number} has no slot: the bit slips on it, and no "
             "thread takes it.", _slippery(f"screw_head{number - 1}"), calls(loose),
         )  # fmt: skip
 
@@ -240,18 +231,18 @@ def _holes(count: int) -> Iterator[PartFault]:
         for name, meaning, breaks, expected, size in (
             (f"hole.{number}.blocked", f"Tapped hole {number} of the base is open only so far below its mouth.",
              _block(hole), blocked, Size(unit="mm", usual=2.0, limits=(0.0, 20.0))),
-            (f"{_THREAD}.{number}.{_SCARRED}",
+            (f"thread.{number}.scarred",
              f"A screw was crossed in tapped hole {number} before: another crosses there more easily.", _as_drawn,
              Expected(
                  harmless="A screw that comes in straight goes home in a scarred thread, too; the referee cautions."
              ), None),
-            (f"{_THREAD}.{number}.{_CROSSES}",
+            (f"thread.{number}.crosses",
              f"Whatever screw comes into tapped hole {number} crosses, however straight it stands.", _as_drawn,
              Expected(calls=(high,)), None),
-            (f"{_THREAD}.{number}.stripped",
+            (f"thread.{number}.stripped",
              f"The thread of tapped hole {number} is worn away: a screw slides in and holds nothing.", _strip(hole),
              Expected(calls=(loose, detect.lost_screw(screw))), None),
-            (f"{_THREAD}.{number}.full",
+            (f"thread.{number}.full",
              f"The shank of a broken screw fills tapped hole {number} up to its mouth.",
              _block(hole, "stub"), full, None),
         ):  # fmt: skip
@@ -273,21 +264,16 @@ def _screwdriver_and_light() -> Iterator[PartFault]:
     )  # fmt: skip
 
 
-def scarred_threads(faults: Sequence[Fault]) -> frozenset[int]:
-    """Indices of the tapped holes in which a screw was crossed before."""
-    return _numbered(faults, _THREAD, _SCARRED)
-
-
-def crossing_threads(faults: Sequence[Fault]) -> frozenset[int]:
-    """Indices of the tapped holes in which every screw crosses."""
-    return _numbered(faults, _THREAD, _CROSSES)
+def bad_threads(faults: Sequence[Fault], how: Literal["scarred", "crosses"]) -> frozenset[int]:
+    """Indices of the tapped holes in which a screw was crossed before, or every screw crosses."""
+    return _numbered(faults, "thread", how)
 
 
 def slipping_screws(faults: Sequence[Fault], count: int) -> frozenset[int]:
     """Indices of screws that the bit slips on and no thread takes: those without a slot, all if the bit is smooth."""
     if any(fault.name == _SMOOTH for fault in faults):
         return frozenset(range(count))
-    return _numbered(faults, _SCREW, _SLOTLESS)
+    return _numbered(faults, "screw", "slotless")
 
 
 def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
@@ -302,7 +288,7 @@ def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
 
 
 def _as_drawn(spec: mujoco.MjSpec, _: float) -> None:
-    """Change nothing: threads are no shapes, see `scarred_threads` and `crossing_threads`."""
+    """Change nothing: threads are no shapes, see `bad_threads`."""
 
 
 def _missing(part: str) -> Change:
@@ -399,10 +385,8 @@ def _shade(spec: mujoco.MjSpec, _: float) -> None:
     card = spec.worldbody.add_geom(
         name="card", type=spec.geom("hub").type, contype=0, conaffinity=0, group=2, rgba=[0.2, 0.2, 0.2, 1.0]
     )
-    card.pos[:], card.size[:] = (
-        (light + base) / 2 + (_CARD_HALF_M, 0.0, 0.0),
-        (_CARD_HALF_M, _CARD_HALF_M, 0.0005),
-    )
+    card.pos[:] = (light + base) / 2 + (_CARD_HALF_M, 0.0, 0.0)
+    card.size[:] = _CARD_HALF_M, _CARD_HALF_M, 0.0005
 
 
 def _thick_nose(pin: str) -> Change:
@@ -433,10 +417,8 @@ def _block(hole: int, plug_name: str = "plug") -> Change:
         plug = spec.body("base").add_geom(
             spec.find_default("face"), name=f"{plug_name}{hole}", type=spec.geom("bit").type
         )
-        plug.fromto[:], plug.size[0] = (
-            (x, y, floor, x, y, mouth - depth),
-            dimensions()("base.screw_holes.radius"),
-        )
+        plug.fromto[:] = x, y, floor, x, y, mouth - depth
+        plug.size[0] = dimensions()("base.screw_holes.radius")
         slide = spec.joint(f"thread_slide{hole}")
         slide.range[0], slide.solref_limit[:], slide.solimp_limit[:] = -depth, *METAL
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from handeye.core.faults import Fault, FaultKind
+from handeye.core.faults import Expected, Fault, FaultKind, Size
 
 B = TypeVar("B")
 
@@ -16,7 +16,22 @@ class PumpFault(FaultKind, Generic[B]):
     breaks: B
 
 
-def broken(declared: Iterable[PumpFault[B]], faults: Sequence[Fault]) -> list[tuple[Fault, B]]:
+def declared(
+    name: str,
+    meaning: str,
+    breaks: B,
+    expected: Expected,
+    size: Size | None = None,
+    *,
+    stage: int | None = None,
+) -> PumpFault[B]:
+    """A fault that sets in during a run; by default with a stage, or from the start."""
+    return PumpFault(
+        name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
+    )
+
+
+def broken(those: Iterable[PumpFault[B]], faults: Sequence[Fault]) -> list[tuple[Fault, B]]:
     """The `faults` of a run that are declared here, each with what it breaks."""
-    known = {fault.name: fault.breaks for fault in declared}
+    known = {fault.name: fault.breaks for fault in those}
     return [(fault, known[fault.name]) for fault in faults if fault.name in known]

@@ -25,7 +25,7 @@ from handeye.core.faults import Expected, Fault, Size
 from handeye.core.units import JIFFY
 from handeye.tasks.stanford_cell.arm_variation import JOINT_UNITS
 from handeye.tasks.water_pump.faults import expected_detection as detect
-from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
+from handeye.tasks.water_pump.faults.declaration import PumpFault, broken, declared
 
 _FINGERS: Final = ("finger_switch.plus_y", "finger_switch.minus_y")
 _JUMP: Final = {
@@ -46,7 +46,7 @@ DeviceFault = PumpFault[Lines]
 @cache
 def device_faults() -> tuple[DeviceFault, ...]:
     """All faults of devices, in the order they are listed."""
-    return (*_switches(), *_hand(), *_force(), *_joints(), *_servo(), *_screwdriver(), *_sight())
+    return (*_switches(), *_hand(), *_force(), *_joints(), *_screwdriver(), *_sight())
 
 
 def defects(faults: Sequence[Fault]) -> tuple[Defect, ...]:
@@ -69,9 +69,7 @@ def _fault(
 ) -> DeviceFault:
     made = effect if callable(effect) else lambda _: effect
     breaks = ((lines,) if isinstance(lines, str) else lines, made)
-    return PumpFault(
-        name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
-    )
+    return declared(name, meaning, breaks, expected, size, stage=stage)
 
 
 def _switches() -> Iterator[DeviceFault]:
@@ -141,9 +139,6 @@ def _joints() -> Iterator[DeviceFault]:
                     "the arm sank."),
             Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
-
-
-def _servo() -> Iterator[DeviceFault]:
     yield _fault(
         "servo.late", "The computer is late: no torque arrives at the drives for so many servo periods.", "servo",
         lambda periods: Missing(periods * JIFFY), Expected(errors=(WATCHDOG,)),

@@ -25,7 +25,7 @@ from handeye.core.units import INCH
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.water_pump.faults import expected_detection as detect
 from handeye.tasks.water_pump.faults.before import GONE, OVER_TRAY_M
-from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
+from handeye.tasks.water_pump.faults.declaration import PumpFault, broken, declared
 
 PUSH_S: Final = 2.0
 MOVE_S: Final = 1.0
@@ -191,22 +191,13 @@ def mishap_faults() -> tuple[MishapFault, ...]:
     return (*_light_and_pushes(), *_base(), *_losses())
 
 
-def _fault(
-    name: str,
-    meaning: str,
-    breaks: Callable[[float], Mishap],
-    expected: Expected,
-    size: Size | None = None,
-    stage: int | None = None,
-) -> MishapFault:
-    return PumpFault(
-        name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
-    )
+def _always(mishap: Mishap) -> Callable[[float], Mishap]:
+    return lambda _: mishap
 
 
 def _light_and_pushes() -> Iterator[MishapFault]:
     meaning = "The lamp of the cell goes out; what light the room has stays."
-    yield _fault("light.off", meaning, lambda _: LightOut(), detect.POOR_LIGHT, stage=6)
+    yield declared("light.off", meaning, _always(LightOut()), detect.POOR_LIGHT, stage=6)
     size = Size(unit="N", usual=40.0, limits=(-300.0, 300.0))
     expected = Expected(
         errors=(FORCE_WRONG, SERVO_LAG),
@@ -215,7 +206,7 @@ def _light_and_pushes() -> Iterator[MishapFault]:
     )
     for number, axis in enumerate("xyz"):
         meaning = f"Somebody pushes the hand along table {axis} for {PUSH_S:g} s."
-        yield _fault(f"arm.pushed.{axis}", meaning, partial(Pushed, number), expected, size, stage=3)
+        yield declared(f"arm.pushed.{axis}", meaning, partial(Pushed, number), expected, size, stage=3)
 
 
 def _base() -> Iterator[MishapFault]:
@@ -228,9 +219,9 @@ def _base() -> Iterator[MishapFault]:
     )
     for number, axis in enumerate("xy"):
         meaning = f"Somebody moves the base along table {axis} within {MOVE_S:g} s, with what stands on it."
-        yield _fault(f"base.moved.{axis}", meaning, partial(Moved, number), expected, size, stage=2)
+        yield declared(f"base.moved.{axis}", meaning, partial(Moved, number), expected, size, stage=2)
     meaning = "Somebody takes the base away, and all that stands on it."
-    yield _fault("base.removed", meaning, lambda _: TakenAway(), detect.NO_HOLE_FOR_PIN, stage=4)
+    yield declared("base.removed", meaning, _always(TakenAway()), detect.NO_HOLE_FOR_PIN, stage=4)
 
 
 def _losses() -> Iterator[MishapFault]:
@@ -251,11 +242,7 @@ def _losses() -> Iterator[MishapFault]:
         ("top", "top", "the top", top),
     ):
         meaning = f"The hand loses {told} as soon as it has lifted it by {LIFTED_M / INCH:.1f} in."
-        yield _fault(f"{name}.dropped", meaning, _dropping(part), expected)
-
-
-def _dropping(part: str) -> Callable[[float], Mishap]:
-    return lambda _: Dropped(part)
+        yield declared(f"{name}.dropped", meaning, _always(Dropped(part)), expected)
 
 
 def due(faults: Sequence[Fault]) -> list[tuple[Fault, Mishap]]:

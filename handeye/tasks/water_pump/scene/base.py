@@ -32,7 +32,9 @@ def add_base(shaper: Shaper, world: PumpWorld) -> None:
     size = (d("base.plate.length"), d("base.plate.width"), base_top())
     body_inertia(body, mass, d.all("base.casting.mass_centre"), box_moments(mass, size))
     holes = world.drilled("base")
-    _add_plate(shaper, body, d)
+    x, length, width = d("base.plate.centre_x"), d("base.plate.length"), d("base.plate.width")
+    low, high = (x - length / 2, -width / 2, 0.0), (x + length / 2, width / 2, d("base.plate.thickness"))
+    shaper.box(body, "solid", low, high, name="plate")
     _add_casting(shaper, body, d, holes)
     _add_looks(shaper, body, world.screws)
     lands = shaper.lands(body)
@@ -43,23 +45,13 @@ def add_base(shaper: Shaper, world: PumpWorld) -> None:
         _add_tapped_hole(shaper, body, d, number, (x, y))
 
 
-def _add_plate(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions) -> None:
-    x, length, width = d("base.plate.centre_x"), d("base.plate.length"), d("base.plate.width")
-    low, high = (x - length / 2, -width / 2, 0.0), (x + length / 2, width / 2, d("base.plate.thickness"))
-    shaper.box(body, "solid", low, high, name="plate")
-
-
 def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequence[Point]) -> None:
     """Walls of solid metal around the large holes; wedges with a tapped hole in them stop only hand and driver."""
     floor, top = d("base.plate.thickness"), base_top()
+    x2 = d("base.large_hole_2.x")
     bores = (
         ("wall_1", 0.0, d("base.large_hole_1.diameter"), d("base.casting.chamber_diameter")),
-        (
-            "wall_2",
-            d("base.large_hole_2.x"),
-            d("base.large_hole_2.diameter"),
-            d("base.casting.inlet_diameter"),
-        ),
+        ("wall_2", x2, d("base.large_hole_2.diameter"), d("base.casting.inlet_diameter")),
     )
     reach = d("base.screw_holes.radius") + d("base.screw_holes.chamfer")
     for mesh, x, inner, outer in bores:
@@ -82,17 +74,13 @@ def _in_wedge(angle: float, x: float, y: float, reach: float) -> bool:
 
 
 def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
-    for colour, surface in solids.painted(
-        solids.casting(screws), partial(_colour, screw_holes(screws))
-    ).items():
+    painted = solids.painted(solids.casting(screws), partial(_colour, screw_holes(screws)))
+    for colour, surface in painted.items():
         shaper.look(body, f"casting_{colour}", colour, surface)
     shaper.look(body, "base_plate", "plate", solids.plate())
     d = dimensions()  # the floor of the through hole is as oily as its wall
-    x, radius, floor = (
-        d("base.large_hole_2.x"),
-        d("base.large_hole_2.diameter") / 2,
-        d("base.plate.thickness"),
-    )
+    x, floor = d("base.large_hole_2.x"), d("base.plate.thickness")
+    radius = d("base.large_hole_2.diameter") / 2
     shaper.cylinder(body, "look", radius, (x, 0, floor), (x, 0, floor + 2e-4), "hole", "floor_2")
 
 
@@ -125,9 +113,7 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
     shaper.ring(body, "tap", tap, (x, y, top - depth), lambda _: "tap")
     shaper.hole(body, f"base_hole{number}", (x, y, top), tap.radius)
     carrier = body.add_body(name=f"carrier{number}", pos=[x, y, top])
-    carrier.gravcomp = (
-        1.0  # an empty thread has nothing that could sink, and would keep the base from resting
-    )
+    carrier.gravcomp = 1.0  # an empty thread has nothing that could sink: it would not let the base rest
     body_inertia(carrier, 0.005, (0.0, 0.0, 0.0), (1e-7, 1e-7, 1e-7))
     carrier.add_joint(shaper.style("thread_slide"), name=f"thread_slide{number}")
     carrier.add_joint(shaper.style("thread_turn"), name=f"thread_turn{number}")

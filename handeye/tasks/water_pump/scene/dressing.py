@@ -7,7 +7,6 @@ import math
 from itertools import product
 from typing import Final
 
-import mujoco
 import numpy as np
 from manifold3d import Manifold  # type: ignore[import-not-found]  # stubs, but no marker
 
@@ -54,21 +53,19 @@ def add_reels(shaper: Shaper) -> None:
         (left, front, _), (right, _, top) = cabinet(drive)
         middle, z = (left + right) / 2, top - 0.45
         for side, tape in ((-1, 0.085), (1, 0.060)):
-            _add_reel(
-                shaper, f"{2 * drive + (side + 1) // 2}", (middle + side * 0.128, front + 0.006, z), tape
-            )
+            number, at = 2 * drive + (side + 1) // 2, (middle + side * 0.128, front + 0.006, z)
+            _add_reel(shaper, number, at, tape)
         low, high = (middle - 0.05, front, z - 0.19), (middle + 0.05, front + 0.02, z - 0.135)
         shaper.box(body, "scenery", low, high, "steel", f"tape_heads{drive}")
 
 
-def _add_reel(shaper: Shaper, number: str, at: Vector, tape: float) -> None:
+def _add_reel(shaper: Shaper, number: int, at: Vector, tape: float) -> None:
     """A reel with its axis along y, on a deck at `at`, with tape to a radius (m)."""
     body, (x, y, z) = shaper.spec.worldbody, at
     shaper.cylinder(body, "scenery", tape, (x, y, z), (x, y + 0.012, z), "tape", f"tape{number}")
     shaper.cylinder(body, "scenery", 0.024, (x, y, z), (x, y + 0.024, z), "black", f"tape_hub{number}")
-    shaper.look(
-        body, "tape_reel", "reel", _flange(), (x, y + 0.012, z), style="scenery"
-    ).name = f"tape_reel{number}"
+    reel = shaper.look(body, "tape_reel", "reel", _flange(), (x, y + 0.012, z), style="scenery")
+    reel.name = f"tape_reel{number}"
 
 
 def _flange() -> solids.Surface:
@@ -99,30 +96,19 @@ def add_teletype(shaper: Shaper) -> None:
 
 def _case() -> solids.Surface:
     """The case of a teletype, its keyboard sloping down along x."""
-    profile = [
-        (-0.22, 0.60),
-        (0.30, 0.60),
-        (0.30, 0.655),
-        (0.12, 0.70),
-        (0.06, 0.80),
-        (-0.16, 0.82),
-        (-0.22, 0.79),
-    ]
-    return solids.surface(solids.prism(profile, -0.26, 0.20))
+    below, keys = [(-0.22, 0.60), (0.30, 0.60), (0.30, 0.655)], [(0.12, 0.70), (0.06, 0.80)]
+    return solids.surface(solids.prism([*below, *keys, (-0.16, 0.82), (-0.22, 0.79)], -0.26, 0.20))
 
 
 def _keys() -> solids.Surface:
     """Four rows of keys on the slope of the keyboard."""
     key = solids.extruded(solids.disc(0.0075, segments=8), 0.0, 0.012)
-    return solids.surface(
-        Manifold.compose(
-            [
-                key.translate((0.285 - 0.04 * row, -0.22 + 0.028 * place + 0.007 * row, 0.655 + 0.010 * row))
-                for row in range(4)
-                for place in range(13)
-            ]
-        )
-    )
+    keys = [
+        key.translate((0.285 - 0.04 * row, -0.22 + 0.028 * place + 0.007 * row, 0.655 + 0.010 * row))
+        for row in range(4)
+        for place in range(13)
+    ]
+    return solids.surface(Manifold.compose(keys))
 
 
 _X, _Y, _Z = LEFT + 0.03, 0.30, 0.56  # middle of the clock, m; who looks at it has y on the right and z above
@@ -145,24 +131,19 @@ def add_clock(shaper: Shaper) -> None:
     ):
         shaper.cylinder(wall, "scenery", radius, (_X + back, _Y, _Z), (_X + front, _Y, _Z), material, name)
     for hour in range(12):
-        _add_mark(shaper, hour)
+        half, angle = 0.013 if hour % 3 == 0 else 0.007, math.pi * hour / 6
+        aside, up = (0.140 - half) * math.sin(angle), (0.140 - half) * math.cos(angle)
+        wall.add_geom(
+            shaper.style("scenery"), name=f"clock_mark{hour}", type=BOX, material="black",
+            size=[0.001, 0.003, half], pos=[_X + 0.012, _Y + aside, _Z + up],
+            quat=[math.cos(angle / 2), -math.sin(angle / 2), 0.0, 0.0],
+        )  # fmt: skip
     for layer, (name, (_, length, half)) in enumerate(_HANDS.items()):
         z, material = 0.014 + 0.002 * layer, "red" if name == "second" else "black"
         hand = wall.add_body(name=f"{name}_hand", pos=[_X, _Y, _Z], quat=_UPRIGHT)
         shaper.box(hand, "scenery", (-half, -0.02, z), (half, length, z + 0.001), material, f"{name}_hand")
     for name, (period, _, _) in _HANDS.items():
         shaper.spec.add_numeric(name=f"{TURNS}{name}_hand", data=[period])
-
-
-def _add_mark(shaper: Shaper, hour: int) -> None:
-    """The mark of an hour, long at every third."""
-    half, angle = 0.013 if hour % 3 == 0 else 0.007, math.pi * hour / 6
-    middle = 0.140 - half
-    shaper.spec.worldbody.add_geom(
-        shaper.style("scenery"), name=f"clock_mark{hour}", type=mujoco.mjtGeom.mjGEOM_BOX, material="black",
-        size=[0.001, 0.003, half], pos=[_X + 0.012, _Y + middle * math.sin(angle), _Z + middle * math.cos(angle)],
-        quat=[math.cos(angle / 2), -math.sin(angle / 2), 0.0, 0.0],
-    )  # fmt: skip
 
 
 _SIDE, _MIDDLE = -0.0352, 0.020  # x and y of the cables in the boom's frame, m
@@ -178,14 +159,10 @@ def add_boom_cables(shaper: Shaper) -> None:
     for number, z in enumerate(np.linspace(_BACK + 0.05, _FRONT - 0.05, 8)):
         low, high = (-0.0385, _MIDDLE - 0.010, z - 0.006), (-0.030, _MIDDLE + 0.010, z + 0.006)
         shaper.box(boom, "scenery", low, high, "steel", f"cable_clip{number}")
-    shaper.look(boom, "cable_loop", "black", _loop(), (_SIDE, _MIDDLE, _BACK), style="scenery")
-
-
-def _loop() -> solids.Surface:
-    """The loop, from the boom's side out and back to the end of the motor."""
-    turns = np.linspace(0.0, math.pi, 13)
+    turns = np.linspace(0.0, math.pi, 13)  # of the loop, from the boom's side out and back to the motor's end
     way = [(0.007 * t - 0.06 * math.sin(t), 0.0, -0.06 * (1 - math.cos(t))) for t in turns]
-    return solids.surface(solids.tube(way, 0.006))
+    loop = solids.surface(solids.tube(way, 0.006))
+    shaper.look(boom, "cable_loop", "black", loop, (_SIDE, _MIDDLE, _BACK), style="scenery")
 
 
 BEVEL_M: Final = 0.0005
@@ -197,11 +174,9 @@ def add_bevels(shaper: Shaper) -> None:
     boxes = [geom for geom in shaper.spec.geoms if geom.type == BOX and geom.group == SEEN]
     for box in boxes:
         if box.material in _BEVELLED:
-            half = box.size.copy()
+            half, at = box.size.copy(), box.pos.tolist()
             name = "bevelled_" + "_".join(f"{1e6 * side:.0f}" for side in half)
-            look = shaper.look(
-                box.parent, name, box.material, bevelled(half), box.pos.tolist(), style="scenery"
-            )
+            look = shaper.look(box.parent, name, box.material, bevelled(half), at, style="scenery")
             look.name = box.name and f"{box.name}_bevelled"
             box.group = PLAIN
 

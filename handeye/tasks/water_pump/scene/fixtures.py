@@ -58,16 +58,12 @@ def add_blocks(shaper: Shaper, world: PumpWorld) -> None:
     far, left, height = d.all("blocks.far"), d.all("blocks.left"), d("blocks.height")
     fixture = add_fixture(shaper, world, Station.BLOCKS, (left[2], far[1]))
     for name, (x0, y0, x1, y1) in (("block_far", far), ("block_left", left)):
-        block = shaper.box(fixture.body, "solid", (x0, y0, 0.0), (x1, y1, height), "block", name)
-        block.group = 2
-        for x, y in _bolts(x0, y0, x1, y1):
+        shaper.box(fixture.body, "solid", (x0, y0, 0.0), (x1, y1, height), "block", name).group = SEEN
+        middle_x, middle_y, long = (x0 + x1) / 2, (y0 + y1) / 2, max(x1 - x0, y1 - y0) * 0.38
+        along_x, along_y = (long, 0.0) if x1 - x0 > y1 - y0 else (0.0, long)
+        for side in (-1, 1):
+            x, y = middle_x + side * along_x, middle_y + side * along_y
             shaper.cylinder(fixture.body, "look", 0.004, (x, y, height), (x, y, height + 0.003), "steel")
-
-
-def _bolts(x0: float, y0: float, x1: float, y1: float) -> list[Point]:
-    x, y = (x0 + x1) / 2, (y0 + y1) / 2
-    long = max(x1 - x0, y1 - y0) * 0.38
-    return [(x - long, y), (x + long, y)] if x1 - x0 > y1 - y0 else [(x, y - long), (x, y + long)]
 
 
 def add_gasket_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
@@ -76,11 +72,9 @@ def add_gasket_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
     (x, y), height = d.all("gasket_stand.grasp"), d("gasket_stand.height")
     fixture = add_fixture(shaper, world, Station.GASKET_STAND, (x, y))
     for side in (-1, 1):
-        low, high = sorted((y + side * 0.0165, y + side * 0.0365))
-        rail = shaper.box(
-            fixture.body, "solid", (x - 0.045, low, height - 0.008), (x + 0.077, high, height), "enamel"
-        )
-        rail.group = 2
+        y0, y1 = sorted((y + side * 0.0165, y + side * 0.0365))
+        low, high = (x - 0.045, y0, height - 0.008), (x + 0.077, y1, height)
+        shaper.box(fixture.body, "solid", low, high, "enamel").group = SEEN
         for px in (x - 0.035, x + 0.067):
             post = (px, y + side * 0.0265)
             shaper.cylinder(fixture.body, "look", 0.006, (*post, 0.006), (*post, height - 0.008), "steel")
@@ -93,14 +87,8 @@ def add_top_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
     d = dimensions()
     (x, y), height = d.all("top_stand.grasp"), d("top_stand.height")
     fixture = add_fixture(shaper, world, Station.TOP_STAND, (x, y))
-    plate = shaper.box(
-        fixture.body,
-        "solid",
-        (x - 0.090, y - 0.045, height - 0.008),
-        (x + 0.045, y + 0.045, height),
-        "enamel",
-    )
-    plate.group = 2
+    low, high = (x - 0.090, y - 0.045, height - 0.008), (x + 0.045, y + 0.045, height)
+    shaper.box(fixture.body, "solid", low, high, "enamel").group = SEEN
     for px in (x - 0.08, x + 0.035):
         for py in (y - 0.035, y + 0.035):
             shaper.cylinder(fixture.body, "look", 0.006, (px, py, 0), (px, py, height - 0.008), "steel")

@@ -46,11 +46,8 @@ def extruded(section: CrossSection, z0: float, z1: float) -> Manifold:
 
 def prism(profile: Sequence[Point], y0: float, y1: float) -> Manifold:
     """The solid over a profile of (x, z) corners, in order, between two planes along y, m."""
-    return (
-        Manifold.extrude(CrossSection([list(profile)]), y1 - y0)
-        .rotate((90.0, 0.0, 0.0))
-        .translate((0.0, y1, 0.0))
-    )
+    upright = Manifold.extrude(CrossSection([list(profile)]), y1 - y0).rotate((90.0, 0.0, 0.0))
+    return upright.translate((0.0, y1, 0.0))
 
 
 def tube(points: Sequence[tuple[float, float, float]], radius: float) -> Manifold:
@@ -152,17 +149,12 @@ def revolved(profile: list[tuple[float, float]], segments: int = 32) -> Manifold
 def surface(solid: Manifold) -> Surface:
     """The whole surface of a solid."""
     mesh = solid.to_mesh()
-    return np.array(mesh.vert_properties[:, :3], np.float64), np.array(
-        mesh.tri_verts, np.int32
-    )  # copies: no mesh stays
+    vertices = np.array(mesh.vert_properties[:, :3], np.float64)  # copies: no mesh stays
+    return vertices, np.array(mesh.tri_verts, np.int32)
 
 
 def volume_moments(closed: Surface) -> tuple[float, Array, Array]:
-    """Measure the solid in a surface, by the tetrahedra from the origin to its triangles.
-
-    Returns:
-        Volume (m3), its centre (m), and its moments about axes through that along x, y and z (m5), shape (3,) each.
-    """
+    """Volume of a solid (m3), its centre (m), and its moments about axes through that along x, y and z (m5)."""
     vertices, triangles = closed
     corners = vertices[triangles]
     volumes = np.linalg.det(corners) / 6
@@ -173,11 +165,7 @@ def volume_moments(closed: Surface) -> tuple[float, Array, Array]:
 
 
 def painted(whole: Surface, colour: Callable[[Array, Array], NDArray[np.str_]]) -> dict[str, Surface]:
-    """A surface, parted by colour.
-
-    Args:
-        colour: names of colours, shape (m,), from the triangles' middles and unit normals, shape (m, 3).
-    """
+    """A surface, parted by colour: names, shape (m,), from the triangles' middles and unit normals, (m, 3)."""
     vertices, triangles = whole
     corners = vertices[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

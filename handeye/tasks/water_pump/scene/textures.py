@@ -36,10 +36,9 @@ def add_textures(spec: mujoco.MjSpec) -> None:
 @cache
 def _pixels() -> dict[str, NDArray[np.uint8]]:
     """Pictures of the grains by their names."""
-    drawn = (grain(np.random.default_rng(number)) for number, grain in enumerate(_GRAINS.values()))
     return {
-        name: np.clip(255 * grain, 0, 255).astype(np.uint8)
-        for name, grain in zip(_GRAINS, drawn, strict=True)
+        name: np.clip(255 * grain(np.random.default_rng(number)), 0, 255).astype(np.uint8)
+        for number, (name, grain) in enumerate(_GRAINS.items())
     }
 
 

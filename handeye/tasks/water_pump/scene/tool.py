@@ -5,6 +5,7 @@ from typing import Final
 
 import mujoco
 
+from handeye.cell.looks import SEEN
 from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.stanford_cell.shapes import Bore, Shaper, body_inertia
 from handeye.tasks.water_pump.scene.fixtures import Fixture, add_fixture
@@ -52,9 +53,7 @@ def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
         pole = shaper.ball(body, "pole", _POLE, (out * cos(angle), out * sin(angle), 1.1 * _POLE))
         pole.gap = d("driver.magnet_reach")
     ring = Bore(radius=d("screw.head_radius") + 0.0003, outer=0.0085, height=0.003, below=0.002, sectors=8)
-    brass = body.add_body(
-        name="socket"
-    )  # a body of its own: the magnet holds by the bit's face, not by the ring
+    brass = body.add_body(name="socket")  # of its own: the magnet holds by the bit's face, not by the ring
     shaper.ring(brass, "socket", ring, (0.0, 0.0, -0.0025), lambda _: "socket")
     shaper.cylinder(body, "housing", 0.0085, (0, 0, 0.0005), (0, 0, 0.014), name="housing")
     shaper.cylinder(body, "look", 0.006, (0, 0, 0.012), (0, 0, length), "steel")
@@ -72,8 +71,7 @@ def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
     for across, along in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
         x0, x1 = sorted((x + across * inner, x + across * outer))
         y0, y1 = sorted((y + along * inner, y + along * outer))
-        post = shaper.box(fixture.body, "solid", (x0, y0, 0.006), (x1, y1, height), "enamel")
-        post.group = 2
+        shaper.box(fixture.body, "solid", (x0, y0, 0.006), (x1, y1, height), "enamel").group = SEEN
     near, lead = d("driver.width") / 2 + d("rack.play"), d("rack.lead")
     guide = Bore(radius=near, outer=near + lead + 0.002, height=0.028, above=lead, sectors=4)
     for wedge in shaper.ring(fixture.body, "guide", guide, (x, y, height - 0.02), lambda _: "solid"):
@@ -93,13 +91,8 @@ def _add_drives(spec: mujoco.MjSpec) -> None:
     spin.set_to_velocity(kv=0.02)
     spin.forcelimited = True
     spin.forcerange[:] = [-0.05, 0.05]  # for the spindle alone: the thread has a drive of its own
-    drive = spec.add_actuator(
-        name="drive",
-        trntype=mujoco.mjtTrn.mjTRN_SITE,
-        target="thread0",
-        refsite="driver",
-        gear=[0, 0, 0, 0, 0, 1],
-    )
+    site, gear = mujoco.mjtTrn.mjTRN_SITE, [0, 0, 0, 0, 0, 1]
+    drive = spec.add_actuator(name="drive", trntype=site, target="thread0", refsite="driver", gear=gear)
     drive.set_to_velocity(kv=0.0)
     drive.forcelimited = True
     drive.forcerange[:] = [-d("driver.torque"), d("driver.loosening")]  # clockwise it fastens

@@ -11,12 +11,11 @@ from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
 from handeye.program.diagnosis.cause_text import cause_sentence
-from handeye.program.program import Part
 from handeye.tasks.trial import Attempt, Count, Known, Trial
 from handeye.tasks.water_pump.trials.known_camera import known_camera
 from handeye.tasks.water_pump.trials.still_pump import StillPump, base_poses, locate, pump_base, put_base
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
-from handeye.vision.base import Failure, SpecificLocation
+from handeye.vision.base import Failure
 from handeye.vision.hole_search import hole_places
 
 WITHIN: Final = (INCH / 3, INCH / 4)  # accuracy of the eye by the paper, in x and in y
@@ -56,7 +55,9 @@ class BaseTrial(Trial[BaseAttempt]):
             if isinstance(found, Failure):
                 yield BaseAttempt(seed=world.seed, number=k, error=None, failure=cause_sentence(found.cause))
                 continue
-            wrong = _is_wrong(found, still, part, (x, y, yaw))
+            seen = [(hole.u, hole.v) for hole in found.holes]
+            off_px = np.hypot(*(still.camera.shown(hole_places(part, (x, y, yaw))) - seen).T)
+            wrong = bool(off_px.max() > WRONG_BEYOND_PX)
             dx, dy, turn = (a - b for a, b in zip(found.pose, (x, y, yaw), strict=True))
             off = dx, dy, math.remainder(turn, 2 * math.pi)
             yield BaseAttempt(seed=world.seed, number=k, error=off, wrong=wrong)
@@ -85,9 +86,3 @@ class BaseTrial(Trial[BaseAttempt]):
             ),
             wrong=wrong,
         )
-
-
-def _is_wrong(found: SpecificLocation, still: StillPump, part: Part, pose: Vector3) -> bool:
-    true = still.camera.shown(hole_places(part, pose))
-    seen = [(hole.u, hole.v) for hole in found.holes]
-    return bool(np.hypot(*(true - seen).T).max() > WRONG_BEYOND_PX)

@@ -41,16 +41,13 @@ def variation(seed: int) -> Variation:
 @cache
 def _variation(count: int) -> Variation:
     return Variation(
-        *_belt(),
-        *arm(),
-        *hand(),
-        *_driver(),
-        *_camera(),
-        *_light(),
-        *_fixtures(),
-        *_holes(count),
-        *_parts(count),
-    )
+        *_belt(), *arm(), *hand(),
+        *group(
+            "screwdriver", {"torque_noise": Noise(0.004)}, "N m",
+            "Noise of the screwdriver's motor current. Placeholder.",
+        ),
+        *_camera(), *_light(), *_fixtures(), *_holes(count), *_parts(count),
+    )  # fmt: skip
 
 
 def _belt() -> Iterator[Quantity]:
@@ -63,22 +60,9 @@ def _belt() -> Iterator[Quantity]:
         )  # fmt: skip
 
 
-def _driver() -> Iterator[Quantity]:
-    yield from group(
-        "screwdriver",
-        {"torque_noise": Noise(0.004)},
-        "N m",
-        "Noise of the screwdriver's motor current. Placeholder.",
-    )
-
-
 def _camera() -> Iterator[Quantity]:
-    yield from group(
-        "camera.place",
-        {axis: Normal(0.15) for axis in "xyz"},
-        "in",
-        f"Where the camera's mount is, each axis. {_VISION}",
-    )
+    where = f"Where the camera's mount is, each axis. {_VISION}"
+    yield from group("camera.place", {axis: Normal(0.15) for axis in "xyz"}, "in", where)
     yield from group(
         "camera.turn", {axis: Normal(0.2) for axis in ("pan", "tilt", "roll")}, "deg",
         f"How the camera's mount is turned. {_VISION}",
