@@ -86,18 +86,12 @@ def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagno
     lost = [d for d in found if d.code == "unknown-label"]
     if not lost:
         return found
-    unknown = {_word(source, d) for d in found if d.code == "unknown-instruction"}
+    unknown = {source.marked(d.primary.span) for d in found if d.code == "unknown-instruction"}
     wrong = [d.primary.span for d in found if d.code == "wrong-operand"]
     dropped = [
         d
         for d in lost
-        if _word(source, d) in unknown or any(s.start <= d.primary.span.start < s.end for s in wrong)
+        if source.marked(d.primary.span) in unknown
+        or any(s.start <= d.primary.span.start < s.end for s in wrong)
     ]
     return [d for d in found if d not in dropped]
-
-
-def _word(source: Source, diagnostic: Diagnostic) -> str:
-    """The text that a diagnostic marks."""
-    span = diagnostic.primary.span
-    text, start = source.find(span.start)
-    return text.text[start : start + span.end - span.start]

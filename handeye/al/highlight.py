@@ -3,16 +3,7 @@
 from typing import ClassVar
 
 from pygments.lexer import RegexLexer, bygroups, default, words
-from pygments.token import (
-    Comment,
-    Error,
-    Keyword,
-    Name,
-    Number,
-    Punctuation,
-    String,
-    Whitespace,
-)
+from pygments.token import Comment, Error, Keyword, Name, Number, Punctuation, String, Whitespace
 
 from handeye.al.instructions import FREE_TEXT, JUMPS, MODIFIERS, OPERAND_WORDS, OTHERS
 

@@ -13,6 +13,7 @@ _PLAIN: Final = re.compile(_NUMBER, re.ASCII)
 _WITH_UNIT: Final = re.compile(rf"({_NUMBER})([A-Za-z]+)", re.ASCII)
 
 _ENDS: Final = "a program ends where its text ends"
+_MACRO_ENDS: Final = f"a macro ends with a blank line; {_ENDS}"
 _TESTS: Final = "`SKIPE` and `SKIPN` test an error, and skip one instruction"
 _ROUNDS: Final = "`JUMP` goes back to a label; `ASSIGN` and `SOJG` count the rounds"
 _MACRO: Final = "`DEFINE` makes a macro, which ends with a blank line"
@@ -23,9 +24,7 @@ _GRASP: Final = "`CLOSE` grasps; `CENTER` grasps without pushing"
 
 _ELSEWHERE: Final[dict[str, str]] = {
     **dict.fromkeys(("END", "ENDPROGRAM", "EXIT", "HALT", "QUIT"), _ENDS),
-    **dict.fromkeys(
-        ("RETURN", "RET", "ENDDEF", "ENDPROC", "ENDSUB"), f"a macro ends with a blank line; {_ENDS}"
-    ),
+    **dict.fromkeys(("RETURN", "RET", "ENDDEF", "ENDPROC", "ENDSUB"), _MACRO_ENDS),
     **dict.fromkeys(("IF", "THEN", "ELSE", "ELSEIF", "ENDIF", "CASE", "SWITCH"), _TESTS),
     **dict.fromkeys(("FOR", "WHILE", "LOOP", "REPEAT", "UNTIL", "NEXT"), _ROUNDS),
     **dict.fromkeys(("GOTO", "BRANCH", "JMP"), "`JUMP` goes to a label"),
@@ -44,18 +43,13 @@ _ELSEWHERE: Final[dict[str, str]] = {
 }
 
 
+# for a STOP without its operand, as other languages have it
+STOP_ALONE: Final = f"it ends the motion after it when the hand presses with so many ounces; {_ENDS}"
+
+
 def elsewhere(word: str) -> str | None:
     """The way to say here what another language says with this word; None if it is not known."""
     return _ELSEWHERE.get(word.upper())
-
-
-def alone(word: str) -> str | None:
-    """Help for an instruction without its operand, as other languages have it."""
-    return (
-        f"it ends the motion after it when the hand presses with so many ounces; {_ENDS}"
-        if word == "STOP"
-        else None
-    )
 
 
 def with_digits(text: str) -> str | None:
@@ -102,15 +96,9 @@ def strange(text: str) -> str | None:
     return None
 
 
-_LENGTH, _FORCE = (
-    "distances are in inches",
-    "forces and weights are in ounces, moments and torques in ounce-inches",
-)
-_ANGLE, _SPEED = (
-    "angles are in degrees",
-    "speeds are in inches a second, the screwdriver's in revolutions a minute",
-)
-
+_LENGTH, _ANGLE = "distances are in inches", "angles are in degrees"
+_FORCE = "forces and weights are in ounces, moments and torques in ounce-inches"
+_SPEED = "speeds are in inches a second, the screwdriver's in revolutions a minute"
 UNIT_WORDS: Final = {
     **dict.fromkeys(("in", "inch", "inches", "ft", "mm", "cm", "m"), _LENGTH),
     **dict.fromkeys(("oz", "ounce", "ounces", "lb", "lbs", "g", "kg", "n", "nm", "ozin"), _FORCE),

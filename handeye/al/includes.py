@@ -36,16 +36,21 @@ def sewn(source: Source, read: Read) -> Source:
     waiting = [(own, source.text)]
     size = len(source.text)
     while waiting:
-        by, text = waiting.pop(0)
-        for file in required_by(text):
+        by, whole = waiting.pop(0)
+        for file in required_by(whole):
             key = key_of(file.text, by)
             if key == own or key in required:
                 continue
             if len(required) == MAX_FILES or size > LARGEST:
                 return replace(source, required=tuple(required.values()))
-            required[key] = piece = _piece(str(folder / key), key, read)
-            size += len(piece.text)
-            waiting.append((key, piece.text))
+            text, problem = "", ""
+            try:
+                text = read(key)
+            except InvalidInput as error:
+                problem = str(error)
+            required[key] = Source(name=str(folder / key), key=key, text=text, problem=problem)
+            size += len(text)
+            waiting.append((key, text))
     return replace(source, required=tuple(required.values()))
 
 
@@ -68,13 +73,6 @@ def own_key(source: Source) -> str:
 def key_of(file: str, by: str) -> str:
     """Key of a file that the text `by` requires: its path from the main text's folder."""
     return posixpath.normpath(posixpath.join(posixpath.dirname(by), file))
-
-
-def _piece(name: str, key: str, read: Read) -> Source:
-    try:
-        return Source(name=name, key=key, text=read(key))
-    except InvalidInput as error:
-        return Source(name=name, key=key, text="", problem=str(error))
 
 
 def required_by(text: str) -> Iterator[Text]:
@@ -148,10 +146,9 @@ class Requirements:
         message = f"{quoted(file.text)} cannot be read"
         if found is not None:
             return problem("unreadable-file", message, file.span, notes=(found.problem,))
+        notes = ("this text is not in a file",)
         help = "paths are relative to the file that requires them: save this text as a file"
-        return problem(
-            "unreadable-file", message, file.span, notes=("this text is not in a file",), help=help
-        )
+        return problem("unreadable-file", message, file.span, notes=notes, help=help)
 
     def _circle(self, key: str, file: Text) -> Diagnostic:
         around = [*self.reading[self.reading.index(key) :], key]

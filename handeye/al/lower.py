@@ -235,10 +235,8 @@ class _Lowering:
     def no_motion(self, after: Label | None) -> None:
         word = _word(self.pending[0])
         secondary = () if after is None else (after,)
-        help = "a modifier stands before the motion it modifies"
-        self.problem(
-            "modifier-without-motion", f"no motion follows `{word.text}`", word, *secondary, help=help
-        )
+        message, help = f"no motion follows `{word.text}`", "a modifier stands before the motion it modifies"
+        self.problem("modifier-without-motion", message, word, *secondary, help=help)
         self.pending.clear()
 
     def end(self) -> None:
@@ -316,9 +314,8 @@ class _Lowering:
         draft = self.drafts[index]
         assert draft.statement.word is not None
         if index + 1 == len(self.drafts):
-            self.problem(
-                "skip-at-end", f"there is no instruction for `{draft.word}` to skip", draft.statement.word
-            )
+            message = f"there is no instruction for `{draft.word}` to skip"
+            self.problem("skip-at-end", message, draft.statement.word)
             return None
         skipped = self.drafts[index + 1]
         depth = _shared(draft.call, skipped.call)
@@ -334,13 +331,8 @@ class _Lowering:
     def skips_modifier(self, skip: Name, modifier: Name) -> None:
         skipped = Label(span=modifier.span, text="only this would be skipped")
         message = f"`{skip.text}` would skip `{modifier.text}` and not the motion it modifies"
-        self.problem(
-            "skip-over-modifier",
-            message,
-            skip,
-            skipped,
-            help="jump over both with the opposite test and `JUMP`",
-        )
+        help = "jump over both with the opposite test and `JUMP`"
+        self.problem("skip-over-modifier", message, skip, skipped, help=help)
 
     def problem(
         self, code: str, message: str, at: Name | Text, *secondary: Label,

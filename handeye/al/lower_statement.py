@@ -147,17 +147,10 @@ def _stop(operands: Operands) -> g.Guards:
 def _change(operands: Operands, how: _Modifiers) -> Change:
     x, y, z = operands.vector3("[x y z]")
     scale = operands.number("distance") / math.hypot(x, y, z)
-    displacement = (x * scale, y * scale, z * scale)
-    speed = operands.number_or("speed") or None
     return Change(
-        displacement=displacement,
-        speed=speed,
-        guards=how.guards,
-        press=how.press,
-        free=how.free,
-        moment=how.moment,
-        spin=how.spin,
-    )
+        displacement=(x * scale, y * scale, z * scale), speed=operands.number_or("speed") or None,
+        guards=how.guards, press=how.press, free=how.free, moment=how.moment, spin=how.spin,
+    )  # fmt: skip
 
 
 def _search(operands: Operands) -> Search:

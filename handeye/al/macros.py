@@ -32,9 +32,8 @@ class Placed(msgspec.Struct, frozen=True, gc=False):
         """The call whose labels its jump sees; a label given as an operand belongs to the caller."""
         label = self.statement.operands[-1:]
         given = () if self.line is None else self.line.given.values()
-        return next(
-            (one.call for one in given if label and label[0] and label[0].span == one.span), self.call
-        )
+        calls = (one.call for one in given if label and label[0] and label[0].span == one.span)
+        return next(calls, self.call)
 
 
 def expand(script: Script, report: Callable[[Diagnostic], None]) -> list[Placed]:
@@ -135,9 +134,8 @@ class _Expansion:
         try:
             if len(line.text) > LONGEST_LINE:
                 message = f"with its operands the line has {len(line.text)} characters"
-                raise Mistake(
-                    "line-too-long", message, line.statement.span, help=f"a line has at most {LONGEST_LINE}"
-                )
+                help = f"a line has at most {LONGEST_LINE}"
+                raise Mistake("line-too-long", message, line.statement.span, help=help)
             return read_operands(definition, line.head, line.tokens)
         except Mistake as mistake:
             self.report(line.located(mistake.diagnostic, frame.by or line.statement))

@@ -8,7 +8,7 @@ from itertools import pairwise
 import msgspec
 
 from handeye.al.definition import AXES, MAX_NUMBER, MIN_POSITIVE, NIL, Instruction, Operand
-from handeye.al.hints import alone, letters_for_digits, no_units, strange, with_unit
+from handeye.al.hints import STOP_ALONE, letters_for_digits, no_units, strange, with_unit
 from handeye.al.instructions import FREE_TEXT, INSTRUCTIONS
 from handeye.al.scanner import JUNK, MARK, NAME, NUMBER, STRING, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
@@ -48,21 +48,14 @@ def free_text(tokens: Sequence[Token]) -> str:
 
 def separated(tokens: Sequence[Token]) -> Sequence[Token]:
     """Tokens without the commas between operands (dialect of 1977); raises Mistake at any other comma."""
-    for token in tokens:
-        if token.text == ",":
-            return _without_commas(tokens)
-    return tokens
-
-
-def _without_commas(tokens: Sequence[Token]) -> list[Token]:
-    for at, token in enumerate(tokens):
-        if token.text != ",":
-            continue
+    commas = [at for at, token in enumerate(tokens) if token.text == ","]
+    for at in commas:
+        token = tokens[at]
         if at == 0 or tokens[at - 1].text in (",", "["):
             raise Mistake("misplaced-comma", "there is nothing before this comma", token.span)
         if at + 1 == len(tokens) or tokens[at + 1].text == "]":
             raise Mistake("misplaced-comma", "there is nothing after this comma", token.span)
-    return [token for token in tokens if token.text != ","]
+    return [token for token in tokens if token.text != ","] if commas else tokens
 
 
 def _meant(tokens: Sequence[Token]) -> Mistake | None:
@@ -282,10 +275,10 @@ class _Reader(msgspec.Struct, gc=False):
             raise Mistake("missing-operand", message, self.tokens[-1].span, help=self.usage())
 
     def missing(self, operand: Operand) -> Mistake:
-        message = f"`{self.definition.op}` lacks its {operand.plain}"
+        message, help = f"`{self.definition.op}` lacks its {operand.plain}", self.usage()
         end = (self.tokens[self.at - 1] if self.at else self.head).end
-        said = None if self.tokens else alone(self.definition.op)
-        help = self.usage() if said is None else f"{self.usage()}: {said}"
+        if self.definition.op == "STOP" and not self.tokens:
+            help += f": {STOP_ALONE}"
         return Mistake("missing-operand", message, Span(start=end, end=end), "it is expected here", help)
 
     def too_many(self) -> None:

@@ -68,13 +68,12 @@ class FilledLine:
 
     def at_source(self, values: Sequence[Value | None]) -> tuple[Value | None, ...]:
         """Values, each located where it is written."""
-        return tuple(value if value is None else self._at_source(value) for value in values)
-
-    def _at_source(self, value: Value) -> Value:
-        given = self.given.get(value.span)
-        if given is None:
-            return value
-        return msgspec.structs.replace(value, start=given.start, end=given.end, use=value.span)
+        return tuple(
+            msgspec.structs.replace(value, start=given.start, end=given.end, use=value.span)
+            if value is not None and (given := self.given.get(value.span)) is not None
+            else value
+            for value in values
+        )
 
     def located(self, mistake: Diagnostic, call: Statement) -> Diagnostic:
         """A mistake located at the argument if that alone is wrong, else at the line."""
@@ -142,17 +141,10 @@ def _piece(token: Token, put: Argument | None, given: Mapping[str, Argument], wo
     if put is not None:
         tokens = tuple(Token(token.start, token.end, each.kind, each.text) for each in put.tokens)
         return _Piece(token.start, token.end, tokens, put.text)
-    text = (
-        _BRACED.sub(lambda name: _words(name, given), token.text)
-        if words or token.kind is STRING
-        else token.text
-    )
+    text = token.text
+    if words or token.kind is STRING:  # an argument stands in a text without its quotes
+        text = _BRACED.sub(lambda n: given[n[1]].text.strip('"') if n[1] in given else n[0], text)
     return _Piece(token.start, token.end, (Token(token.start, token.end, token.kind, text),), text)
-
-
-def _words(name: re.Match[str], given: Mapping[str, Argument]) -> str:
-    """An argument in a text, without quotes."""
-    return given[name[1]].text.strip('"') if name[1] in given else name[0]
 
 
 def _text(pieces: Sequence[_Piece]) -> str:

@@ -99,12 +99,8 @@ class _Parser:
     def require(self, word: Name, file: Value | None) -> None:
         assert isinstance(file, Text)
         if self.opened is not None:
-            self.report(
-                "require-in-macro",
-                "a macro cannot require a file",
-                word.span,
-                help="require it before the macro",
-            )
+            message, help = "a macro cannot require a file", "require it before the macro"
+            self.report("require-in-macro", message, word.span, help=help)
             return
         found = None if self.requirements is None else self.requirements.find(file)
         if isinstance(found, Diagnostic):
@@ -138,20 +134,18 @@ class _Parser:
             self.unterminated(f"line {quoted(' '.join(t.text for t in tokens[:2]))} comes before its end")
             self.close()
         if len(tokens) < 2 or tokens[1].kind is not NAME:
-            at = tokens[1].span if len(tokens) > 1 else _behind(tokens[0])
-            self.report(
-                "missing-operand", "`DEFINE` needs the name of the macro", at, "the name is expected here"
-            )
+            at = tokens[1].span if len(tokens) > 1 else Span(start=tokens[0].end, end=tokens[0].end)
+            message = "`DEFINE` needs the name of the macro"
+            self.report("missing-operand", message, at, "the name is expected here")
             self.opened = Name(tokens[0].start, tokens[0].end, "")
             return
         name = Name(tokens[1].start, tokens[1].end, tokens[1].text.upper())
         if name.text in INSTRUCTIONS or name.text == "DEFINE":
             self.report("macro-name-taken", f"{quoted(name.text)} is an instruction", name.span)
         elif name.text in self.macros:
-            first = Label(span=self.macros[name.text].name.span, text="first defined here")
-            self.report(
-                "macro-twice", f"macro {quoted(name.text)} is defined twice", name.span, secondary=(first,)
-            )
+            first = (Label(span=self.macros[name.text].name.span, text="first defined here"),)
+            message = f"macro {quoted(name.text)} is defined twice"
+            self.report("macro-twice", message, name.span, secondary=first)
         self.opened = name
         try:
             for token in separated(tokens[1:])[1:]:
@@ -180,13 +174,8 @@ class _Parser:
     def unterminated(self, why: str) -> None:
         if self.opened is None or not self.opened.text:
             return
-        self.report(
-            "unterminated-macro",
-            f"macro {quoted(self.opened.text)} has no end",
-            self.opened.span,
-            why,
-            help="end a macro with a blank line",
-        )
+        message, help = f"macro {quoted(self.opened.text)} has no end", "end a macro with a blank line"
+        self.report("unterminated-macro", message, self.opened.span, why, help=help)
 
     def statement(
         self, line: Line, labels: tuple[Name, ...], op: str, tokens: tuple[Token, ...]
@@ -223,11 +212,8 @@ class _Parser:
         """True if a line contains a parameter of its macro."""
         if not self.parameters:
             return False
-        names = [
-            *(token.text for token in parameters_in(statement)),
-            *(name for name, _ in braced_in(statement)),
-        ]
-        return not self.parameters.keys().isdisjoint(names)
+        names = {token.text for token in parameters_in(statement)} | {n for n, _ in braced_in(statement)}
+        return not names.isdisjoint(self.parameters)
 
     def check_label(self, label: Name) -> None:
         there = self.parameters.get(label.text)
@@ -241,12 +227,11 @@ class _Parser:
         if word.text in self.known:
             return
         if word.text in _CONSOLE_WORDS:
-            self.report(
-                "typed-word",
-                f"`{word.text}` is a console command, not an instruction of a script",
-                word.span,
-                help=_alone(rest),
-            )
+            alone = "a script is carried out as a whole"
+            if rest and rest[0].text.upper() in INSTRUCTIONS:
+                alone += f"; write the instruction alone: {quoted(free_text(rest))}"
+            message = f"`{word.text}` is a console command, not an instruction of a script"
+            self.report("typed-word", message, word.span, help=alone)
             return
         written = line.split()[1][0].text
         message = f"there is no instruction {quoted(written)}"
@@ -297,15 +282,3 @@ class _Parser:
 
 def _name(token: Token) -> Name:
     return Name(token.start, token.end, token.text)
-
-
-def _alone(rest: tuple[Token, ...]) -> str:
-    """Help to write an instruction instead of a console command."""
-    help = "a script is carried out as a whole"
-    if not rest or rest[0].text.upper() not in INSTRUCTIONS:
-        return help
-    return f"{help}; write the instruction alone: {quoted(free_text(rest))}"
-
-
-def _behind(token: Token) -> Span:
-    return Span(start=token.end, end=token.end)

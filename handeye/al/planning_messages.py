@@ -61,10 +61,8 @@ class _Phrases:
         if found.along is not None:
             return self.off_the_way(found, self.along(found.step, found.along))
         name, arm = found.position or self.word(found.step), self.arm.name
-        note, help = (
-            reach_sentence(self.arm, found.reason),
-            f"put it elsewhere, or turn it{self.counted(name)}",
-        )
+        note = reach_sentence(self.arm, found.reason)
+        help = f"put it elsewhere, or turn it{self.counted(name)}"
         match found.reason:
             case JointLimit() as reason:
                 word = self.word(found.step)
@@ -79,9 +77,8 @@ class _Phrases:
                 return self.at_position(found, message, help=help, notes=(note,))
             case BelowTable():
                 return self.at_position(found, f"{note} on its way to {name}", help="pass a position between")
-        return self.at_position(
-            found, f"the {arm} arm cannot put the hand at {name}", help=help, notes=(note,)
-        )
+        message = f"the {arm} arm cannot put the hand at {name}"
+        return self.at_position(found, message, help=help, notes=(note,))
 
     def off_the_way(self, found: NoConfiguration, place: str) -> Diagnostic:
         message = f"the hand would leave the arm's reach {place}"
@@ -101,9 +98,8 @@ class _Phrases:
         self, found: NoConfiguration, reason: JointLimit, motion: str, place: str | None = None
     ) -> Diagnostic:
         beyond, limit = f"{reason.excess / DEGREE:.1f} degrees", f"{reason.limit / DEGREE:.0f} degrees"
-        message = (
-            f"`{motion}` would take {named(self.arm, reason.joint)} {beyond} beyond its limit of {limit}"
-        )
+        joint = named(self.arm, reason.joint)
+        message = f"`{motion}` would take {joint} {beyond} beyond its limit of {limit}"
         if place is None:
             help = self.radians(found.position)
             help = help or "turn the hand: other angles O, A, T can be within the limits"

@@ -55,7 +55,7 @@ def pairs(statement: Statement) -> Iterable[tuple[Operand, Value | None]]:
 
 Vectors = Mapping[str, tuple[float, ...]]  # components by name, in the unit of the operand
 _TAKE_NAMES: Final = {
-    i.op for i in INSTRUCTIONS.values() if any(operand.refers is Refers.VECTOR for operand in i.operands)
+    i.op for i in INSTRUCTIONS.values() if any(o.refers is Refers.VECTOR for o in i.operands)
 }
 _UNITS: Final = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 
@@ -77,11 +77,10 @@ def with_vectors(statement: Statement, known: Vectors) -> Statement:
     named = statement.word is not None and statement.word.text in _TAKE_NAMES
     if not named or statement.broken or not any(isinstance(value, Name) for value in statement.operands):
         return statement
-    return replace(statement, operands=tuple(_resolved(v, o, known) for o, v in pairs(statement)))
-
-
-def _resolved(value: Value | None, operand: Operand, known: Vectors) -> Value | None:
-    """A value, or the vector it names; an unknown name gives an arbitrary vector."""
-    if isinstance(value, Name) and operand.refers is Refers.VECTOR:
-        return Vector(value.start, value.end, known.get(value.text, _UNITS["Z"]))
-    return value
+    operands = [  # an unknown name gives an arbitrary vector
+        Vector(value.start, value.end, known.get(value.text, _UNITS["Z"]))
+        if isinstance(value, Name) and operand.refers is Refers.VECTOR
+        else value
+        for operand, value in pairs(statement)
+    ]
+    return replace(statement, operands=tuple(operands))

@@ -59,6 +59,11 @@ class Source:
         number = bisect_right(self._begins, offset) - 1
         return self.texts[number], offset - self._begins[number]
 
+    def marked(self, span: Span) -> str:
+        """The text in a span of the whole, which lies in one of the texts."""
+        text, start = self.find(span.start)
+        return text.text[start : start + span.end - span.start]
+
     @cached_property
     def begins(self) -> dict[str, int]:
         """Offset of the whole at which each text begins, by key."""

@@ -67,11 +67,10 @@ def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
 
 def worse(one: Findings, other: Findings) -> Findings:
     """Of two looks at the same points, the less right finding of each."""
-    return {name: _worse(finding, other[name]) for name, finding in one.items()}
-
-
-def _worse(one: Finding, other: Finding) -> Finding:
-    return max(one, other, key=lambda finding: (not finding.ok, finding.beyond))
+    return {
+        name: max(found, other[name], key=lambda finding: (not finding.ok, finding.beyond))
+        for name, found in one.items()
+    }
 
 
 def all_right(findings: Findings) -> bool:

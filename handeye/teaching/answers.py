@@ -81,12 +81,9 @@ def text(answer: Answer) -> str:
 
 
 def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> Answer:
-    """Plan a text, and carry the plan out if there is one.
+    """Plan a text, which `alone` need not make sense by itself, and carry the plan out if there is one.
 
     Raises InvalidInput if it looks, and the camera was not set up.
-
-    Args:
-        alone: the text is only a part of what is done, and need not make sense by itself.
     """
     checked = workplace.plan(source, alone=alone)
     said = NOTHING if checked.plan is None else done(workplace, workplace.carry_out(checked.plan))
@@ -132,15 +129,10 @@ def converse(
     json: bool = False,
     strict: bool = False,
 ) -> Answer | None:
-    """Hear a line after the other, to the last or until the listener has heard enough.
+    """Hear lines, to the last or until the listener has heard enough; with `strict`, until one fails.
 
-    Args:
-        write: puts out lines of text; the end of the last one is not in them.
-        json: answer each line with one JSON object on one line.
-        strict: hear no more after a line that was refused, or whose work was stopped.
-
-    Returns:
-        The answer to the first line that was refused, or whose work was stopped; None if there was none.
+    Returns the answer to the first line that was refused, or whose work was stopped; None if there was none. `write` is
+    given lines of text without the end of the last; with `json`, one object on one line.
     """
     failed = None
     while not listener.over:

@@ -6,7 +6,6 @@ from typing import Final
 
 from handeye.al import AL
 from handeye.al.parser import parse
-from handeye.al.syntax import Macro
 from handeye.arm.model import ArmModel
 from handeye.core.diagnostics import Diagnostic
 from handeye.core.pose import Array
@@ -39,26 +38,18 @@ def planned(
     saved: Collection[str] = (),
     alone: bool = False,
 ) -> PlannedScript:
-    """Plan a text.
+    """Plan a text for an arm that stands at `start`, shape (n,), rad and m, after differences have been `saved`.
 
-    Args:
-        arm: the arm that is to carry it out.
-        start: where the arm stands, shape (n,), rad and m.
-        task: name of the task in whose cell that is.
-        saved: differences that have been saved before.
-        alone: the text is only a part of what is done, and need not make sense by itself.
+    What is `alone` is only a part of what is done, and need not make sense by itself.
     """
     made = plan_source(source, taught, arm, AL, task=task, start=start)
-    told = [d for d in made.diagnostics if not (alone and d.code in _ALONE) and not _known(d, source, saved)]
+    told = [
+        d
+        for d in made.diagnostics
+        if not (alone and d.code in _ALONE)
+        and not (d.code == "never-saved" and source.marked(d.primary.span) in saved)
+    ]
     return replace(made, diagnostics=told)
-
-
-def _known(diagnostic: Diagnostic, source: Source, saved: Collection[str]) -> bool:
-    """See whether it misses a saved difference that there is."""
-    span = diagnostic.primary.span
-    text, start = source.find(span.start)
-    name = text.text[start : start + span.end - span.start]
-    return diagnostic.code == "never-saved" and name in saved
 
 
 def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
@@ -76,14 +67,10 @@ def lasting(lines: Sequence[str]) -> list[str]:
     """The definitions among lines: macros, positions, vectors. They hold for functions done alone, too."""
     script, _ = parse("\n".join(lines))
     written = [lines[s.line - 1] for s in script.statements if s.word is not None and s.word.text in _LASTING]
-    macros = [_macro_lines(macro, lines) for macro in script.macros.values()]
-    return [*written, *(line for macro in macros for line in macro), ""]
-
-
-def _macro_lines(macro: Macro, lines: Sequence[str]) -> list[str]:
-    """A macro as it is written, and the blank line that ends it."""
-    head = " ".join(["DEFINE", macro.name.text, *(parameter.text for parameter in macro.parameters)])
-    return [head, *(lines[statement.line - 1] for statement in macro.body), ""]
+    for macro in script.macros.values():  # as it is written, and the blank line that ends it
+        head = " ".join(["DEFINE", macro.name.text, *(parameter.text for parameter in macro.parameters)])
+        written += [head, *(lines[statement.line - 1] for statement in macro.body), ""]
+    return [*written, ""]
 
 
 def is_open(lines: Sequence[str]) -> bool:

@@ -40,22 +40,19 @@ class Repl:
     def hear(self, line: str) -> Answer:
         """Carry out a command, or collect a function."""
         try:
-            given = self._given(line)
+            word, rest = [*line.split(maxsplit=1), "", ""][:2]
+            command = COMMANDS.get(word.upper())
+            if command is None:
+                given = self.collect(line)
+            else:
+                check_bare([command], rest)
+                given = command.act(self, rest.strip())
         except HandeyeError as error:
             given = answer(self.workplace, error=str(error))
         return replace(given, typed=line.strip())
 
-    def _given(self, line: str) -> Answer:
-        word, rest = [*line.split(maxsplit=1), "", ""][:2]
-        command = COMMANDS.get(word.upper())
-        if command is None:
-            return self.collect(line)
-        check_bare([command], rest)
-        return command.act(self, rest.strip())
-
     def collect(self, line: str) -> Answer:
-        """Add a line to what is collected, if nothing is wrong with it that a further line could not put right. Raises
-        InvalidInput if too many are collected already."""
+        """Collect a line if nothing is wrong with it that a further one could not put right; raises Refused if full."""
         if not line.strip() and not is_open(self.functions):
             return answer(self.workplace)
         if len(self.functions) >= MAX_LINES:
@@ -82,11 +79,10 @@ class Repl:
         return self._advised(Answer(time=self.workplace.elapsed, said=said))
 
     def _advised(self, given: Answer) -> Answer:
-        advices = {"operator": self.called, "panic": "the interrupted step is undone"}
-        advice = advices.get(given.stopped or "")
-        return (
-            given if advice is None else replace(given, said=msgspec.structs.replace(given.said, said=advice))
-        )
+        advice = {"operator": self.called, "panic": "the interrupted step is undone"}.get(given.stopped or "")
+        if advice is None:
+            return given
+        return replace(given, said=msgspec.structs.replace(given.said, said=advice))
 
 
 def _do(repl: Repl, rest: str) -> Answer:

@@ -197,18 +197,12 @@ def _along(axis: str, size: float) -> Vector3:
     return x, y, z
 
 
+_TABLE_HELP: Final = "move the hand along an axis of the table; or `table turn z 10`"
+_HAND_HELP: Final = "move it along an axis of its own, z is where it points; or `hand turn y 5`"
 TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="j3 +1", act=_joint, help="move a joint by this much; without a sign, to this value"),
-    Command(
-        usage="table x +.5",
-        act=_table,
-        help="move the hand along an axis of the table; or `table turn z 10`",
-    ),
-    Command(
-        usage="hand z -.2",
-        act=_hand,
-        help="move it along an axis of its own, z is where it points; or `hand turn y 5`",
-    ),
+    Command(usage="table x +.5", act=_table, help=_TABLE_HELP),
+    Command(usage="hand z -.2", act=_hand, help=_HAND_HELP),
     Command(usage="move NAME", act=_function("MOVE"), help="go to a position"),
     Command(usage="open GAP", act=_function("OPEN"), help="open the hand"),
     Command(usage="close [MIN]", act=_function("CLOSE"), help="close it"),

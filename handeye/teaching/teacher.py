@@ -33,14 +33,6 @@ from handeye.teaching.workplace import Workplace
 REST_S = 0.5  # for a floating arm to come to rest when it is let go
 
 
-@dataclass(frozen=True, slots=True)
-class _Named:
-    """Positions and text before something was named."""
-
-    taught: Taught
-    text: str
-
-
 @dataclass(slots=True, kw_only=True)
 class Teacher:
     """A cell, a file of taught positions, and what is to be written to it."""
@@ -50,8 +42,8 @@ class Teacher:
     saved: str  # the text of the file
     text: str = field(init=False)  # the same, with the names given since
     afloat: bool = False  # the brakes are off, and gravity is borne
-    _before: list[_Named | None] = field(default_factory=list)
-    """States that `undo` restores: of names, or (None) of the cell."""
+    # what `undo` restores: what was taught and the text before something was named, or (None) the cell
+    _before: list[tuple[Taught, str] | None] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.text = self.saved
@@ -75,18 +67,16 @@ class Teacher:
 
     def joint(self, index: int, goal: float) -> None:
         """Move one joint to a place (rad, or m), the others held. Raises Refused if it cannot."""
-        arm = self.workplace.run.arm
-        self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED))
+        self._follow(jog(self.workplace.run.arm, self.workplace.q, index, goal, speed=SPEED))
 
     def straight(self, displacement: Vector3) -> None:
         """Move the hand straight by a way (m, table coordinates), its angles kept. Raises Refused if it cannot."""
-        arm = self.workplace.run.arm
-        self._follow(change_samples(arm, self.workplace.q, Change(displacement=displacement)))
+        change = Change(displacement=displacement)
+        self._follow(change_samples(self.workplace.run.arm, self.workplace.q, change))
 
     def turn(self, turn: Vector3) -> None:
         """Turn the hand on the spot by a rotation vector (rad, table coordinates). Raises Refused if it cannot."""
-        arm = self.workplace.run.arm
-        self._follow(pivot(arm, self.workplace.q, np.array(turn), TURN_SPEED))
+        self._follow(pivot(self.workplace.run.arm, self.workplace.q, np.array(turn), TURN_SPEED))
 
     def _follow(self, samples: Samples | IKResult) -> None:
         if isinstance(samples, IKResult):
@@ -103,12 +93,13 @@ class Teacher:
         """Push the floating arm at its hand (N, table coordinates), then let go; raises Refused unless it floats."""
         if not self.afloat:
             raise Refused("the arm is held and cannot be pushed; `float` releases its brakes")
-        self._let(lambda: self._pushed(force, seconds))
 
-    def _pushed(self, force: Vector3, seconds: float) -> None:
-        with pushed(self.workplace.runner.arm_cell, force):
-            self._float(seconds)
-        self._float(REST_S)
+        def act() -> None:
+            with pushed(self.workplace.runner.arm_cell, force):
+                self._float(seconds)
+            self._float(REST_S)
+
+        self._let(act)
 
     def _float(self, seconds: float) -> None:
         self.workplace.run.drive.float(seconds)
@@ -145,7 +136,7 @@ class Teacher:
         run = self.workplace.run
         position = run.world.seen_from(part, run.drive.hand())
         text = with_position(self.text, name, position)
-        self._before.append(_Named(taught, self.text))
+        self._before.append((taught, self.text))
         self.text = text
         self.workplace.taught = replace(taught, positions={**taught.positions, name: position})
         return position
@@ -174,5 +165,5 @@ class Teacher:
             self.workplace.back()
             self.afloat = False
             return "the last motion is undone"
-        self.workplace.taught, self.text = before.taught, before.text
+        self.workplace.taught, self.text = before
         return "the last name is undone"

@@ -25,7 +25,6 @@ from handeye.runs.setup import Setup, plan_of
 from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.tasks import DEFAULT
 from handeye.tasks import task as known_task
-from handeye.tasks.interface import Task
 from handeye.teaching.functions import TYPED, planned
 
 MAX_STATES: Final = 100  # to go back to
@@ -54,21 +53,16 @@ class Workplace:
         halt: Callable[[], bool],
         observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> None:
-        """Build the cell of a world.
+        """Build the cell of a world; `look`: with its camera set up, so that plans can; `calibrate`: anew.
 
-        Raises InvalidInput if the camera cannot work as asked; Halted if the panic button was hit while the camera was
-        set up.
-
-        Args:
-            look: set the camera up, so that plans can look.
-            calibrate: anew, whatever is kept of that.
-            halt: the panic button, asked at every servo period.
-            observers: makes those who look on, for the runner of each plan.
+        `halt` is the panic button, asked at every servo period; `observers` makes those of each plan's runner. Raises
+        InvalidInput if the camera cannot work as asked; Halted if the panic button was hit while it was set up.
         """
         self.taught, self.halt, self.observers = taught, halt, observers
-        plan = _plan(_PICTURE if look else _NOTHING, taught, known_task(task))
-        setup = Setup(plan=plan, world=world, camera=camera)
-        start = Checkpoint(setup=setup)
+        made, source = known_task(task), Source(name=TYPED, text=_PICTURE if look else _NOTHING)
+        plan = planned(source, taught, made.arm, made.park, task=made.name).plan
+        assert plan is not None
+        start = Checkpoint(setup=Setup(plan=plan, world=world, camera=camera))
         self.runner = Runner(start, halt=halt, observers=observers, calibrate=calibrate)
         if self.runner.trouble is not None:
             raise Refused(self.runner.trouble)
@@ -132,11 +126,7 @@ class Workplace:
             cell=runner.cell.capture(),
             state=copied(self.run.state),
         )
-        return Checkpoint(
-            setup=runner.setup,
-            snapshot=snapshot,
-            events=tuple(runner.events),
-        )
+        return Checkpoint(setup=runner.setup, snapshot=snapshot, events=tuple(runner.events))
 
     # -- doing ----------------------------------------------------------------------------------------
 
@@ -149,23 +139,17 @@ class Workplace:
         assert here.snapshot is not None
         state = _onward(self.run.state, plan)
         snapshot = msgspec.structs.replace(here.snapshot, position=0, happened=1, state=state)
-        setup = msgspec.structs.replace(here.setup, plan=plan)
-        start = Checkpoint(
-            setup=setup, snapshot=snapshot, events=(self._started(plan),)
+        setup, begun = msgspec.structs.replace(here.setup, plan=plan), self.runner.events[0]
+        assert isinstance(begun, RunStarted)
+        begun = msgspec.structs.replace(
+            begun, time=self.run.time, plan=plan_digest(plan),
+            program=plan.program.name, steps=len(plan.program.steps),
         )  # fmt: skip
-        self.runner = self._runner(start)
+        self.runner = self._runner(Checkpoint(setup=setup, snapshot=snapshot, events=(begun,)))
         return self._go()
 
     def _runner(self, start: Checkpoint) -> Runner:
         return Runner(start, halt=self.halt, observers=self.observers)
-
-    def _started(self, plan: Plan) -> RunStarted:
-        begun = self.runner.events[0]
-        assert isinstance(begun, RunStarted)
-        return msgspec.structs.replace(
-            begun, time=self.run.time, plan=plan_digest(plan),
-            program=plan.program.name, steps=len(plan.program.steps),
-        )  # fmt: skip
 
     def answer(self, choice: Choice) -> Pause:
         """Continue after a call of the operator; raises Refused if there is none."""
@@ -189,12 +173,6 @@ class Workplace:
         if not self.before:
             raise Refused("there is nothing to undo")
         self.runner = self._runner(self.before.pop())
-
-
-def _plan(text: str, taught: Taught, task: Task) -> Plan:
-    plan = planned(Source(name=TYPED, text=text), taught, task.arm, task.park, task=task.name).plan
-    assert plan is not None
-    return plan
 
 
 def _onward(state: ExecutionState, plan: Plan) -> ExecutionState:

@@ -36,35 +36,22 @@ class Access:
         return f"http://{HOST}:{self.port}{PAGE}?token={self.token}"
 
     def refusal(self, target: str, hosts: Sequence[str], origins: Sequence[str]) -> Refusal | None:
-        """Why a request is refused; None: it is let through.
+        """Why a request for a path and query with these `Host` and `Origin` headers is refused; None: it is not.
 
-        Args:
-            target: path and query.
-            hosts: its `Host` headers.
-            origins: its `Origin` headers.
+        Browsers tell the origin of whatever opens a socket, and mostly none of who opens a page.
         """
         path, _, query = target.partition("?")
-        if [*hosts] not in ([host] for host in self._hosts):
+        own = [f"{name}:{self.port}" for name in _NAMES]
+        if [*hosts] not in ([host] for host in own):
             return Refusal(HTTPStatus.FORBIDDEN, "this server goes by another name")
-        if not self._own(origins, needed=path == LIVE):
+        if [*origins] not in ([f"http://{host}"] for host in own) and (origins or path == LIVE):
             return Refusal(HTTPStatus.FORBIDDEN, "another page cannot use this server")
         if not self._has_token(query):
-            return Refusal(
-                HTTPStatus.FORBIDDEN, "the token is missing or wrong: open the address that handeye printed"
-            )
+            wrong = "the token is missing or wrong: open the address that handeye printed"
+            return Refusal(HTTPStatus.FORBIDDEN, wrong)
         if path not in (PAGE, LIVE):
             return Refusal(HTTPStatus.NOT_FOUND, NOTHING)
         return None
-
-    @property
-    def _hosts(self) -> list[str]:
-        return [f"{name}:{self.port}" for name in _NAMES]
-
-    def _own(self, origins: Sequence[str], *, needed: bool) -> bool:
-        """Browsers tell the origin of whatever opens a socket, and mostly none of who opens a page."""
-        if not origins:
-            return not needed
-        return [*origins] in ([f"http://{host}"] for host in self._hosts)
 
     def _has_token(self, query: str) -> bool:
         given = parse_qs(query, max_num_fields=8).get("token", []) if query.count("&") < 8 else []

@@ -149,12 +149,9 @@ class Newest(Observer):
     def _now(self, force: Array | None) -> Moment:
         poses = self.frames.poses()
         poses[~self.frames.there()] = np.nan
-        return Moment(
-            time=self._elapsed(), gap=self._gap, force=force, joints=self._joints, channels=self._channels, poses=poses,
-        )  # fmt: skip
-
-    def _elapsed(self) -> float:
-        """s since the first of the runs began."""
         if self._begun is None and self._runner.events:
             self._begun = beginning(self._runner.events)
-        return 0.0 if self._begun is None else round(self._runner.time - self._begun, 6)
+        elapsed = 0.0 if self._begun is None else round(self._runner.time - self._begun, 6)
+        return Moment(
+            time=elapsed, gap=self._gap, force=force, joints=self._joints, channels=self._channels, poses=poses,
+        )  # fmt: skip

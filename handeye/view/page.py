@@ -50,9 +50,13 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
     style = resource("page.css") + _own("live.css")
     television = element("div", id="television", role="region", aria_label="television", hidden=True)
     aside = element("div", television, face.aside, class_="aside")
+    state = element("p", "connecting", id="state", role="status")
+    drive = element("button", "Take the drive", id="drive", type="button")
+    looking = element("p", element("span", id="looking"), drive)
+    header = element("div", element("h1", face.title), state, looking, class_="title")
     body = element(
         "body",
-        _header(face.title),
+        header,
         element("main", element("div", _viewer(face), aside, class_="beside")),
         element("script", json_markup(facts), id="facts", type="application/json"),
         packed("scene", scene.scene_bytes(model)),
@@ -74,13 +78,6 @@ def source_region(label: str, *content: Markup, id: str | None = None) -> Markup
     return element("div", *content, id=id, class_="source", tabindex="0", role="region", aria_label=label)
 
 
-def _header(title: str) -> Markup:
-    state = element("p", "connecting", id="state", role="status")
-    drive = element("button", "Take the drive", id="drive", type="button")
-    looking = element("span", id="looking")
-    return element("div", element("h1", title), state, element("p", looking, drive), class_="title")
-
-
 def _viewer(face: Face) -> Markup:
     canvas = element(
         "canvas", id="view", tabindex="0", role="img",
@@ -96,14 +93,8 @@ def _viewer(face: Face) -> Markup:
 
 def _talk(listener: str) -> Markup:
     told = element("pre", id="told", role="log", aria_label=f"what the {listener} tells", tabindex="0")
-    line = element(
-        "input",
-        id="line",
-        type="text",
-        maxlength="1000",
-        aria_label=f"command of the {listener}",
-        autocomplete="off",
-    )
+    label = f"command of the {listener}"
+    line = element("input", id="line", type="text", maxlength="1000", aria_label=label, autocomplete="off")
     return element("div", told, element("form", line, id="form"), class_="talk")
 
 

@@ -73,12 +73,7 @@ class Server:
         self._up = Event()
 
     def show(self, page: bytes, newest: Newest | None = None) -> None:
-        """Begin to serve a page.
-
-        Args:
-            page: it and all that it needs, as one file.
-            newest: the moments that it is fed with; None: there is nothing to come, and no socket.
-        """
+        """Begin to serve a page in one file, and to feed it with moments; None: there is nothing to come, no socket."""
         self._page, self._newest = page, newest
         self.link.tell = lambda text: self._call(lambda: self._tell(text))
         self._thread = Thread(

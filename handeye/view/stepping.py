@@ -18,14 +18,8 @@ from handeye.view.link import Link
 from handeye.view.moment import Newest
 from handeye.view.page import Face, buttons, live_page, source_region
 
-_BUTTONS: Final = (
-    ("continue", "Run"),
-    ("pause", "Pause"),
-    ("step", "Step"),
-    ("stage", "Next stage"),
-    ("back", "Back"),
-    ("back stage", "Back a stage"),
-)
+_GO: Final = (("continue", "Run"), ("pause", "Pause"), ("step", "Step"), ("stage", "Next stage"))
+_BUTTONS: Final = (*_GO, ("back", "Back"), ("back stage", "Back a stage"))
 _ANSWERS: Final = (("proceed", "Proceed"), ("retry", "Retry"), ("skip", "Skip"), ("abort", "Abort"))
 _PACES: Final = (("1x", "1 ×"), ("4x", "4 ×"), ("free", "as fast as it goes"))
 
@@ -48,14 +42,8 @@ def _controls() -> Markup:
     paces = (element("option", shown, value=said, selected=said == "free") for said, shown in _PACES)
     pace = element("select", *paces, id="pace", aria_label="pace")
     panic = element("button", "Panic", id="panic", type="button")
-    called = element(
-        "div",
-        *buttons(_ANSWERS),
-        id="answers",
-        role="group",
-        aria_label="answers for the operator",
-        hidden=True,
-    )
+    label = "answers for the operator"
+    called = element("div", *buttons(_ANSWERS), id="answers", role="group", aria_label=label, hidden=True)
     return element("div", *buttons(_BUTTONS), pace, panic, called, class_="controls")
 
 

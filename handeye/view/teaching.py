@@ -46,10 +46,8 @@ def taught_markup(teacher: Teacher) -> Markup:
     lines = teacher.text.splitlines()
     if not lines:
         return element("p", "Nothing is taught yet.", class_="note")
-    return element(
-        "ol",
-        *(element("li", element("code", line), class_=None if line in saved else "new") for line in lines),
-    )
+    shown = (element("li", element("code", line), class_=None if line in saved else "new") for line in lines)
+    return element("ol", *shown)
 
 
 def _jogging(arm: ArmModel) -> Markup:
@@ -70,13 +68,8 @@ def _jogging(arm: ArmModel) -> Markup:
         _pair(f"j{number}", joint.name, "way" if joint.kind == "prismatic" else "angle")
         for number, joint in enumerate(arm.joints, 1)
     )
-    return element(
-        "div",
-        steps,
-        _grid("hand, a step at a time", hand),
-        _grid("joints, a step at a time", joints),
-        id="jog",
-    )
+    grids = _grid("hand, a step at a time", hand), _grid("joints, a step at a time", joints)
+    return element("div", steps, *grids, id="jog")
 
 
 def _choice(name: str, label: str, options: Iterable[tuple[str, str]], usual: str) -> Markup:
@@ -91,16 +84,9 @@ def _grid(label: str, pairs: Iterable[Markup]) -> Markup:
 def _pair(line: str, shown: str, step: str) -> Markup:
     """Two buttons that move something one way and the other; the script puts frame and step in the line."""
     less, more = (
-        element(
-            "button",
-            sign,
-            type="button",
-            value=f"{line} {typed}",
-            data_step=step,
-            aria_label=f"{shown} {sign}",
-        )
+        element("button", sign, type="button", value=f"{line} {typed}", data_step=step, aria_label=f"{shown} {sign}")
         for typed, sign in _SIGNS
-    )
+    )  # fmt: skip
     return element("span", less, element("span", shown), more)
 
 
@@ -112,21 +98,11 @@ def _naming(parts: Iterable[str]) -> Markup:
     )  # fmt: skip
     of: Sequence[tuple[str, str]] = [("", "on the table"), *((part, f"on {part}") for part in parts)]
     again = element("label", element("input", id="again", type="checkbox"), " replace")
-    return element(
-        "form",
-        name,
-        element(
-            "select",
-            *(element("option", shown, value=part) for part, shown in of),
-            id="part",
-            aria_label="on",
-        ),
-        again,
-        element("button", "Record", type="submit"),
-        element("button", "Go to", id="go", type="button"),
-        id="record",
-        class_="controls",
-    )
+    options = (element("option", shown, value=part) for part, shown in of)
+    part = element("select", *options, id="part", aria_label="on")
+    record = element("button", "Record", type="submit")
+    go = element("button", "Go to", id="go", type="button")
+    return element("form", name, part, again, record, go, id="record", class_="controls")
 
 
 class Watch:

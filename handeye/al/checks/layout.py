@@ -76,11 +76,8 @@ def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnosti
     """A macro that ends in a modifier, separated by blank lines from its motion."""
     modifier, motion = macro.body[-1].word, behind.word
     assert modifier is not None
-    if (
-        motion is None
-        or motion.text in _OPENING_MOTIONS
-        or motion.text not in INSTRUCTIONS[modifier.text].fits
-    ):
+    fits = {*INSTRUCTIONS[modifier.text].fits} - {*_OPENING_MOTIONS}
+    if motion is None or motion.text not in fits:
         return
     text, end = source.find(macro.body[-1].end)
     other, start = source.find(behind.start)
