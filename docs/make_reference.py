@@ -83,7 +83,7 @@ GROUPS: Final = {
     "Vision": {
         "handeye.vision.Scan": "vision.scan.Scan",
         "handeye.vision.beams": "vision.beam.beams",
-        "Edges": "vision.edge.Edges",
+        "Edges": "vision.beam.Edges",
         "handeye.vision.localise": "vision.blob.localise",
         "BoundingBox": "vision.blob.BoundingBox",
         "handeye.vision.characterise": "vision.characteriser.characterise",
@@ -147,6 +147,8 @@ def happenings() -> Iterator[str]:
 
 TABLES: Final = {"Results": findings, "Runs": happenings}
 """What stands below the names of a group."""
+UNITS: Final = {"s", "m", "mm", "deg", "rad"}
+"""Words that a sentence may begin with in small letters."""
 CONSTRUCTED: Final = {"handeye.World", "handeye.vision.Scan"}
 """Classes of which people make objects."""
 HIDDEN: Final = {"attend", "reach", "of"}
@@ -254,14 +256,23 @@ def listed(entries: Iterator[tuple[str, str]]) -> Iterator[str]:
 
 
 def sentence(named: griffe.Object) -> str:
-    """What is said of an attribute in one line, with what it raises."""
-    said = []
+    """What is said of an attribute in one line, with what it raises; of a field without a docstring, the comment."""
+    said = [] if named.docstring or not named.is_attribute else [comment(named)]
     for section in parsed(named):
         if isinstance(section, griffe.DocstringSectionText):
             said.append(section.value.partition(">>> ")[0])
         elif isinstance(section, griffe.DocstringSectionRaises):
             said += [f"Raises {each.annotation}: {each.description}" for each in section.value]
     return " ".join(" ".join(said).split())
+
+
+def comment(named: griffe.Attribute) -> str:
+    """What the comment behind a field says, as a sentence."""
+    line = named.filepath.read_text(encoding="utf-8").splitlines()[named.endlineno - 1]
+    said = line.partition("  # ")[2]
+    first = said.partition(" ")[0].rstrip(";:,.")
+    start = said[:1] if first in UNITS else said[:1].upper()
+    return f"{start}{said[1:].rstrip('.')}." if said else ""
 
 
 def paragraph(text: str, indent: str = "") -> list[str]:

@@ -54,8 +54,7 @@ class Diagnostic:
     notes: tuple[str, ...] = ()
     help: str | None = None
     meant: Meant | None = None
-    own: Severity | None = None
-    """Severity of a code that a system has for its own language; None: the code is one of `CODES`."""
+    own: Severity | None = None  # of a system's own code; None: one of `CODES`
 
     def __post_init__(self) -> None:
         assert self.own or self.code in CODES, self.code
@@ -123,8 +122,7 @@ def as_json(diagnostic: Diagnostic, source: Source) -> dict[str, object]:
 LOOKALIKES: Final = str.maketrans("OoIl", "0011")  # letters to digits
 MAX_LISTED: Final = 8  # known names
 MOST_COMPARED: Final = 500
-LONGEST_COMPARED: Final = 40
-"""Characters. The search takes time in proportion to the number of names and the square of their length."""
+LONGEST_COMPARED: Final = 40  # characters; the search takes their square
 
 
 def quoted(name: str) -> str:

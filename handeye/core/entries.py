@@ -17,8 +17,7 @@ from handeye.core.errors import BadFile, NoSuchName, Refused
 from handeye.core.record import Record
 
 GROUP: Final = "handeye.systems"  # the entry-point group in which packages from elsewhere name their entries
-OWN: Final = ("handeye.systems.stanford:ENTRY", "handeye.systems.trig:ENTRY")
-"""Entries that come with handeye: they need no installed metadata."""
+OWN: Final = ("handeye.systems.stanford:ENTRY", "handeye.systems.trig:ENTRY")  # need no installed metadata
 PLANNED: Final = "program"  # the system that carries out plans of motions, which is meant where none is named
 
 Capability = Literal[
@@ -47,18 +46,13 @@ class Entry(Record, frozen=True, kw_only=True):
     help: str  # a one-line description
     system: str  # `module:NAME` of its `handeye.runs.system.System`
     can: tuple[Capability, ...] = ()
-    reasons: dict[Capability, str] = field(default_factory=dict)
-    """Why it cannot do what it cannot, where that helps."""
-    commands: str = ""
-    """Commands that it adds, a line each: `NAME = MODULE:FUNCTION: SENTENCE`, as in `handeye/cli/commands.py`."""
+    reasons: dict[Capability, str] = field(default_factory=dict)  # why it cannot, where that helps
+    commands: str = ""  # a line each: `NAME = MODULE:FUNCTION: SENTENCE`, as in `handeye/cli/commands.py`
     tasks: dict[str, str] = field(default_factory=dict)  # `module:NAME` of each of its tasks
-    sweeps: dict[str, str] = field(default_factory=dict)
-    """`module:NAME` of the `handeye.trials.sweep.Sweep` of each kind of trials that it offers."""
+    sweeps: dict[str, str] = field(default_factory=dict)  # `module:NAME` of a `Sweep`, by kind
     events: str = ""  # `module:NAME` of a tuple of the kinds of events that it adds to those of all systems
-    languages: dict[str, str] = field(default_factory=dict)
-    """`module:NAME` of the `OwnLanguage` (`handeye/program/language.py`) of each ending of its files."""
-    files: tuple[str, ...] = ()
-    """Names of the files that its finished runs leave in their folders, besides those of every run."""
+    languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending
+    files: tuple[str, ...] = ()  # files that its finished runs add to their folders
 
 
 _registered: Final[dict[str, Entry]] = {}
@@ -91,8 +85,7 @@ def _installed() -> list[Entry]:
 
 
 _found: Final[list[Entry]] = []
-_broken: Final[dict[str, str]] = {}
-"""Why the entries of installed packages cannot be used, by the names of their entry points."""
+_broken: Final[dict[str, str]] = {}  # reasons, by entry point
 
 
 def entry_named(name: str) -> Entry:

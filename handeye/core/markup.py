@@ -8,8 +8,7 @@ from typing import Final
 from handeye.core.plain_text import printable
 
 VOID: Final = {"img", "input", "meta"}  # elements of HTML without content
-SHAPES: Final = {"circle", "line", "path", "polygon", "rect"}
-"""Elements of drawings without content, which have to say so."""
+SHAPES: Final = {"circle", "line", "path", "polygon", "rect"}  # elements of drawings without content
 
 Content = str | float | None  # markup, text, a number, or nothing
 

@@ -14,8 +14,7 @@ from handeye.core.errors import BadFile
 from handeye.core.files import read_whole
 from handeye.core.plain_text import printable
 
-LARGEST: Final = 1_000_000
-"""Bytes of the largest text file: the longest possible program at a hundred a statement."""
+LARGEST: Final = 1_000_000  # bytes of a text file: the longest possible program at a hundred a statement
 
 
 class Span(msgspec.Struct, frozen=True, gc=False, kw_only=True, order=True):
@@ -44,8 +43,7 @@ class Source:
     text: str
     key: str = ""  # path of a required text from the main text's folder; empty: the main text
     problem: str = ""  # why a required text could not be read
-    required: "tuple[Source, ...]" = ()
-    """Offsets of the whole continue through these in order, one character after each text."""
+    required: "tuple[Source, ...]" = ()  # offsets continue through these, one character after each
 
     @property
     def texts(self) -> "tuple[Source, ...]":

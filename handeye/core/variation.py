@@ -29,8 +29,7 @@ DRAWING: Final = 4  # version of the drawing: raised when equal seeds give other
 LARGEST_SEED: Final = (1 << 63) - 1  # 64 bits with sign, as on disk
 
 Level = Literal["low", "nominal", "high"]
-SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}
-"""Factors on the spread of every error."""
+SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}  # factors on errors
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

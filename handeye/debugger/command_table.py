@@ -46,7 +46,6 @@ def commands_of(runner: Runner) -> tuple[StepperCommand, ...]:
 
 
 _ASKING: Final[dict[str, Capability]] = {"undo": "undo", "type": "console"}
-"""Commands that ask for what not every system can."""
 
 
 def _settings(command: StepperCommand, runner: Runner) -> list[StepperCommand]:

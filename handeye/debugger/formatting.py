@@ -22,7 +22,6 @@ from handeye.results.pauses import pause_sentence, stop_name
 MAX_STEPS_SHOWN: Final = 24  # of a long way, on a terminal; all of them are in the trace
 STATEMENT_COLUMNS: Final = 30
 _ORDER: Final = sorted(Reply.__struct_fields__, key=lambda name: name in CommandResult.__struct_fields__)
-"""Fields of an answer, the command and where the run stands first."""
 
 
 def as_json(reply: Reply) -> str:
@@ -138,7 +137,6 @@ def _positions(positions: dict[str, PositionView]) -> list[str]:
 
 
 _NOTHING: Final = {"force_oz": "not estimated here: no guard has just stopped the hand"}
-"""Text of a field without a value."""
 _JOINTS_PER_LINE: Final = 3
 _LINES: Final[dict[str, Callable[[Any], Sequence[str]]]] = {
     "time_s": lambda seconds: [f"{seconds:.2f} s"],

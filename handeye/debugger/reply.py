@@ -24,7 +24,6 @@ _BETWEEN: Final = (
     happened.UndoOrdered,
 )  # events between two steps
 _SILENT: Final = (happened.StepStarted, happened.StepFinished, happened.CameraBusy)
-"""Events in a step that are summarized differently, or not at all."""
 
 
 class StepSummary(Record, frozen=True, kw_only=True):
@@ -100,8 +99,7 @@ class CommandResult(Record, frozen=True, kw_only=True):
 
     said: str | UnsetType = UNSET
     pause: Pause | None = None  # why the run pauses, if the command made it go
-    source: tuple[SourceLine, ...] | UnsetType = UNSET
-    """The script around the line where the run stands, or around one that was asked for."""
+    source: tuple[SourceLine, ...] | UnsetType = UNSET  # around where the run stands, or as asked
     show: Shown | UnsetType = UNSET
     breaks: tuple[Break, ...] | UnsetType = UNSET
     file: str | UnsetType = UNSET  # file that was written
@@ -124,18 +122,13 @@ class Reply(CommandResult, frozen=True, kw_only=True):
     """The answer to a command: where the run now stands, and what came of the command."""
 
     command: str
-    position: int
-    """Steps done since the run began."""
-    time: float
-    """s since the working phase began."""
-    stage: str | None
-    """The stage under way, or the one about to begin; None after the last."""
-    stage_number: int | None
-    """From 1."""
+    position: int  # steps done
+    time: float  # s since the working phase began
+    stage: str | None  # present or next; None after the last
+    stage_number: int | None  # from 1
     step: int | None  # the step to be done next; None if the run cannot go on by itself
     line: int | None
-    text: str | None
-    """Its statement."""
+    text: str | None  # its statement
     script: str = ""  # the required file its line is in; empty: the script itself
     tasks: tuple[TaskView, ...] | UnsetType = UNSET  # places of the tasks of a system that has several
     did: tuple[StepSummary, ...] = ()  # steps that were done, in words

@@ -86,11 +86,9 @@ class Shown(Record, frozen=True, kw_only=True):
     time_s: float | UnsetType = UNSET
     joints: tuple[JointView, ...] | UnsetType = UNSET
     hand: HandView | UnsetType = UNSET
-    force_oz: Vector3 | UnsetType | None = UNSET
-    """Force that the hand exerts on the world, in W; None: the program does not estimate it here."""
+    force_oz: Vector3 | UnsetType | None = UNSET  # on the world, in W; None: not estimated here
     gap_in: float | UnsetType = UNSET
-    switches: tuple[bool, bool] | UnsetType = UNSET
-    """Switches of the fingers on the +y and the -y side of the hand."""
+    switches: tuple[bool, bool] | UnsetType = UNSET  # on the +y and -y side of the hand
     error: ErrorView | UnsetType | None = UNSET
     saved_in: dict[str, Vector3] | UnsetType = UNSET
     restored_in: dict[str, Vector3] | UnsetType = UNSET

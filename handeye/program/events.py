@@ -15,11 +15,9 @@ from handeye.program.diagnosis.causes import Cause, InspectionCause, JointName
 from handeye.program.guards import GuardKind
 from handeye.program.senses import Sense
 
-AskedBy = Literal["person", "program", "job"]
-"""Who orders a reversal; a job does so by itself when its program has ended."""
+AskedBy = Literal["person", "program", "job"]  # a job orders a reversal when its program has ended
 Importance = Literal["debug", "info", "warning", "error"]
-Choice = Literal["proceed", "retry", "skip"]
-"""Choices of an operator after a stop: proceed after it, retry the stage, or skip the rest of the stage."""
+Choice = Literal["proceed", "retry", "skip"]  # go on after a stop, retry the stage, or skip the rest of it
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
@@ -49,13 +47,10 @@ class RunStarted(Event, frozen=True, kw_only=True):
     arm_digest: str
     world: WorldSpec
     task: str = "water_pump"
-    """Its name."""
     camera: Renderer  # how pictures are made
     versions: dict[str, str]
-    replaced: dict[str, str] | UnsetType = UNSET
-    """Parts replaced by code of the caller, with the names of that code."""
+    replaced: dict[str, str] | UnsetType = UNSET  # parts by the caller's code, by name
     without: tuple[Sense, ...] | UnsetType = UNSET
-    """Senses that the program did without."""
 
     @property
     def lacking(self) -> tuple[Sense, ...]:
@@ -330,7 +325,6 @@ CommonEvent = (
     | OperatorCalled | OperatorAnswered | ExperimentMade | LineTyped | PanicStopped | WentBack
     | UndoOrdered | UndoStarted | UndoFinished | StageUndone | UndoEnded | RunFinished
 )  # fmt: skip
-"""The kinds of events that runs of every system have."""
 AnyEvent = CommonEvent | SystemEvent
 
 

@@ -97,10 +97,6 @@ class Change(ArmMotion, frozen=True, kw_only=True):
         return any(way is not None for way in (self.press, self.free, self.moment, self.spin))
 
     @property
-    def straight_way(self) -> Vector3 | None:
-        return self.displacement
-
-    @property
     def knots(self) -> int | None:
         return 2
 

@@ -81,11 +81,6 @@ class Operation(
         return self.complies or any(guard.exerted((0.0, 0.0, 1.0)) is not None for guard in self.guards)
 
     @property
-    def straight_way(self) -> Vector3 | None:
-        """Displacement (m, table axes) if it moves straight from the present place."""
-        return None
-
-    @property
     def examines(self) -> str | None:
         """The picture it examines."""
         return None

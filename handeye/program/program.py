@@ -15,8 +15,7 @@ from handeye.core.source import Source, line_name
 from handeye.program.operation import Device, Kind
 from handeye.program.operations import AnyOperation
 
-Columns = tuple[int, int]
-"""Start and end columns on a line, from 0, end exclusive; independent of all other lines."""
+Columns = tuple[int, int]  # start and end on a line, from 0, end exclusive
 
 
 class SourcePlace(Record, frozen=True, kw_only=True, omit_defaults=True):
@@ -102,8 +101,7 @@ class Part(Record, frozen=True, kw_only=True):
     holes: tuple[Hole, ...] = ()  # large convex holes, largest first
     screw_holes: tuple[Hole, ...] = ()
     region: tuple[float, float] | None = None  # half width and depth of where it may be, m
-    outline: tuple[float, float, float, float] | None = None
-    """Bounding box in part coordinates, m: x, y from, x, y to."""
+    outline: tuple[float, float, float, float] | None = None  # box, m: x, y from, x, y to
 
 
 class Fixture(Record, frozen=True, kw_only=True):

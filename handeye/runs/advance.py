@@ -136,8 +136,7 @@ AnyStop = (
 class Pause(Record, frozen=True, kw_only=True):
     """Reason of a pause, as facts."""
 
-    kind: Literal["end", "operator", "trouble", "break", "panic"]
-    """The program ended, called the operator, cannot go on; a stop condition was met; the panic button."""
+    kind: Literal["end", "operator", "trouble", "break", "panic"]  # `trouble`: it cannot go on
     done: int = 0  # steps done since the run went on
     next: int | None = None  # the step to be done next; None if the run cannot go on by itself
     met: AnyStop | None = None  # the stop condition, if one was met

@@ -48,15 +48,12 @@ class Head(Record, frozen=True, kw_only=True):
     position: int  # steps done; -1: not begun
     stage: str | None
     between_stages: bool  # the next step begins the stage
-    time: float | None
-    """s on the cell's clock."""
+    time: float | None  # s on the cell's clock
     touched: bool  # people had interfered with the run: it is not what the plan alone makes of it
     task: str
     judged: bool = False  # the referee is to look at what came out
-    limits: dict[str, float] | UnsetType = UNSET
-    """Limits that its findings stand against in the place of its own."""
-    replaced: dict[str, str] | UnsetType = UNSET
-    """Parts that code took the place of, with its names: the run goes on only with parts of the same names."""
+    limits: dict[str, float] | UnsetType = UNSET  # of findings, in place of the referee's
+    replaced: dict[str, str] | UnsetType = UNSET  # replaced parts; others of these names must resume it
     without: tuple[Sense, ...] | UnsetType = UNSET  # senses that the program does without
 
 

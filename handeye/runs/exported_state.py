@@ -14,8 +14,7 @@ from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import listing_of
 from handeye.tasks import DEFAULT, task
 
-MomentKind = Literal["drawn", "final", "unfinished"]
-"""Before anything happened; the plan has come to its end; it has not."""
+MomentKind = Literal["drawn", "final", "unfinished"]  # before, at the end of, or within the plan
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,8 +26,7 @@ class ExportedState:
     moment: MomentKind
     truth: Truth
     program: str | None = None
-    steps: int = 0
-    """Steps done."""
+    steps: int = 0  # steps done
     stage: str | None = None  # the stage under way, or the one to come
 
 

@@ -71,8 +71,7 @@ class RunFolder(Observer):
         self._runner: Runner | None = None
         self._journal: Journal | None = None
         self._recorder: Recorder | None = None
-        self.spent: HostSeconds | None = None
-        """Host time of earlier sessions; None: there were none, or it is unknown."""
+        self.spent: HostSeconds | None = None  # of earlier sessions, if known
         self._meter = Meter()
 
     def watch(

@@ -20,8 +20,7 @@ _LARGEST = 10_000  # bytes of the file
 class HostSeconds(Record, frozen=True, kw_only=True):
     """Seconds of the host, summed over the sessions of a run: the processes that began and resumed it."""
 
-    planning_cpu_s: float = 0.0
-    """0: the plan was there already."""
+    planning_cpu_s: float = 0.0  # 0: the plan was there already
     vision_cpu_s: float = 0.0  # with what was undone later
     run_cpu_s: float = 0.0
     run_wall_s: float = 0.0

@@ -79,8 +79,7 @@ class Runner:
         parts.check(start.setup.replaced)
         self.setup = start.setup
         self.listing = listing_of(start.setup)  # stages and steps of what is carried out
-        self.vision = Stopwatch(time.process_time)
-        """Processor time that vision has taken since this object took the run up, undone steps included."""
+        self.vision = Stopwatch(time.process_time)  # processor time of vision here, undone steps included
         self.kind = system_of(start.setup)  # the system that carries it out, as a value
         self.system: RunningSystem = self.kind.build(
             start.setup,
@@ -94,13 +93,10 @@ class Runner:
                 calibrate=calibrate,
             ),
         )
-        self.events: list[AnyEvent] = []
-        """Everything that has happened and was not undone."""
-        self.position = 0
-        """Steps done."""
+        self.events: list[AnyEvent] = []  # not undone
+        self.position = 0  # steps done
         self.history: list[Snapshot] = []  # states to go back to, the present one last
-        self.started = 0.0
-        """The clock when this object took the run up, or the system began to prepare it: what it has not simulated."""
+        self.started = 0.0  # clock until which this object simulated nothing
         self.first = 0  # steps done by then
         self.observers: list[Observer] = []
         self._broken: str | None = None

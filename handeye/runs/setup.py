@@ -20,8 +20,7 @@ class Setup(Record, frozen=True, kw_only=True):
     judged: bool = False  # the referee is to look at what came out. It decides nothing of the run.
     limits: dict[str, float] = msgspec.field(default_factory=dict)
     """Limits that findings of the task's referee stand against in the place of its own, in their units."""
-    replaced: dict[str, str] = msgspec.field(default_factory=dict)
-    """Parts replaced by code of the caller, with the names of that code."""
+    replaced: dict[str, str] = msgspec.field(default_factory=dict)  # parts by the caller's code, by name
     without: tuple[Sense, ...] = ()  # senses that the program does without, in the order of `SENSES`
 
     @property

@@ -16,8 +16,7 @@ from handeye.runs.systems import listing_of
 class Snapshot(Record, frozen=True, kw_only=True):
     """The state of a run between two steps."""
 
-    position: Annotated[int, msgspec.Meta(ge=0)]
-    """Steps done since the run began."""
+    position: Annotated[int, msgspec.Meta(ge=0)]  # steps done
     happened: Annotated[int, msgspec.Meta(ge=0)]  # events until then, undone ones not counted
     cell: CellState | None  # None: the system acts on no simulated cell
     state: SystemState
@@ -28,8 +27,7 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
     setup: Setup
     snapshot: Snapshot | None = None  # None: the run has not begun
-    events: tuple[AnyEvent, ...] = ()
-    """Everything that has happened and was not undone."""
+    events: tuple[AnyEvent, ...] = ()  # that were not undone
 
     @property
     def position(self) -> int:

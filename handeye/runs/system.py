@@ -267,8 +267,7 @@ class Surroundings:
     emit: Callable[[AnyEvent], None]
     watch: Callable[[ServoPeriod], None]  # called for every servo period
     halt: Callable[[], bool]  # the panic button, asked at every servo period
-    viewed: Callable[[int, int], None] = lambda *_: None
-    """Told of each view in which the camera is calibrated: its number, of how many."""
+    viewed: Callable[[int, int], None] = lambda *_: None  # calibration views: number, count
     vision: Stopwatch = field(default_factory=Stopwatch)  # processor time of vision
     parts: Parts = OWN
     calibrate: bool = False  # calibrate anew, whatever is kept
@@ -285,13 +284,11 @@ class StepperWords:
         "PLACE is a line, a label, the first word of a step, or a stage. WHAT is one of",
     )  # lines on what can be said for PLACE and WHAT; the topics follow
     units: str = "those of the system"
-    commands: Mapping[str, str] = field(default_factory=dict)
-    """Help on commands that do something of their own, by usage."""
+    commands: Mapping[str, str] = field(default_factory=dict)  # help by usage
     without: tuple[str, ...] = ("picture",)  # names of commands that do nothing
 
 
-Topics = Mapping[str, tuple[str, Callable[["Runner"], Any]]]
-"""What of a paused run can be shown: by topic the field of the answer, and how to look."""
+Topics = Mapping[str, tuple[str, Callable[["Runner"], Any]]]  # by topic: field of the answer, view
 PLAIN: Final[Topics] = {
     "time": ("time_s", lambda runner: runner.elapsed),
     "state": ("state", lambda runner: runner.system.shown),

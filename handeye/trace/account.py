@@ -12,8 +12,7 @@ from handeye.program import events as happened
 from handeye.program.events import AnyEvent, SystemEvent, beginning
 from handeye.trace.sentences import inches, measures_of, sentence
 
-ASTRAY: Final = 0.02 * INCH
-"""A motion that ends farther than this from where it was to end is worth a word; free ones end nearer."""
+ASTRAY: Final = 0.02 * INCH  # farther than that from its goal, the end of a motion is worth a word
 _BENEATH: Final = " " * 20  # indents the outcome of a step
 
 

@@ -23,13 +23,10 @@ from handeye.trace.hand_message import channels_schema, hand_schema
 
 FORMAT: Final = "handeye trace"
 VERSION: Final = 3  # version of the format; a reader reads its own
-METADATA: Final = "handeye"
-"""Name of the metadata record that says what the file is and what the run depended on."""
-THINNED: Final = "thinned"
-"""Key of that record in files that hold some of the servo periods of the run, not all."""
+METADATA: Final = "handeye"  # metadata record on what the file is and what the run depended on
+THINNED: Final = "thinned"  # its key in files that hold only some servo periods
 PLAN: Final = "plan.json"  # name of the attachment with the plan
-PACKED_PLAN: Final = "plan.json.zst"
-"""Its name in a thinned trace, where it is packed: as it is, it would be a quarter of the file."""
+PACKED_PLAN: Final = "plan.json.zst"  # in a thinned trace, where it would be a quarter of the file
 
 JOINTS: Final = "/joint_states"
 FRAMES: Final = "/tf"
@@ -40,8 +37,7 @@ EVENTS: Final = "/events"
 HAND: Final = "/hand"
 MACHINES: Final = "/channels"
 ANNOTATIONS: Final = "/camera/annotations"
-MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND, MACHINES, ANNOTATIONS)
-"""Channels recorded beside the events: how it was at a moment."""
+MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND, MACHINES, ANNOTATIONS)  # recorded beside events
 
 WORLD: Final = "world"  # name of the frame W, parent of all others
 

@@ -51,8 +51,7 @@ class Journal:
         self._owed: WentBack | None = None  # there was no room for it
         self._file = LineFile(path, "another run", again=again)
         lacking = effective(read_events(path))[: len(events)] != list(events)
-        self.lost = again and lacking
-        """Some of the events were missing, and it was begun anew, without what was undone before."""
+        self.lost = again and lacking  # begun anew, as events were missing
         if lacking:
             self._file.clear()
             for event in events:

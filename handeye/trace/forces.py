@@ -26,14 +26,10 @@ class Forces:
     figures are NaN.
     """
 
-    times: Array
-    """Ends of the periods, shape (n,), s."""
-    force: Array
-    """Force of the hand on the world, shape (n, 3), N."""
-    moment: Array
-    """Moment of the hand on the world about its tool centre point, shape (n, 3), N m."""
-    estimated: NDArray[np.bool_]
-    """Where there is an estimate, shape (n,)."""
+    times: Array  # ends of the periods, shape (n,), s
+    force: Array  # force of the hand on the world, shape (n, 3), N
+    moment: Array  # moment of the hand on the world about its tool centre point, shape (n, 3), N m
+    estimated: NDArray[np.bool_]  # where there is an estimate, shape (n,)
     guard: NDArray[np.str_]
     """Kind of the guard that watches (the first, if there are several), shape (n,): `force`, `against`, `moment`,
     `torque`, `touch`; empty: none does."""
@@ -42,8 +38,7 @@ class Forces:
     value: Array
     """Its reading, shape (n,): force along the axis (N), moment about it (N m), torque of the screwdriver (N m),
     or finger switches as a mask; NaN: no guard watches, or there is no record of it."""
-    limit: Array
-    """Its limit, shape (n,); NaN: no guard watches."""
+    limit: Array  # its limit, shape (n,); NaN: no guard watches
 
     def within(self, spans: Sequence[Span]) -> "Forces":
         """The same, in some spans of time."""

@@ -33,8 +33,7 @@ class GuardMessage(Record, frozen=True, kw_only=True):
 
     guard: Annotated[GuardKind, msgspec.Meta(extra_json_schema={"type": "string"})]
     limit: float  # N, N m, or finger switches as a mask
-    axis: Axes | UnsetType = UNSET
-    """Unit vector along which it looks at the force, or about which at the moment; none: it looks at neither."""
+    axis: Axes | UnsetType = UNSET  # unit vector that it looks along or about, if at force or moment
 
 
 class HandMessage(Record, frozen=True, kw_only=True, omit_defaults=True):

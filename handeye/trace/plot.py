@@ -43,8 +43,7 @@ class Mark:
     """Events of a kind."""
 
     name: str
-    times: tuple[float, ...]
-    """s since the run began."""
+    times: tuple[float, ...]  # s since the run began
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -52,8 +51,7 @@ class Plot:
     """A plot of a run, or of a stage of it."""
 
     title: str
-    begin: float
-    """s since the run began."""
+    begin: float  # s since the run began
     end: float
     stages: tuple[Stage, ...]  # times since the run began
     panels: tuple[Panel, ...]
@@ -174,7 +172,6 @@ _DPI: Final = 120
 _LEAST_GAP: Final = 0.025  # between names of stages, as a share of the width
 _OVER: Final = "data", "axes fraction"
 _BANDS: Final = ("#f2f2f2", "#ffffff")
-"""Behind every other stage."""
 
 
 def drawn(plot: Plot, ending: str) -> bytes:

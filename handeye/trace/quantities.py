@@ -26,14 +26,10 @@ Found = tuple[tuple[str, ...], Value, Value]  # the name of a quantity, part by 
 class QuantityDifference(Record, frozen=True, kw_only=True):
     """A quantity that has different values in two runs."""
 
-    quantity: tuple[str, ...]
-    """Its name, part by part: `("joint", "boom", "position")`."""
-    unit: str = ""
-    """SI unit of its values; empty: none, or unknown."""
-    a: Value
-    """In the first run; None: it has none."""
-    b: Value
-    """In the second."""
+    quantity: tuple[str, ...]  # its name, part by part: `("joint", "boom", "position")`
+    unit: str = ""  # SI unit of its values; empty: none, or unknown
+    a: Value  # in the first run; None: it has none
+    b: Value  # in the second
 
     @property
     def name(self) -> str:
@@ -207,7 +203,6 @@ def _event_unit(event: dict[str, Any], quantity: tuple[str, ...]) -> str:
 _SHOWN_IN: Final[Mapping[str, str]] = {
     "m": "in", "m/s": "in/s", "rad": "deg", "rad/s": "deg/s", "N": "oz", "N m": "oz in",
 }  # fmt: skip
-"""The unit in which people see a quantity, by its SI unit."""
 _DECIMALS: Final = 3
 _EVENTS: Final[Mapping[str, str]] = {
     "Adjusted": "goal that was moved",

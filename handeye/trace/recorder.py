@@ -38,8 +38,7 @@ class PictureSource:
     """Pictures of a program and marks on them, asked for when an event is about one."""
 
     picture: Callable[[str], Picture]  # the picture of a name, as it was taken last
-    found: Callable[[], tuple[str, Sequence[Mark]]]
-    """Name of the picture that the step under way has found something in, and the marks of that."""
+    found: Callable[[], tuple[str, Sequence[Mark]]]  # picture and marks that the present step found
 
 
 class Recorder:
@@ -67,8 +66,7 @@ class Recorder:
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []
         head = next((event for event in prefix if isinstance(event, RunStarted)), None)
         kept = known(old, prefix)
-        self.lost = len(prefix) - kept
-        """Events so far that the old trace did not hold, and with them what was sensed between them."""
+        self.lost = len(prefix) - kept  # events that the old trace did not hold, and what was sensed between
         self._writing = self._copied(old, kept, head)
         for event in prefix[self._writing.events :]:
             self._writing.event(event)

@@ -25,10 +25,8 @@ _HEAD: Final = struct.Struct("<BQ")  # before every record: what it is, and its 
 _DATA_END: Final = _HEAD.size + 4
 _FOOTER: Final = _HEAD.size + 20
 _TROUBLE: Final = (McapError, ZstdError, ValueError, KeyError, struct.error, MemoryError, OverflowError)
-"""Errors that the MCAP library makes of records that are not as they should be."""
 
-LARGEST: Final = 1 << 26
-"""Bytes of a chunk, or of a plan, unpacked: fifty times what the largest chunk of a trace has."""
+LARGEST: Final = 1 << 26  # bytes, unpacked, of a chunk or plan: fifty times the largest chunk of a trace
 
 Kind = TypeVar("Kind", Attachment, Chunk, Metadata)
 

@@ -23,8 +23,7 @@ from handeye.trace.records import RawMessage
 class TakenPicture:
     """A picture that the program took."""
 
-    time: float
-    """s"""
+    time: float  # s
     name: str
     picture: Picture  # levels 0 to 15, shape (rows, columns), uint8
 
@@ -53,18 +52,12 @@ def _levels(data: bytes) -> Picture:
 class Motion:
     """Columns of n servo periods of an arm of m joints, by its sensors."""
 
-    names: tuple[str, ...]
-    """Names of the joints, in order."""
-    times: Array
-    """Ends of the periods on the cell's clock, shape (n,), s."""
-    joints: Array
-    """Positions, shape (n, m), rad and (prismatic joints) m."""
-    rates: Array
-    """Shape (n, m), rad/s and m/s."""
-    efforts: Array
-    """Torques put out, shape (n, m), N m and (prismatic joints) N; zero under the brakes."""
-    gaps: Array
-    """Opening of the fingers, shape (n,), m."""
+    names: tuple[str, ...]  # names of the joints, in order
+    times: Array  # ends of the periods on the cell's clock, shape (n,), s
+    joints: Array  # positions, shape (n, m), rad and (prismatic joints) m
+    rates: Array  # shape (n, m), rad/s and m/s
+    efforts: Array  # torques put out, shape (n, m), N m and (prismatic joints) N; zero under the brakes
+    gaps: Array  # opening of the fingers, shape (n,), m
 
 
 def read_motion(messages: Iterable[RawMessage]) -> Motion:
@@ -115,28 +108,20 @@ def read_channels(messages: Iterable[RawMessage]) -> tuple[ChannelCurve, ...]:
     )
 
 
-Pose7 = tuple[float, float, float, float, float, float, float]
-"""Place of a frame in W (m) and its unit quaternion w, x, y, z."""
+Pose7 = tuple[float, float, float, float, float, float, float]  # m in W, and unit quaternion w, x, y, z
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Moment:
     """A moment of a run."""
 
-    time: float
-    """End of the servo period that is shown, s."""
-    joints: Array
-    """Positions by the sensors, shape (m,), rad and m."""
-    gap: float
-    """m"""
-    poses: dict[str, Pose7]
-    """Frames in W: place (m), then a unit quaternion w, x, y, z."""
-    stage: str | None
-    """None between two stages."""
-    step: StepStarted | None
-    """The step under way, or done last: its line and text."""
-    picture: TakenPicture | None
-    """The last one taken."""
+    time: float  # end of the servo period that is shown, s
+    joints: Array  # positions by the sensors, shape (m,), rad and m
+    gap: float  # m
+    poses: dict[str, Pose7]  # frames in W: place (m), then a unit quaternion w, x, y, z
+    stage: str | None  # None between two stages
+    step: StepStarted | None  # the step under way, or done last: its line and text
+    picture: TakenPicture | None  # the last picture taken
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,8 +21,7 @@ from handeye.program.events import (
     UndoStarted,
 )
 
-CLOCKS = 1e-4
-"""s that the clock of the events, which is rounded, may be off that of the servo periods; far less than a period."""
+CLOCKS = 1e-4  # s by which the rounded clock of events may be off that of servo periods
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +42,7 @@ class DoneStep:
     """A step as it was carried out."""
 
     started: StepStarted
-    events: list[AnyEvent] = field(default_factory=list)
-    """Everything that happened in it, its end included, if it came to that."""
+    events: list[AnyEvent] = field(default_factory=list)  # its end among them, if it ended
 
     @property
     def finished(self) -> bool:
@@ -72,16 +70,14 @@ def done_steps(events: Iterable[AnyEvent]) -> Iterator[DoneStep]:
 
 
 BROKEN_OFF: Final = "broken off"
-Status = Literal["done", "stopped", "skipped", "broken off", "turned"]
-"""How the way through a stage ended; `turned`: the arm went the other way from there."""
+Status = Literal["done", "stopped", "skipped", "broken off", "turned"]  # `turned`: the arm went the other way
 
 
 class Stage(Record, frozen=True, kw_only=True):
     """A stage from its beginning to its end; one that was done again is another."""
 
     name: str
-    begin: float
-    """s"""
+    begin: float  # s
     end: float  # s; of one that was broken off, the time of the last event
     status: Status
     back: bool = False  # the arm undid what was done in it
@@ -117,8 +113,7 @@ def stages_both_ways(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
 @dataclass(slots=True)
 class _Walk:
     found: list[Stage] = field(default_factory=list)
-    _done: list[str] = field(default_factory=list)
-    """Stages that were begun and are not undone; the last one is the one under way, or the last that was."""
+    _done: list[str] = field(default_factory=list)  # begun and not undone, the present or last one at the end
     _begun: float | None = None  # when the stage under way was begun or come back to; None: none is under way
     _back: bool = False
 

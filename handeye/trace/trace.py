@@ -45,22 +45,14 @@ class Trace:
     is not what its channel says.
     """
 
-    name: str
-    """Its file."""
-    version: int
-    """Of the format."""
-    head: RunStarted
-    """The beginning of the run: program, world, versions."""
-    plan: bytes = field(repr=False)
-    """`plan.json` of the run."""
-    events: tuple[AnyEvent, ...] = field(repr=False)
-    """Everything that happened and was not undone."""
-    counts: dict[str, int]
-    """Messages on each channel that has any."""
-    messages: tuple[RawMessage, ...] = field(repr=False)
-    """All of them, in the order they were written."""
-    thinned: bool = False
-    """It holds some of the servo periods, not all: `handeye trace thin` wrote it."""
+    name: str  # the file it was read from
+    version: int  # version of the format
+    head: RunStarted  # the beginning of the run: program, world, versions
+    plan: bytes = field(repr=False)  # `plan.json` of the run
+    events: tuple[AnyEvent, ...] = field(repr=False)  # everything that happened and was not undone
+    counts: dict[str, int]  # messages on each channel that has any
+    messages: tuple[RawMessage, ...] = field(repr=False)  # all of them, in the order they were written
+    thinned: bool = False  # it holds some of the servo periods, not all: `handeye trace thin` wrote it
 
     # -- what happened ---------------------------------------------------------------------------------
 

@@ -113,7 +113,6 @@ ReachFailure = (
     OutOfReach | TooNear | JointLimit | InnerCylinder | FixedOrientation | FixedDirection
     | HeldJoint | InLine | TooFast | BelowTable
 )  # fmt: skip
-"""The first six are failures of poses, the others of motions."""
 
 
 class NamedJoint(Protocol):

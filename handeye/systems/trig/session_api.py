@@ -31,10 +31,13 @@ class TrigSession:
     """
 
     def __init__(self, arm: ArmName = "none") -> None:
-        """Sit down at an arm, to write a new program; raises InvalidInput if there is no such arm.
+        """Sit down at an arm, to write a new program.
 
         Args:
             arm: `none` is one that is imagined, `purbrick` that of the paper, with physics.
+
+        Raises:
+            InvalidInput: there is no such arm.
         """
         if arm not in get_args(ArmName):
             raise NoSuchName(f"there is no arm {quoted(str(arm))}; `none` and `purbrick` can be taught")
@@ -43,10 +46,11 @@ class TrigSession:
     def type(self, text: str) -> tuple[str, ...]:
         """Type lines, as a script has them: commands, the teach box, answers, and what somebody does with the table.
 
-        Raises InvalidInput if a line cannot be carried out; those before it have been.
-
         Returns:
             What was told, a sentence each.
+
+        Raises:
+            InvalidInput: a line cannot be carried out; those before it have been.
         """
         told: list[str] = []
         script = Script(text.splitlines(), told.append)
@@ -63,8 +67,8 @@ class TrigSession:
     def photograph(self, *, width: int = 640, height: int = 480) -> Photograph:
         """Arm and table as somebody sees them who stands before them, shape (height, width, 3), red, green and blue.
 
-        Raises InvalidInput if the arm is imagined, there is no OpenGL on this machine, or the size is none of a
-        picture.
+        Raises:
+            InvalidInput: the arm is imagined, there is no OpenGL on this machine, or the size is none of a picture.
         """
         table = self._session.table
         if not isinstance(table, SeenTable):

@@ -33,7 +33,6 @@ JOGS: Final = {
     "x": (0, -1), "X": (0, 1), "y": (1, -1), "Y": (1, 1), "z": (2, -1), "Z": (2, 1),
     "r": (3, -1), "R": (3, 1), "p": (4, -1), "P": (4, 1), "w": (5, -1), "W": (5, 1),
 }  # fmt: skip
-"""Axis and direction of each teach box key."""
 BOX_HELP: Final = "xXyYzZrRpPwW or ←→↓↑PgDnPgUp: drive   Enter: record   k: kill   +-:"
 LINE_HELP: Final = "HELP: commands   Tab: complete   Ctrl-C: drop the line   Q or Ctrl-D: leave"
 BUSY_HELP: Final = "any key stops the arm"

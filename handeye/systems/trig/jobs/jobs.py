@@ -27,8 +27,7 @@ from handeye.systems.trig.language.command_input import Script, type_script
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.trig_arm import Halted
 
-_LAST_STACK: Final = re.compile(r"\* STACK 20 (X \S+ Y \S+)")
-"""The stack for a run; the one before it is for teaching."""
+_LAST_STACK: Final = re.compile(r"\* STACK 20 (X \S+ Y \S+)")  # the one for a run; the first is for teaching
 
 
 def script_of(name: JobName, blocks: int) -> str:

@@ -12,8 +12,7 @@ from handeye.judge.measured import tilt
 from handeye.systems.trig.jobs.table import HEIGHT
 from handeye.systems.trig.language.place import Place
 
-PLACED: Final = 2.0
-"""mm between a block and its place. The gap between two is 20, and an open finger leaves 5 of it."""
+PLACED: Final = 2.0  # mm from a block's place; the gap is 20, and an open finger leaves 5
 FLAT: Final = 2.0  # deg
 ON: Final = 0.5  # mm of height; a block on another one, or on its edge, is higher
 BACK: Final = 3.0  # mm from where a block was: a tenth of its length

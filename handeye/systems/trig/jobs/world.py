@@ -53,7 +53,6 @@ FAULTS: Final = Catalogue(
         expected=Expected(harmless="Blocks lie flat where they are put, and are held with all the force of the hand."),
     ),
 )  # fmt: skip
-"""What can be broken on the bench, from the start of a run on."""
 _WAVE: Final = (*3 * (0.1,), *3 * (1.0,))  # m and rad, period of a potentiometer's error
 _MAX_SIGMAS: Final = 2.0  # larger errors are corrected by people
 

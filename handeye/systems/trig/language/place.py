@@ -15,8 +15,7 @@ SIZES: Final = (*3 * (MILLIMETRE,), *3 * (DEGREE,))  # SI value of each componen
 UNITS: Final = (*3 * ("mm",), *3 * ("deg",))
 DECIMALS: Final = 6  # of a millimetre or degree, in files
 
-Measures = tuple[float, float, float, float, float, float]
-"""Components in millimetres and degrees, as shown and stored."""
+Measures = tuple[float, float, float, float, float, float]  # mm and deg, as shown and stored
 
 
 class Place(NamedTuple):

@@ -8,8 +8,7 @@ from typing import Final, NamedTuple
 from handeye.systems.trig.language.graph import NONE, TOP, Graph, Node
 from handeye.systems.trig.language.place import Place, Positions
 
-REMEMBERED: Final = 100_000
-"""Steps that can be reversed, loop partners included: a night of palletising; older ones are forgotten."""
+REMEMBERED: Final = 100_000  # steps that can be reversed: a night of palletising; older ones are forgotten
 
 NOWHERE: Final = Place()
 
@@ -43,7 +42,6 @@ class TrigProgram:
     positions: Positions = field(default_factory=dict)
     cursor: int = TOP  # the active step
     trail: deque[RecordedStep] = field(default_factory=lambda: deque(maxlen=REMEMBERED))
-    """Executed steps that are not reversed, in order: all steps' position stacks in one."""
     forgotten: bool = False  # earlier steps were dropped
     taken: int | None = None  # the branch taken by the active step since the cursor is there
     cut: HaltedMove | None = None

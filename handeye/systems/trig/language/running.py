@@ -18,8 +18,7 @@ from handeye.systems.trig.language.program import NOWHERE, HaltedMove, RecordedS
 from handeye.systems.trig.language.trig_arm import Halted, HoldOff, Missed, Obstacle, TrigArm
 from handeye.touch.senses import as_before, at_least, least_gap
 
-AGAIN: Final = 1e-3
-"""m beyond a guarded step's contact within which it must be met again. Chosen: a twelfth of a block."""
+AGAIN: Final = 1e-3  # m past a guarded step's contact by which it is met again; chosen: a twelfth of a block
 Stop = Literal["halted"] | Obstacle
 _MIN_MOTION: Final = 1e-6  # m that give a step a direction
 

@@ -39,8 +39,7 @@ class JobReport(Record, frozen=True, kw_only=True):
     checks: Mapping[str, Check] = {}  # referee's, at the end of the program
     checks_back: Mapping[str, Check] = {}  # referee's, after reversal
     goals: tuple[tuple[float, float], ...] = ()  # of the blocks in order of taking, mm
-    lying: Mapping[When, tuple[BlockPose, ...]] = {}
-    """True block poses in that order: after teaching, at the end of the program, and after reversal."""
+    lying: Mapping[When, tuple[BlockPose, ...]] = {}  # true, as ordered in `goals`
     told: tuple[str, ...] = ()  # ends of both legs in words
     ended_s: float | None = None  # end of the program by the arm's clock
     arm_s: float = 0.0  # by the arm's clock, teaching included
