@@ -116,8 +116,7 @@ class LineFile:
     """Appends whole lines to a file; one writer at a time."""
 
     def __init__(self, path: Path, writer: str, *, again: bool = True) -> None:
-        """Continue a file, without a last line cut short, or begin anew unless `again`; raises CannotWrite. `writer`:
-        who else may be writing to it, with its article."""
+        """Continue a file, less a last line cut short, or begin anew; raises CannotWrite if a `writer` has it open."""
         self.path = path
         if path.exists() and not path.is_file():  # to open a pipe that nobody reads would wait for ever
             raise CannotWrite(f"{path} cannot be written: it is not a file")

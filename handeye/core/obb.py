@@ -32,10 +32,7 @@ def lowest(X_WA: Pose, boxes: Sequence[Box]) -> Array:
 
 
 def depths(X_BA: Pose, boxes: Sequence[Box], others: Sequence[Box]) -> Array:
-    """Penetration depths (N, n, m), in m, of n boxes of frame A in m others, each with its own frame B; 0 if apart.
-
-    `X_BA` has shape (N, m, 4, 4).
-    """
+    """Depths (N, n, m) in m of n boxes in m others, each with its frame B; 0 if apart. `X_BA` is (N, m, 4, 4)."""
     a, b = halves(boxes), halves(others)
     R = X_BA[..., :3, :3]
     gap = np.moveaxis(R @ middles(boxes).T, -1, 1) + X_BA[:, None, :, :3, 3] - middles(others)

@@ -33,10 +33,7 @@ class Measured(Protocol):
 
 
 def overrides(variation: Variation, without: Iterable[str], settings: Iterable[str]) -> Overrides:
-    """Overrides from options: names to put at their nominal values, and `NAME=VALUE`; raises BadArgument.
-
-    A name is that of a quantity or a group; the later of two settings for one quantity counts.
-    """
+    """Overrides from names to put at nominal values, and `NAME=VALUE`, of which later ones win; raises BadArgument."""
     off = sorted(set(without))
     for name in off:
         variation.select(name)

@@ -46,14 +46,12 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
 
 def stage_number(text: str, listing: Listing) -> int:
-    """The index of a stage given by its number from 1, its name, or a piece of it that no other name has. Raises
-    InvalidInput if there is no such stage, or more than one."""
+    """The index of a stage by its number from 1, its name, or a piece of only that name; raises InvalidInput."""
     return stage_index(text, listing.stages)
 
 
 def step_number(text: str, listing: Listing) -> int:
-    """The index of a step given by its number in the plan, or by a label that stands for one step. Raises InvalidInput
-    if there is no such step."""
+    """The index of a step by its number in the plan, or a label that stands for it alone; raises InvalidInput."""
     text, steps = text.strip(), listing.steps
     if _NUMBER.fullmatch(text):
         if int(text) >= len(steps):

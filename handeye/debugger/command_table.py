@@ -18,8 +18,7 @@ StepperCommand = Command[Callable[[DebugSession, str], CommandResult]]
 
 
 def find(line: str) -> tuple[StepperCommand, str]:
-    """The command that a line says, and what follows its word. Raises InvalidInput if there is none, or it takes
-    nothing after it."""
+    """The command that a line says, and what follows it; raises InvalidInput if there is none, or too much follows."""
     word, _, rest = line.strip().partition(" ")
     name, _, more = _SHORT.get(word.casefold(), word.casefold()).partition(" ")
     rest = f"{more} {rest}".strip()

@@ -245,8 +245,7 @@ MAX_NUMBER: Final = 1000.0
 
 
 def _set(runner: Runner, text: str) -> None:
-    """Set something: its kind, its name and numbers, as in `saved H 0 0 .1`. Raises InvalidInput if the system has no
-    such thing, or these are not the numbers for it."""
+    """Set a value by kind, name and numbers, as in `saved H 0 0 .1`; raises InvalidInput if it cannot be set."""
     kind, _, rest = text.strip().partition(" ")
     settables = runner.system.settables()
     settable = settables.get(kind.casefold())

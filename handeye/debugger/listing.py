@@ -88,10 +88,7 @@ def excerpt(
     file: str = "",
     tasks: Sequence[TaskView] = (),
 ) -> tuple[SourceLine, ...]:
-    """The source, or a required file, from `around` lines before `line` to as many after it.
-
-    `here` is marked, and the lines at which the tasks stand.
-    """
+    """`around` lines of a text before and after `line`; `here` is marked, and the lines at which tasks stand."""
     standing: dict[int, list[str]] = {}
     for each in tasks:
         if each.file == file:
@@ -141,8 +138,7 @@ def text_of(program: Listing, file: str) -> str:
 
 
 def named_place(text: str, program: Listing) -> Place | None:
-    """The place a user means by `12`, `pins.al:12` or `lib/pins.al:12`; None if that is not the form of one. Raises
-    InvalidInput if the script is not sewn of such a file."""
+    """The place meant by `12` or `pins.al:12`, None for another form; raises InvalidInput if there is no such file."""
     given = _PLACE.fullmatch(text.strip())
     if given is None:
         return None

@@ -68,8 +68,7 @@ class DebugSession:
     # -- breaks ---------------------------------------------------------------------------------------
 
     def add_break(self, text: str) -> Break:
-        """Stop there from now on; a break that is set already stays as it is. Raises InvalidInput if there is no such
-        place."""
+        """Stop there from now on; a break that is set already stays. Raises InvalidInput if there is no such place."""
         stop = breakpoint(text, self.program)
         number = next((number for number, there in self.breaks.items() if there == stop), None)
         if number is None:
@@ -91,10 +90,7 @@ class DebugSession:
         return self._go(stops, steps)
 
     def have_undone(self, left: int, *, halts: bool = False) -> Pause:
-        """Have the arm undo executed steps until `left` remain; with `halts` the run ends there.
-
-        Raises InvalidInput if so many were not executed, or the cell cannot go on.
-        """
+        """Have the arm undo steps until `left` remain, then end if it `halts`; raises InvalidInput if it cannot."""
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")
         self.runner.order_reversal(left, halts=halts)
@@ -151,8 +147,7 @@ class DebugSession:
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:
-        """Go back to where `position` steps were done; raises Refused if no state that old was kept, or the
-        panic button was hit on the way."""
+        """Go back to `position` steps done; raises Refused if no such state was kept, or on the panic button."""
         try:
             with self._attended("back", self.input):
                 self.runner.back_to(position, self.kept)

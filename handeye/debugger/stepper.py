@@ -32,10 +32,7 @@ class Stepper:
         keep: Callable[[Checkpoint], Path | None] = lambda _: None,
         pictures: Path | None = None,
     ) -> None:
-        """Take a run in hand; raises InvalidInput if one of `breaks`, as typed after `break`, is no place to stop.
-
-        The other arguments are those of `DebugSession`.
-        """
+        """Take a run in hand, as `DebugSession`; raises InvalidInput if one of `breaks` is no place to stop."""
         self.session = DebugSession(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
         for text in breaks:
             self.session.add_break(text)

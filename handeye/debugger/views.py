@@ -16,10 +16,9 @@ from handeye.runs.runner import Runner
 
 
 def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
-    """Views of a run by topics, or their beginnings; all but `positions` if `what` is empty.
+    """Views by topics or their beginnings (empty: all but `positions`); raises InvalidInput.
 
-    `pictures` is the folder that the last picture is written to, if any. Raises InvalidInput if there is no such topic,
-    or the picture cannot be written.
+    The last picture is written to the folder `pictures`, if there is one.
     """
     known = {**runner.kind.topics, **({"tasks": ("tasks", task_views)} if task_views(runner) else {})}
     names = [_topic(word, known) for word in what.split()] or [n for n in known if n != "positions"]
@@ -51,8 +50,7 @@ def task_views(runner: Runner) -> tuple[TaskView, ...]:
 
 
 def write_picture(runner: Runner, file: Path) -> str:
-    """Write the last picture, with what was found in it, as a PNG file; its name in the program. Raises InvalidInput if
-    none was taken yet, or the file cannot be written."""
+    """Write the last picture, with its marks, as a PNG file; its name. Raises InvalidInput if there is none."""
     last = last_picture(runner)
     if last is None:
         raise Refused("the program has taken no picture yet")

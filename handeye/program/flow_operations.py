@@ -32,10 +32,7 @@ class Advance(Operation, frozen=True, kw_only=True):
 
 
 class Test(Operation, frozen=True, kw_only=True):
-    """Test whether the last action raised an error, and clear it.
-
-    `raised`: next step if error `number` was raised (None ends the program).
-    """
+    """Test for error `number` of the last action, and clear it; `raised` is the next step then (None: the end)."""
 
     __test__ = False
     family: ClassVar = "test"
@@ -63,10 +60,7 @@ class Assign(Operation, frozen=True, kw_only=True):
 
 
 class Countdown(Operation, frozen=True, kw_only=True):
-    """Subtract one from a counter (SOJG).
-
-    `positive`: next step while it is positive (None ends the program).
-    """
+    """Subtract one from a counter (SOJG); `positive` is the next step while it is positive (None: the end)."""
 
     branches: ClassVar = True
     reading: ClassVar = {"counter": ("counter",)}

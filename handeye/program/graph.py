@@ -14,10 +14,7 @@ MAX_SEARCHED: Final = 100  # steps
 
 @dataclass(frozen=True, slots=True)
 class Graph:
-    """Steps by number, with successors, predecessors, numbers by kind of operation, and the reachable ones.
-
-    A successor None is the end of the program.
-    """
+    """Steps by number, with successors (None: the end), predecessors, numbers by kind, and the reachable ones."""
 
     steps: Sequence[Step]
     onward: list[tuple[int | None, ...]] = field(init=False)
@@ -73,10 +70,7 @@ class Graph:
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """Steps of these kinds that can be the last before a step; none if the step can come without one of them.
-
-        None either after looking at `MAX_SEARCHED` steps. Unreachable steps do not count.
-        """
+        """Reachable steps of these kinds that can be last before one; none if it can do without, or search is long."""
         found: list[int] = []
         seen: set[int] = set()
         waiting = [number]

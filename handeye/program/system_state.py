@@ -28,8 +28,5 @@ class SystemState(MutableRecord, kw_only=True):
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """Where each task that has not ended stands, in the order of the tasks; a system of several tells its own.
-
-        The one that goes on next stands at `at`.
-        """
+        """Where each unfinished task stands, in order; that at `at` goes on next. A system of several overrides it."""
         return () if self.at is None else (TaskPlace("", self.at),)

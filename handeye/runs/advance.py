@@ -153,10 +153,7 @@ def advance(
     steps: int | None = None,
     asked: Callable[[], bool] = lambda: False,
 ) -> Pause:
-    """Do `steps` steps, or all that are left, but at least one before a stop condition counts.
-
-    `asked` is called after each step: True pauses there.
-    """
+    """Do `steps` steps, or all, and one at least; `asked` is called after each: True pauses there."""
     done = 0
     while not runner.ended:
         if runner.between_stages:

@@ -199,10 +199,7 @@ class RunFolder(Observer):
 
 
 def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFolder:
-    """A folder for a run that begins at `start`; raises CannotWrite if something would be lost.
-
-    With `overwrite` the run in the folder is replaced once this one moves.
-    """
+    """A folder for a run; raises CannotWrite if one would be lost, unless `overwrite` replaces it once this moves."""
     _refuse_others(path)
     if not overwrite:
         if _holds_run(path):

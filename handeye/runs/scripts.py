@@ -27,8 +27,7 @@ UNNAMED: Final = "script.al"  # name of a text that comes from no file
 
 
 def default_script(work: Task | None = None) -> Path:
-    """The script of a task, by default of the one that is meant where none is named. Raises InvalidInput if it comes
-    with none."""
+    """The script of a task, by default of the one meant where none is named; raises InvalidInput if it has none."""
     work = work or tasks.task()
     if work.script is None:
         raise BadArgument(f"the task {quoted(work.name)} comes with no script; name one")
@@ -63,8 +62,7 @@ def _scripts(work: Task) -> list[Path]:
 
 
 def taught(file: Path, work: Task | None = None) -> Taught:
-    """Positions and parts taught for a script, from the file beside it; a script may do without. Raises InvalidInput if
-    that file cannot be used."""
+    """Positions and parts taught by the file beside a script, if any; raises InvalidInput if it cannot be used."""
     return in_cell(taught_beside(file), work or task_of(file))
 
 
@@ -80,14 +78,7 @@ def in_cell(known: Taught, work: Task) -> Taught:
 
 
 def plan_script(file: Path, known: Taught | None = None, work: Task | None = None) -> "PlannedScript":
-    """Compile and plan the script in a file.
-
-    Raises InvalidInput if the script, or what is taught for it, cannot be read.
-
-    Args:
-        known: what is taught for it; by default by the file beside it.
-        work: task whose arm is to do it; by default that of `task_of`.
-    """
+    """Compile and plan a script, by default with the file beside it for its own task; raises InvalidInput."""
     entry, _ = entry_of_file(file.name)
     if entry is not None:
         raise refusal(entry.name, "plans", str(file))

@@ -185,12 +185,10 @@ class RunningSystem(Protocol):
         return None
 
     def begin(self) -> Sequence[AnyEvent]:
-        """Prepare the first step; the events that begin the run, `RunStarted` first. Raises Halted if the panic button
-        was hit."""
+        """Prepare the first step; the events that begin the run, `RunStarted` first. Raises Halted."""
 
     def step(self) -> None:
-        """Do one step: the unit that is done again when it is interrupted. Raises Halted if the panic button was hit;
-        PhysicsFailed if its cell broke down."""
+        """Do one step, the unit that is done again when it is interrupted. Raises Halted or PhysicsFailed."""
 
     def answer(self, choice: Choice) -> None:
         """Go on after the operator was called."""
@@ -239,8 +237,7 @@ class RunningSystem(Protocol):
         return {}
 
     def restore(self, state: SystemState) -> None:
-        """Go on from a copy of a state; its cell is as it was then. Raises InvalidInput if it is not a state of what is
-        carried out."""
+        """Go on from a copy of a state, its cell as it was then; raises InvalidInput if it does not fit the plan."""
 
     @property
     def shown(self) -> Mapping[str, Any]:
@@ -370,8 +367,7 @@ class System(ABC):
         return go()
 
     def files(self, runner: Runner, pause: Pause, result: Any) -> Mapping[str, bytes]:
-        """Files that a run leaves in its folder beside those of every run, by the names that its entry has. `result`:
-        the run's `handeye.results.result.Result`."""
+        """Files that a run adds to its folder, by names in its entry; `result` is its `results.result.Result`."""
         return {}
 
     def page(self, folder: Path) -> bytes | None:

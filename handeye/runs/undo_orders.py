@@ -26,10 +26,7 @@ def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) 
 
 
 def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) -> Checkpoint:
-    """The run of a checkpoint, its arm about to undo what it did, back to the beginning of a stage or of the run.
-
-    The run ends when that is done; `name` is for messages.
-    """
+    """A run about to be undone to the beginning of a stage, or of the run, and to end there; `name` is for messages."""
     require(checkpoint.setup.system, "undo", name)
     snapshot, kind, plan = checkpoint.snapshot, system_of(checkpoint.setup), checkpoint.setup.plan
     if snapshot is None:

@@ -45,10 +45,7 @@ def settled(events: Sequence[AnyEvent]) -> int:
 
 
 def difference(trace: Trace, folder: Path) -> str | None:
-    """Carry out a run again, keeping it in `folder`; the first difference, in a sentence.
-
-    Raises Refused if the trace is thinned.
-    """
+    """Carry out a run again in `folder`; the first difference, in a sentence. Raises Refused if it is thinned."""
     if trace.thinned:
         raise Refused(f"{trace.name} is thinned: verify the whole trace, which it was made from")
     wanted = trace.events[: settled(trace.events)]

@@ -13,8 +13,7 @@ from handeye.program.events import AnyEvent, WentBack, to_line
 
 
 def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
-    """The events in a file, those undone later included; raises BadFile if a line is cut short or no event. `growing`:
-    leave out a last line that is cut short."""
+    """The events in a file, undone ones too; raises BadFile if a line is no event, or cut short and not `growing`."""
     text = read_whole(path)
     if growing:
         text = text[: text.rfind(b"\n") + 1]

@@ -70,10 +70,7 @@ class GrowingFile:
         self._writer = Writer(cast(IO[Any], self._sink), chunk_size=1 << 62, enable_data_crcs=True)
 
     def begin(self, head: RunStarted, plan: bytes, *, thinned: bool = False) -> None:
-        """Write what stands before all messages: what the file is, the plan, the channels.
-
-        `thinned`: the file will hold only some of the run's servo periods.
-        """
+        """Write what stands before all messages; `thinned`: the file will hold only some of the run's servo periods."""
         said = msgspec.to_builtins(head)
         said["seed"], said["world"] = head.world.seed, msgspec.json.encode(head.world).decode()
         metadata = {

@@ -39,10 +39,7 @@ def stamp(time: int) -> Timestamp:
 
 
 class JointMessage:
-    """Position and rate of each joint as the sensors read them, the torque (N m) or force (N) put out, and the gap.
-
-    One message is filled in again and again: there are sixty a second.
-    """
+    """Sensed position and rate of each joint, its torque (N m) or force (N), and the gap; refilled 60 times per s."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         joints = [JointState(name=name) for name in (*names, GAP)]

@@ -26,10 +26,7 @@ TRACE: Final = Kind("trace", re.escape(MCAP0_MAGIC), ending=".mcap")
 
 
 def read_trace(path: Path, *, lenient: bool = False) -> Trace:
-    """The trace in a file; raises BadFile if it is not whole, sound, of this version, and of its plan.
-
-    `lenient`: read what is sound of a trace that was not written to its end.
-    """
+    """The trace in a file; raises BadFile if it is not whole (unless `lenient`), sound, and of its plan."""
     return read_trace_as(Trace, path, lenient=lenient)
 
 

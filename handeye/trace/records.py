@@ -107,10 +107,7 @@ def _unpacked(data: bytes) -> bytes:
 
 
 def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]:
-    """The messages of a file, in the order they were written, as far as whole chunks go.
-
-    A damaged chunk raises DamagedTrace, or ends them if `lenient`.
-    """
+    """The messages in whole chunks of a file; at a damaged one raises DamagedTrace, or ends if `lenient`."""
     topics: dict[int, str] = {}
     for opcode, body in _records(data):
         if opcode != Opcode.CHUNK:

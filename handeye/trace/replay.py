@@ -169,10 +169,7 @@ class Replay:
 
 
 def moves(messages: Iterable[RawMessage]) -> Iterable[tuple[int, dict[str, Pose7]]]:
-    """Frames as they were written: the number of the servo period they are of, and the pose of each.
-
-    Those before the first servo period come with it.
-    """
+    """Frames as written: the number of their servo period (the first, if before it), and the pose of each."""
     row = -1
     for message in messages:
         if message.topic == JOINTS:

@@ -186,10 +186,7 @@ EXPORT: Final = FolderKind(
 def export_tables(
     path: Path, trace: Callable[[], Trace], kind: Format, *, overwrite: bool
 ) -> tuple[Table, ...]:
-    """Write the tables of a trace to a folder, with a README on their columns; returns them.
-
-    `trace` is called once the folder has been checked.
-    """
+    """Write the tables of a trace, which is read once the folder has been checked; returns them."""
     check_folder(path, EXPORT, overwrite=overwrite)
     made = tables(trace())
     write_tables(path, made, kind)

@@ -158,10 +158,7 @@ class ForceInAir(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
-    """Displacements of a joint since the motion began, by its two sensors, disagree.
-
-    `braked`: measured since the brakes were set, so a brake may be slipping.
-    """
+    """A joint's two sensors disagree on how far it went in a motion, or (`braked`) under brakes, which may slip."""
 
     joint: JointName
     potentiometer: float

@@ -119,10 +119,7 @@ class TrigArm(ABC):
 
     @abstractmethod
     def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
-        """Return to an earlier place under guards; None if it is reached, else the arm stops where it is.
-
-        `met` is the force that the reversed move met, N: half as much again is no obstacle.
-        """
+        """Return to an earlier place, guarded by 1.5 times `met` (N); None if reached, else the arm stops there."""
 
     @abstractmethod
     def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:

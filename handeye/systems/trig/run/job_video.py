@@ -61,10 +61,7 @@ class JobVideo:
         bench.after_period.append(look)
 
     def write(self, job: TaughtJob, ended: float | None, told: Callable[[int, int], None]) -> None:
-        """Draw the video and write it, whole or not at all; `told` is called with number and count of each frame.
-
-        The program's reversal began at `ended`, s by the arm's clock.
-        """
+        """Write the video, whole or not at all; reversal began at `ended` (s), and `told` is called for each frame."""
         if not self._moments:
             raise Refused(f"the arm has not moved: {self._path} was not made")
         most = int(MAX_SECONDS * RATE) - _HELD
