@@ -59,7 +59,7 @@ GROUPS: Final = {
         "handeye.Finding": "judge.finding.Finding",
         "handeye.at_most": "judge.finding.at_most",
         "handeye.at_least": "judge.finding.at_least",
-        "handeye.trials.assemble_each": "trials.assemble_each",
+        "handeye.trials.assemble_each": "trials.results.assemble_each",
         "Results": "trials.results.Results",
     },
     "Traces": {

@@ -166,7 +166,7 @@ def dismantling_trials(
     2: bad input; 130: interrupted.
     """
     from handeye.debugger.breakpoints import stage_number
-    from handeye.trials.plans.dismantling import DISMANTLING, DismantlingTrial
+    from handeye.trials.plans.trial import DISMANTLING, DismantlingTrial
     from handeye.trials.sweep import cases, processes
 
     positive(n, "trial")

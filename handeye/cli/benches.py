@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 
 GRID_N: Final = 10
 PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search of the listing of 1973"}
-MOST_SD: Final = 5.0
-"""mm: beyond it most holes would be beyond the search."""
+MOST_SD: Final = 5.0  # mm: beyond it most holes would be beyond the search
 
 
 def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:

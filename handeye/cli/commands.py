@@ -27,19 +27,19 @@ lsp = editing:lsp: Serve an editor over standard input and output (language serv
 export: Hand a world, or what a run has left, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo opens: scene.xml, its meshes and textures, and a README.
 export glb = exports:glb: Write solids for programs that show or measure shapes, and check that they are closed and weigh what they should.
-inspect = plans:inspect: Show what a plan does: stages, steps, times, guards, forces, and what each step depends on.
-diff = plans:diff: Compare what two plans do, step by step.
-schema = plans:schema: Print the JSON schema of the plan format.
+inspect = scripts:inspect: Show what a plan does: stages, steps, times, guards, forces, and what each step depends on.
+diff = scripts:diff: Compare what two plans do, step by step.
+schema = scripts:schema: Print the JSON schema of the plan format.
 trace: Read the traces that runs leave.
 trace show = traces:show: Show what happened in a run, and why.
 trace stats = traces:stats: Count and time what happened in a run, stage by stage.
 trace photograph = traces:photograph: Photograph the cell as it was at a moment of a recorded run; nothing is simulated.
 trace verify = traces:verify: Carry out a recorded run again and compare.
-trace thin = trace_exports:thin: Write a trace with no more of the motion than it takes to show the run, a tenth as large.
-trace plot = trace_exports:plot: Draw joints, force of the hand and events of a run against time; it needs the extra `plot`, matplotlib.
+trace thin = exports:thin: Write a trace with no more of the motion than it takes to show the run, a tenth as large.
+trace plot = exports:plot: Draw joints, force of the hand and events of a run against time; it needs the extra `plot`, matplotlib.
 trace export: Write joints, forces and events of a run as tables.
-trace export csv = trace_exports:csv: Write tables of a run as CSV, with a README that tells their columns.
-trace export parquet = trace_exports:parquet: Write tables of a run as Parquet, with a README that tells their columns; it needs the extra `export`, pyarrow.
+trace export csv = exports:csv: Write tables of a run as CSV, with a README that tells their columns.
+trace export parquet = exports:parquet: Write tables of a run as Parquet, with a README that tells their columns; it needs the extra `export`, pyarrow.
 world = worlds:world: List every quantity in which worlds differ: what it is in this world, unit, spread and source.
 render = worlds:render: Render a picture of the work cell.
 faults = fault_matrix:faults: Assemble once with each fault of a matrix, at its usual size, and tell what that comes to.

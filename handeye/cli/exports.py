@@ -1,4 +1,4 @@
-"""Commands that hand worlds, and what runs have left, to other programs."""
+"""Commands that hand worlds, what runs have left, and their traces to other programs."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -7,13 +7,19 @@ from cyclopts import Parameter
 
 from handeye.cli.common import Json, note, put_json, say
 from handeye.cli.programs import check_task, made_known
+from handeye.cli.reports import read_recorded
+from handeye.cli.trace_files import TraceFile, trace_file
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
-from handeye.core.errors import BadArgument
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadArgument, CannotWrite
+from handeye.core.files import check_place, write_over
+from handeye.core.plain_text import counted
 from handeye.tasks import planned
 
 if TYPE_CHECKING:
     from handeye.results.export import Export
     from handeye.runs.exported_state import ExportedState
+    from handeye.trace.tables import Format
 
 Run = Annotated[
     Path, Parameter(help="The folder of a run, or a checkpoint; without one, a world as it is drawn.")
@@ -84,3 +90,87 @@ def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
     if exhibit.moment == "unfinished":
         note(f"the run in {run} is not finished")
     return exhibit
+
+
+Folder = Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write.")]
+Overwrite = Annotated[bool, Parameter(help="Replace the tables that are in the folder.")]
+
+
+def plot(
+    run: TraceFile,
+    /,
+    *,
+    output: Annotated[
+        Path, Parameter(name=["--output", "-o"], help="The plot: its name ends in .png, .svg or .pdf.")
+    ],
+    stage: Annotated[
+        str | None, Parameter(help="This stage alone: its number, its name, or a piece of it.")
+    ] = None,
+) -> int:
+    """Draw joints, force of the hand and events of a run against time; it needs the extra `plot`, matplotlib.
+
+    Exit code 0: it is written; 2: bad input.
+    """
+    from handeye.trace.plot import KINDS, drawn
+    from handeye.trace.plot import plot as plot_of
+
+    kind = KINDS.get(output.suffix.lower())
+    if kind is None:
+        raise BadArgument(
+            f"a plot is a file whose name ends in {', '.join(KINDS)}; {quoted(output.name)} does not"
+        )
+    check_place(output, kind)
+    write_over(output, drawn(plot_of(read_recorded(run).trace, stage), output.suffix.lower()), kind)
+    say(str(output))
+    return 0
+
+
+def csv(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) -> int:
+    """Write tables of a run as CSV, with a README that tells their columns.
+
+    Exit code 0: they are written; 2: bad input.
+    """
+    return _exported(run, output, "csv", overwrite=overwrite)
+
+
+def parquet(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) -> int:
+    """Write tables of a run as Parquet, with a README that tells their columns; it needs the extra `export`, pyarrow.
+
+    Exit code 0: they are written; 2: bad input.
+    """
+    return _exported(run, output, "parquet", overwrite=overwrite)
+
+
+def _exported(run: Path, output: Path, kind: "Format", *, overwrite: bool) -> int:
+    from handeye.trace.tables import export_tables
+
+    written = export_tables(output, lambda: read_recorded(run).trace, kind, overwrite=overwrite)
+    said = ", ".join(f"{table.name} ({counted(table.rows, 'row')})" for table in written)
+    say(f"{output}: {said}")
+    return 0
+
+
+def thin(
+    file: TraceFile,
+    /,
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The thinned trace, .mcap.")],
+    overwrite: Annotated[bool, Parameter(help="Replace the trace that is there.")] = False,
+) -> int:
+    """Write a trace with no more of the motion than it takes to show the run, a tenth as large.
+
+    It is a trace in its own right; only `verify` needs the whole one.
+    """
+    from handeye.core.files import check_free, check_place
+    from handeye.trace.reading import TRACE, read_trace
+    from handeye.trace.thinning import write_thinned
+
+    whole = trace_file(file)
+    trace = read_trace(whole)
+    check_place(output, TRACE)
+    if output.exists() and output.samefile(whole):
+        raise CannotWrite(f"{output} holds the trace that is to be thinned")
+    check_free(output, "trace", overwrite=overwrite)
+    kept = write_thinned(trace, output)
+    say(f"{output}: {kept} of {len(trace.times)} servo periods")
+    return 0

@@ -46,8 +46,7 @@ if TYPE_CHECKING:
     from handeye.view.moment import Newest
     from handeye.view.server import Server
 
-Then = Literal["dismantle", "assemble"]
-"""Undo all that was done, or do it again."""
+Then = Literal["dismantle", "assemble"]  # Undo all that was done, or do it again
 
 PANIC: Final = Pause(kind="panic")
 NOT_KEPT: Final = "not kept; with --out FOLDER it could be resumed"
@@ -62,16 +61,13 @@ class Job:
     out: Path | None = None
     overwrite: bool = False
     calibrate: bool = False
-    checkpoints: Path | None = None
-    """Another folder for checkpoints at the beginning of stages."""
+    checkpoints: Path | None = None  # Another folder for checkpoints at the beginning of stages
     stops: Sequence[AnyStop] = ()  # Places where it pauses and the command ends
     breaks: Sequence[str] = ()
     halfway: bool = False  # Save a checkpoint where it pauses, if it has no folder
     step: bool = False
-    live: bool = False
-    """Tell each line as it begins, and hear what is said while the run goes."""
-    server: "Server | None" = None
-    """Serves the page in which it is stepped, instead of the terminal."""
+    live: bool = False  # Tell each line as it begins, and hear what is said while the run goes
+    server: "Server | None" = None  # Serves the page in which it is stepped, instead of the terminal
     on_stop: str | None = None
     json: bool = False
     report: bool = False

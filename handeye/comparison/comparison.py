@@ -108,19 +108,15 @@ class Comparison:
 
     a: Compared
     b: Compared
-    measures: Measures
-    """Units in which people read the first difference."""
+    measures: Measures  # Units in which people read the first difference
     conditions: tuple[Condition, ...]
     thinned: bool
     """A trace is thinned to some of its servo periods, whose sensor values are then not compared."""
     first: First | None
     parted: Parting | None
-    searches: tuple[Searches, ...]
-    """Places that each search tried."""
-    stops: tuple[Stops, ...]
-    """Ends of guarded motions."""
-    corrections: tuple[Corrections, ...]
-    """Saved differences, and located parts."""
+    searches: tuple[Searches, ...]  # Places that each search tried
+    stops: tuple[Stops, ...]  # Ends of guarded motions
+    corrections: tuple[Corrections, ...]  # Saved differences, and located parts
     stages: tuple[Stages, ...]
 
     @property

@@ -63,8 +63,7 @@ class Stop(Record, frozen=True, kw_only=True):
 
     place: Place
     guard: GuardKind | None  # The guard that ended it; None: none did
-    value: float | None = None
-    """What the guard looked at then: N, N m, or finger switches as a mask."""
+    value: float | None = None  # What the guard looked at then: N, N m, or finger switches as a mask
 
 
 class Stops(Record, frozen=True, kw_only=True):

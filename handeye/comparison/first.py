@@ -89,10 +89,8 @@ def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[St
     yield stretch
 
 
-_CLOCKS: Final = 2000
-"""ns by which times since a step began may differ by rounding."""
-EVENT: Final = ("event",)
-"""The quantity that differs where another kind of thing happened next."""
+_CLOCKS: Final = 2000  # ns by which times since a step began may differ by rounding
+EVENT: Final = ("event",)  # The quantity that differs where another kind of thing happened next
 
 
 def _differing(
@@ -142,11 +140,9 @@ def _next(told: Sequence[StepMessage], number: int) -> AnyEvent | None:
 class First:
     """The first difference."""
 
-    a: Place | None
-    """The present step; None before the first one, or after the run's end."""
+    a: Place | None  # The present step; None before the first one, or after the run's end
     b: Place | None  # that of the second run
-    period: int | None = None
-    """The servo period of the step, from 1; None: it is of none."""
+    period: int | None = None  # The servo period of the step, from 1; None: it is of none
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
     """What happened next, where that is what differs; None: the step went on, or the run ended."""

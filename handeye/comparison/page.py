@@ -101,7 +101,17 @@ def view(way: Course, lacking: str) -> Iterator[Markup]:
         yield element("p", f"There is nothing to walk round in: {lacking}", class_="missing")
     yield element("div", *(_side(letter, name) for letter, name in SIDES), class_="sides")
     yield element("p", id="instead", class_="missing", hidden=True)
-    yield _controls(way)
+    play = element(
+        "button", "Play", id="play", type="button", aria_keyshortcuts="Space", title="play, pause: space"
+    )
+    slider = element(
+        "input", id="time", type="range", min="0", max=f"{way.end:.2f}", step="0.01", value="0",
+        aria_label="time of both runs", aria_keyshortcuts="ArrowLeft ArrowRight",
+    )  # fmt: skip
+    options = (element("option", f"{speed} ×", value=speed, selected=speed == _USUAL) for speed in _SPEEDS)
+    speed = element("select", *options, id="speed", aria_label="speed")
+    views = element("div", id="views", role="group", aria_label="view", class_="views")
+    yield element("div", play, slider, speed, views, id="controls", class_="controls", hidden=True)
     yield note(
         "Step stands beside step: where a run took longer over one, or did one that the other did not, the other waits."
     )
@@ -114,20 +124,6 @@ def _side(letter: str, name: str) -> Markup:
     line = element("span", id=f"line-{name}")
     caption = element("p", element("b", letter, " ", clock), line, class_="caption")
     return element("div", element("div", canvas, class_="screen"), caption)
-
-
-def _controls(way: Course) -> Markup:
-    play = element(
-        "button", "Play", id="play", type="button", aria_keyshortcuts="Space", title="play, pause: space"
-    )
-    slider = element(
-        "input", id="time", type="range", min="0", max=f"{way.end:.2f}", step="0.01", value="0",
-        aria_label="time of both runs", aria_keyshortcuts="ArrowLeft ArrowRight",
-    )  # fmt: skip
-    options = (element("option", f"{speed} ×", value=speed, selected=speed == _USUAL) for speed in _SPEEDS)
-    speed = element("select", *options, id="speed", aria_label="speed")
-    views = element("div", id="views", role="group", aria_label="view", class_="views")
-    return element("div", play, slider, speed, views, id="controls", class_="controls", hidden=True)
 
 
 def moments(way: Course) -> Markup:

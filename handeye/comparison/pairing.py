@@ -23,12 +23,10 @@ class Place(Record, frozen=True, kw_only=True):
 
     stage: str
     step: int
-    file: str = ""
-    """The required file it stands in; empty: the source itself."""
+    file: str = ""  # The required file it stands in; empty: the source itself
     line: int
     text: str
-    time: float
-    """When it began, s since the run began."""
+    time: float  # When it began, s since the run began
 
     @property
     def name(self) -> str:
@@ -67,8 +65,7 @@ def place_of(run: RecordedRun, started: StepStarted) -> Place:
     )
 
 
-Turn = tuple[int, int]
-"""An execution of a step: number of its pair, and count of earlier executions."""
+Turn = tuple[int, int]  # An execution of a step: number of its pair, and count of earlier executions
 Fact = TypeVar("Fact")
 
 

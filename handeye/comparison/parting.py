@@ -15,8 +15,7 @@ from handeye.report.recorded import RecordedRun
 class Turning:
     """An event that decides the course of a run."""
 
-    place: Place | None
-    """The step under way, or done last; None: before the first one."""
+    place: Place | None  # The step under way, or done last; None: before the first one
     event: AnyEvent
 
 
@@ -24,8 +23,7 @@ class Turning:
 class Parting:
     """The first event at which the courses of two runs differ."""
 
-    a: Turning | None
-    """Where the first run stood, and what happened next; None: it has ended before."""
+    a: Turning | None  # Where the first run stood, and what happened next; None: it has ended before
     b: Turning | None
 
     @property

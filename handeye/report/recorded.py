@@ -20,10 +20,8 @@ class RecordedRun:
     """A recorded run. Times are seconds since it began, as people see them."""
 
     trace: Trace
-    whole: bool = True
-    """The trace was read to its end; False: its file was cut short."""
-    result: Result | None = None
-    """What the run came to; None: nobody told."""
+    whole: bool = True  # The trace was read to its end; False: its file was cut short
+    result: Result | None = None  # What the run came to; None: nobody told
     end: bytes | None = None
     """The picture of its end that it has left, a PNG or WebP file; None: it left none."""
     remarks: tuple[str, ...] = ()

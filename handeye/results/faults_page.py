@@ -17,14 +17,12 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
 
     name: str
     meaning: str
-    size: Size | None
-    """None: it has no value."""
+    size: Size | None  # None: it has no value
     from_start: bool  # It can be there only from the beginning
     usual_stage: int | None
     """Number of the stage with which it sets in where nobody names one; None: it is there from the beginning then."""
     expected: Expected
-    must: str
-    """What must happen with it, a sentence."""
+    must: str  # What must happen with it, a sentence
     matrix: bool
 
 

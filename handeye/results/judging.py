@@ -10,10 +10,8 @@ from handeye.judge.finding import Finding, Findings
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 
-Referee = Callable[[Truth], Findings]
-"""Judges the truth of a cell; the cell is not touched."""
-Limits = Mapping[str, float]
-"""Limits of findings by their names, each in the unit of the finding."""
+Referee = Callable[[Truth], Findings]  # Judges the truth of a cell; the cell is not touched
+Limits = Mapping[str, float]  # Limits of findings by their names, each in the unit of the finding
 
 
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:

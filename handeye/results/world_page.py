@@ -25,8 +25,7 @@ class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
     """Sigma, half range or size at the level of this world; least and greatest of a range."""
     nominal: float
     override: Literal["off", "set"] | None
-    source: str
-    """What it is, with others of its kind, and where that is from."""
+    source: str  # What it is, with others of its kind, and where that is from
 
 
 class WorldReport(msgspec.Struct, frozen=True, kw_only=True):

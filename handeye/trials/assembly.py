@@ -37,7 +37,7 @@ def run_plan(
     referee: bool = True,
     limits: Limits | None = None,
     parts: Parts = OWN,
-    umpire: Referee | None = None,
+    own_referee: Referee | None = None,
     observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     viewed: Callable[[int, int], None] = lambda *_: None,
     calibrate: bool = False,
@@ -49,19 +49,10 @@ def run_plan(
 
     Args:
         meter: measures what the run costs the host; by default from now on.
-        limits: those of the task's referee, where they are others.
-        parts: parts of the run that are not handeye's own.
-        umpire: takes the place of the task's referee.
-        viewed: told of each view in which the camera is calibrated: its number, of how many.
-        calibrate: the camera is calibrated anew, whatever is kept of an earlier run.
+        viewed: called as the camera is calibrated, with the number of a view, and of how many.
         halt: the panic button, asked at every servo period.
-        without: senses that the program does without.
-        operator: answers the program's calls; by default no one.
 
-    Raises:
-        InvalidInput: the plan is for another arm, the referee has no finding of the name of a limit, or
-            the camera cannot work as asked.
-        Halted: the panic button was hit before the working phase.
+    Raises InvalidInput if arm, limits or camera do not fit, and Halted if the button was hit before the working phase.
     """
     metered = meter or Meter()
     setup = Setup(
@@ -81,7 +72,7 @@ def run_plan(
         calibrate=calibrate,
     )
     check_limits(runner)
-    result = finished(runner, attend(runner, operator), metered, judged=referee, referee=umpire)
+    result = finished(runner, attend(runner, operator), metered, judged=referee, referee=own_referee)
     return FinishedRun(result=result, runner=runner)
 
 

@@ -6,22 +6,19 @@ from typing import Any, NamedTuple
 
 from handeye.core.errors import Refused
 from handeye.core.record import Record
-from handeye.trials.folder import Head
-from handeye.trials.kinds import sweep_of
+from handeye.trials.folder import Head, sweep_of
 from handeye.trials.rates import mcnemar, signed_rank
 from handeye.trials.sweep import Standing, TrialRow
 
 Batch = tuple[Head, tuple[Any, ...]]
-Key = tuple[str, int, int]
-"""Condition, seed, and which of the trials in that world."""
+Key = tuple[str, int, int]  # Condition, seed, and which of the trials in that world
 
 
 class Difference(Record, frozen=True, kw_only=True):
     """How a measure differs over the pairs of which both trials are right."""
 
     pairs: int
-    more: float
-    """Median of how much more it is in this batch than in the first."""
+    more: float  # Median of how much more it is in this batch than in the first
     p: float
     """Two-sided, of Wilcoxon's signed-rank test: how likely such differences are if both are alike."""
 
@@ -32,20 +29,14 @@ class PairedBatch(Record, frozen=True, kw_only=True):
     name: str
     pairs: int
     right: int
-    first_right: int
-    """Right trials of the first batch among the same pairs."""
-    only_first: int
-    """Pairs in which only the first was right."""
+    first_right: int  # Right trials of the first batch among the same pairs
+    only_first: int  # Pairs in which only the first was right
     only_this: int
-    p: float
-    """Two-sided, of McNemar's exact test: how likely so uneven a split is if neither is better."""
+    p: float  # Two-sided, of McNemar's exact test: how likely so uneven a split is if neither is better
     measures: dict[str, Difference]
-    noticed: int
-    """Failures of this batch that were noticed: by an error, a call, a guard."""
-    silent: int
-    """Failures that were taken for a success."""
-    failed: int
-    """Trials of this batch that broke off."""
+    noticed: int  # Failures of this batch that were noticed: by an error, a call, a guard
+    silent: int  # Failures that were taken for a success
+    failed: int  # Trials of this batch that broke off
 
 
 class PairedTrial(NamedTuple):
@@ -57,12 +48,7 @@ class PairedTrial(NamedTuple):
 
 
 def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[PairedBatch, ...]:
-    """Each batch beside the first one.
-
-    Raises:
-        InvalidInput: one has no trial in common with the first, is of another kind, or the same seeds are other worlds
-            in it.
-    """
+    """Each batch beside the first one; raises InvalidInput if one is of other worlds or of another kind."""
     first_head = batches[0][0]
     for name, (head, _) in zip(names, batches, strict=True):
         if head.kind != first_head.kind:

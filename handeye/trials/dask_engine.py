@@ -9,30 +9,20 @@ from handeye.core.versions import code_digest
 from handeye.trials.sweep import Case, Engine, GuardedWork
 from handeye.trials.workers import TRIES, Answer
 
-HOST: Final = "127.0.0.1"
-"""Workers here listen on this computer alone."""
+HOST: Final = "127.0.0.1"  # Workers here listen on this computer alone
 
 
 def dask_workers(count: int, scheduler: str | None) -> Engine:
-    """Workers of dask.
-
-    Args:
-        count: how many are begun here, where there is no scheduler.
-        scheduler: address of a scheduler whose workers are there already.
-    """
+    """Workers of dask: those of the scheduler at an address, or `count` that are begun here."""
     return lambda work, cases: _answers(work, cases, count, scheduler)
 
 
 def _answers(
     work: GuardedWork[Any], cases: Sequence[Case], count: int, scheduler: str | None
 ) -> Generator[Answer[Case, list[Any]], None, None]:
-    """Answers for each case, in the order they end.
+    """Answers for each case, in the order they end; raises InvalidInput if dask or its workers cannot be used.
 
     A trial whose worker is killed is begun once more by the scheduler, which does not tell.
-
-    Raises:
-        MissingExtra: dask is not installed.
-        InvalidInput: no scheduler answers, or a worker has another handeye.
     """
     try:
         from distributed import KilledWorker, as_completed
@@ -54,11 +44,7 @@ def _answers(
 
 
 def _tried(work: GuardedWork[Any], code: str, case: Case) -> list[Any]:
-    """Carry out a case on a worker.
-
-    Raises:
-        InvalidInput: the worker has another handeye than whoever asks.
-    """
+    """Carry out a case on a worker; raises InvalidInput if that has another handeye."""
     if code_digest() != code:
         raise Refused("a worker has another handeye than this computer; install the same on all")
     return work(case)

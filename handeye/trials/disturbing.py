@@ -24,31 +24,22 @@ from handeye.tasks.interface import Disturbance
 from handeye.trials.assembly import brakes_hold
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
-MOVED: Final = 2.0
-"""mm by which no part may be moved that the hand does not hold."""
-FORCE: Final = 60.0
-"""N that the hand may not feel."""
+MOVED: Final = 2.0  # mm by which no part may be moved that the hand does not hold
+FORCE: Final = 60.0  # N that the hand may not feel
 
 
 class DisturbanceResult(Record, frozen=True, kw_only=True):
     """Result of one reversal after a disturbance."""
 
     name: str
-    built: bool
-    """There was something to disturb; without, nothing else of this counts."""
-    stopped: bool = False
-    """A guard stopped it, and the brakes are on."""
-    at: str = ""
-    """The statement that was being undone."""
+    built: bool  # There was something to disturb; without, nothing else of this counts
+    stopped: bool = False  # A guard stopped it, and the brakes are on
+    at: str = ""  # The statement that was being undone
     line: str = ""
-    message: str = ""
-    """The call of the operator, or the referee’s complaint."""
-    moved: float = 0.0
-    """How far the part moved that moved most in one step without being held, mm."""
+    message: str = ""  # The call of the operator, or the referee’s complaint
+    moved: float = 0.0  # How far the part moved that moved most in one step without being held, mm
     part: str = ""
-    """That part."""
-    felt: float = 0.0
-    """Greatest force that the hand felt, N."""
+    felt: float = 0.0  # Greatest force that the hand felt, N
 
     @property
     def harmless(self) -> bool:
@@ -59,8 +50,7 @@ class DisturbanceResult(Record, frozen=True, kw_only=True):
 class DisturbanceRow(TrialRow, frozen=True, kw_only=True):
     """One disturbance, which is the condition, tried once."""
 
-    tried: DisturbanceResult | None = None
-    """None: it broke off."""
+    tried: DisturbanceResult | None = None  # None: it broke off
 
     @property
     def outcome(self) -> str:
@@ -84,8 +74,7 @@ class DisturbanceWork:
     """Has what a plan builds disturbed and undone, once for each case."""
 
     plan: Plan
-    world: WorldSpec
-    """World of every case, but for its seed."""
+    world: WorldSpec  # World of every case, but for its seed
     camera: str
 
     def __call__(self, case: Case) -> list[DisturbanceRow]:
@@ -108,6 +97,8 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturban
         moved, part = max((moved, part), _moved(runner))
     result = finished(runner, advance(runner), Meter(), judged=True)
     undone = [event for event in runner.events[begun:] if isinstance(event, UndoStarted)]
+    met = [event.force for event in runner.events[begun:] if isinstance(event, UndoFinished)]
+    cause = None if runner.call is None else runner.call.cause
     return DisturbanceResult(
         name=name,
         built=True,
@@ -117,7 +108,7 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturban
         message=result.message if runner.call is not None else _wrong(result),
         moved=round(moved, 3),
         part=part,
-        felt=round(_felt(runner, begun), 2),
+        felt=round(max([*met, cause.force] if isinstance(cause, UndoResisted) else met, default=0.0), 2),
     )
 
 
@@ -135,13 +126,6 @@ def _wrong(result: Result) -> str:
     """The referee’s complaints after a complete reversal."""
     wrong = "; ".join(check.told for check in result.referee.values() if check.refuses)
     return wrong or "undone, and everything is back"
-
-
-def _felt(runner: Runner, begun: int) -> float:
-    """The greatest force that the hand has felt while it undid, N."""
-    met = [event.force for event in runner.events[begun:] if isinstance(event, UndoFinished)]
-    cause = None if runner.call is None else runner.call.cause
-    return max([*met, cause.force] if isinstance(cause, UndoResisted) else met, default=0.0)
 
 
 def _moved(runner: Runner) -> tuple[float, str]:
@@ -183,4 +167,3 @@ DISTURBED: Final = Sweep(
     sentence=_sentence,
     more=_more,
 )
-"""Work is disturbed behind the arm's back and then reversed."""

@@ -28,7 +28,6 @@ fault should have been noticed; stopped, and the brakes were not on; with a wron
 """
 
 UNDETECTED: tuple[Outcome, ...] = ("unnoticed", "unbraked", "silent")
-"""Outcomes that a fault must never have."""
 
 
 PANIC: Final = FaultKind(
@@ -45,8 +44,7 @@ def with_panic(catalogue: Catalogue) -> Catalogue:
     return Catalogue(*catalogue.kinds.values(), PANIC, matrix=(*catalogue.matrix, PANIC.name))
 
 
-SOON: Final = 120
-"""Servo periods of a stage, two seconds, after which the button is hit."""
+SOON: Final = 120  # Servo periods of a stage, two seconds, after which the button is hit
 
 
 class PanicInStage(Observer):
@@ -80,24 +78,19 @@ class PanicInStage(Observer):
 class FaultTrial(Record, frozen=True, kw_only=True):
     """Result of a run with one fault."""
 
-    name: str
-    """The fault, as it would be typed."""
+    name: str  # The fault, as it would be typed
     outcome: Outcome
-    stage: str | None
-    """Stage in which it stopped; None: it finished, or never began."""
-    message: str
-    """The call of the operator, or the referee’s complaints."""
+    stage: str | None  # Stage in which it stopped; None: it finished, or never began
+    message: str  # The call of the operator, or the referee’s complaints
     error: int | None
-    line: str | None
-    """Line of the script where it stopped in a stage."""
+    line: str | None  # Line of the script where it stopped in a stage
     exit_code: Annotated[int, msgspec.Meta(ge=0)]
 
 
 class FaultRow(TrialRow, frozen=True, kw_only=True):
     """One trial with a fault, which is its condition."""
 
-    tried: FaultTrial | None = None
-    """None: it broke off."""
+    tried: FaultTrial | None = None  # None: it broke off
 
     @property
     def outcome(self) -> str:
@@ -118,11 +111,7 @@ class FaultRow(TrialRow, frozen=True, kw_only=True):
 
 
 def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
-    """The faults of some names and groups; those of the matrix, if there are none.
-
-    Raises:
-        InvalidInput: there is neither a fault nor a group of a name.
-    """
+    """The faults of some names and groups, else those of the matrix; raises InvalidInput for an unknown name."""
     found = [kind for name in names or catalogue.matrix for kind in catalogue.select(name)]
     return list({kind.name: kind for kind in found}.values())
 
@@ -132,8 +121,7 @@ class FaultWork:
     """Carries a plan out once with each of some faults; the condition of a case is the fault, as it would be typed."""
 
     plan: Plan
-    world: WorldSpec
-    """World of every case, but for its seed and fault."""
+    world: WorldSpec  # World of every case, but for its seed and fault
     faults: Mapping[str, Fault]
     camera: str
 
@@ -155,12 +143,7 @@ class FaultWork:
 
 
 def usual(catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None) -> dict[str, Fault]:
-    """Faults of some kinds at their usual sizes, by how they would be typed.
-
-    Args:
-        stage: number of the stage with which they set in, but for those that must be there from the beginning; None:
-            all are, unless their kind has a usual stage.
-    """
+    """Faults at their usual sizes, by how they would be typed; `stage`: where those set in that can."""
     found = [kind.usual(None if kind.from_start else stage) for kind in kinds]
     return {catalogue.written(fault): fault for fault in found}
 

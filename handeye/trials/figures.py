@@ -15,8 +15,7 @@ class Spread(Record, frozen=True, kw_only=True):
 
     n: int
     median: float
-    p95: float
-    """95 % of them are not over it."""
+    p95: float  # 95 % of them are not over it
     most: float
 
 
@@ -24,8 +23,7 @@ class ConditionFigures(Record, frozen=True, kw_only=True):
     """Trials of one condition."""
 
     condition: str
-    n: int
-    """Trials that count."""
+    n: int  # Trials that count
     right: int
     outcomes: dict[str, int]
     wilson95: tuple[float, float] | None
@@ -41,14 +39,10 @@ class Failure(Record, frozen=True, kw_only=True):
     condition: str
     verdict: str
     stage: str
-    cause: str
-    """In equal words for equal causes."""
-    detail: str
-    """With figures."""
-    line: str | None
-    """Line of the script where the program stopped."""
-    command: str
-    """Carries it out again."""
+    cause: str  # In equal words for equal causes
+    detail: str  # With figures
+    line: str | None  # Line of the script where the program stopped
+    command: str  # Carries it out again
 
 
 class Cause(Record, frozen=True, kw_only=True):
@@ -57,39 +51,29 @@ class Cause(Record, frozen=True, kw_only=True):
     stage: str
     cause: str
     count: int
-    command: str
-    """Carries the first of them out again."""
+    command: str  # Carries the first of them out again
 
 
 class Figures(Record, frozen=True, kw_only=True):
     """Figures of a sweep. But for host seconds, equal sweeps have equal figures."""
 
     kind: str
-    n: int
-    """Trials that count."""
+    n: int  # Trials that count
     right: int
-    silent_failures: int
-    """Failures that were taken for a success."""
+    silent_failures: int  # Failures that were taken for a success
     failed: int
     """Trials that broke off: by an exception, at a limit, or because their process was killed twice."""
     uncounted: int
-    killed: int
-    """How often the process of a trial was killed."""
-    wilson95: tuple[float, float] | None
-    """Wilson's interval of the probability that a trial is right."""
-    p_s: float | None
-    """Lower bound of the same, 95 % one-sided, exact."""
+    killed: int  # How often the process of a trial was killed
+    wilson95: tuple[float, float] | None  # Wilson's interval of the probability that a trial is right
+    p_s: float | None  # Lower bound of the same, 95 % one-sided, exact
     outcomes: dict[str, int]
     measures: dict[str, Spread]
-    conditions: tuple[ConditionFigures, ...]
-    """Where there are several."""
+    conditions: tuple[ConditionFigures, ...]  # Where there are several
     failures: tuple[Failure, ...]
-    causes: tuple[Cause, ...]
-    """Causes of the failures, the most frequent first."""
-    cpu_s: float
-    """Processor time of all trials."""
-    wall_s: float
-    """Time since this command began."""
+    causes: tuple[Cause, ...]  # Causes of the failures, the most frequent first
+    cpu_s: float  # Processor time of all trials
+    wall_s: float  # Time since this command began
 
     @property
     def exit_code(self) -> int:

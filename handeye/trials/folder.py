@@ -1,4 +1,4 @@
-"""The folder of a batch: what the batch is, its plan, and a line for each trial that has ended."""
+"""The folder of a batch: its kind, by name, what else it is, its plan, and a line for each trial that has ended."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -7,7 +7,8 @@ from typing import Any, Final, Generic, Literal, TypeVar
 import msgspec
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import BadFile, CannotWrite
+from handeye.core.entries import entries, loaded
+from handeye.core.errors import BadArgument, BadFile, CannotWrite, NoSuchName
 from handeye.core.files import LineFile, read_whole
 from handeye.core.plain_text import counted
 from handeye.core.record import Record
@@ -16,8 +17,32 @@ from handeye.core.versions import code_digest, versions
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest, read_plan, write_plan
 from handeye.program.senses import Sense
-from handeye.trials.kinds import sweep_of
 from handeye.trials.sweep import R, Sweep
+
+_OURS: Final = {
+    "assembly": "handeye.trials.plans.trial:ASSEMBLY",
+    "dismantling": "handeye.trials.plans.trial:DISMANTLING",
+    "faults": "handeye.trials.faults:FAULTS",
+    "disturbed": "handeye.trials.disturbing:DISTURBED",
+    "chaos": "handeye.trials.chaos.trials:CHAOS",
+    "insertion": "handeye.trials.insertion:INSERTION",
+    "eye": "handeye.trials.eye:EYE",
+}
+
+
+def sweep_of(kind: str) -> Sweep[Any]:
+    """The kind of sweep that the folder of a batch says; raises InvalidInput if there is none such here."""
+    name = kind.partition(" ")[0]
+    places = {name: place for entry in entries().values() for name, place in entry.sweeps.items()} | _OURS
+    if name not in places:
+        raise NoSuchName(
+            f"there are no trials of the kind {quoted(name)} here; there are {', '.join(sorted(places))}"
+        )
+    found = loaded(places[name])
+    if not isinstance(found, Sweep):
+        raise BadArgument(f"{places[name]} is {found!r}, which is no Sweep")
+    return found
+
 
 T = TypeVar("T", bound=Record)
 
@@ -39,20 +64,16 @@ class Head(Record, frozen=True, kw_only=True):
     kind: str
     world: WorldSpec
     """The world of trial 0; that of trial k has a seed greater by k, unless trials share worlds."""
-    plan: str = ""
-    """Digest of the plan; empty: there is none."""
+    plan: str = ""  # Digest of the plan; empty: there is none
     program: str = ""
     camera: str = ""
     without: tuple[Sense, ...] = ()
-    """Senses that the program does without."""
-    on_stop: str = "abort"
-    """How calls of the operator are answered."""
+    on_stop: str = "abort"  # How calls of the operator are answered
     simulated_limit_s: float | None = None
     settings: dict[str, str] = msgspec.field(default_factory=dict)
     """Further settings that decide the trials, by their names for people."""
     versions: dict[str, str]
-    code: str
-    """Digest of handeye and its scenes."""
+    code: str  # Digest of handeye and its scenes
 
     def differs(self, other: "Head") -> list[str]:
         """Names of what is not the same in another one."""
@@ -81,15 +102,7 @@ class BatchFolder(Generic[R]):
     def __init__(
         self, path: Path, sweep: Sweep[R], head: Head, plan: Plan | None = None, *, anew: bool = False
     ) -> None:
-        """Begin a batch in a folder, or go on with it.
-
-        Args:
-            anew: the trials of a batch that is there are dropped.
-
-        Raises:
-            InvalidInput: another batch or something else is in it, it cannot be written, or another command writes to
-                it now.
-        """
+        """Begin a batch, go on with it, or (`anew`) drop it first; raises InvalidInput."""
         self.path, self._sweep = path, sweep
         _check(path, sweep, head, anew=anew)
         try:
@@ -125,11 +138,7 @@ class BatchFolder(Generic[R]):
 
 
 def read_batch(path: Path) -> tuple[Head, tuple[Any, ...]]:
-    """Head of the batch in a folder, and its rows sorted by condition and number.
-
-    Raises:
-        InvalidInput: the folder holds no batch, or one that this handeye cannot read.
-    """
+    """Head of the batch in a folder, and its rows by condition and number; raises InvalidInput if there is none."""
     file = path / TRIALS
     if not file.is_file():
         raise BadFile(f"{path} holds no batch of trials: {quoted(TRIALS)} is not in it")

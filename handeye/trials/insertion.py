@@ -38,13 +38,11 @@ from handeye.trials.sweep import Case, Details, Sweep, TrialRow
 
 Search = Literal["gentle", "1973"]
 TASK: Final = "insertion"
-TRIALS_A_WORLD: Final = 10
-"""Trials that share one fetched pin; fetching takes a second of a processor."""
+TRIALS_A_WORLD: Final = 10  # Trials that share one fetched pin; fetching takes a second of a processor
 _WRITTEN_STEP: Final = "SEARCH  .07"
 _STEP_SHARE: Final = 0.92
 """Share taken of the coarsest step that catches every hole: .07 in for Factory's hole."""
-_PLACE: Final = 0.005
-"""in, to which it is rounded down."""
+_PLACE: Final = 0.005  # in, to which it is rounded down
 
 
 def bench() -> Inserting:
@@ -57,12 +55,9 @@ def bench() -> Inserting:
 class Condition(Record, frozen=True, kw_only=True):
     """Hole, error of its place, and search."""
 
-    clearance: float = CLEARANCE
-    """Clearance of the hole in diameter, mm."""
-    chamfer: float = CHAMFER
-    """mm"""
-    sd: float = SPREAD
-    """Sigma of the error of the hole's place along x and along y, mm."""
+    clearance: float = CLEARANCE  # Clearance of the hole in diameter, mm
+    chamfer: float = CHAMFER  # mm
+    sd: float = SPREAD  # Sigma of the error of the hole's place along x and along y, mm
     search: Search = "gentle"
 
     @property
@@ -102,25 +97,17 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
     """Result of one trial."""
 
     seed: int
-    """World seed."""
-    number: int
-    """Number of the trial in that world, from 0."""
-    error: tuple[float, float] = (0.0, 0.0)
-    """Where the hole was, x and y against the pin's end, mm."""
+    number: int  # Number of the trial in that world, from 0
+    error: tuple[float, float] = (0.0, 0.0)  # Where the hole was, x and y against the pin's end, mm
     outcome: Literal["seated", "told", "silent"] = "told"
     """The pin is in its hole, and the program says so; it called the operator; it said done, and was wrong."""
     places: int = 0
-    """Places tried."""
-    peak: float = 0.0
-    """Greatest force between pin and plate, N, by the truth of each physics step."""
-    felt: float = 0.0
-    """Greatest force that the hand felt, N."""
+    peak: float = 0.0  # Greatest force between pin and plate, N, by the truth of each physics step
+    felt: float = 0.0  # Greatest force that the hand felt, N
     seconds: float | None = None
     """From the first contact of pin and plate until the pin was seated, of the cell's clock; None: it never was."""
-    whole: float = 0.0
-    """Seconds of the cell's clock that all of it took."""
+    whole: float = 0.0  # Seconds of the cell's clock that all of it took
     told: str = ""
-    """The call of the operator."""
 
 
 class _Feeling(Observer):
@@ -137,10 +124,8 @@ class _Feeling(Observer):
 class InsertionRow(TrialRow, frozen=True, kw_only=True):
     """One trial under a condition; ten share a world, in which the pin is fetched once."""
 
-    tried: InsertionTrial | None = None
-    """None: it broke off."""
-    step_in: float = 0.0
-    """Step of the search."""
+    tried: InsertionTrial | None = None  # None: it broke off
+    step_in: float = 0.0  # Step of the search
 
     @property
     def outcome(self) -> str:
@@ -223,11 +208,7 @@ def fetched(plan: Plan, seed: int) -> Runner:
 def tried(
     condition: Condition, begun: Runner, trial: InsertionTrial, plan: Plan | None = None
 ) -> InsertionTrial:
-    """A trial that goes on where the pin has been fetched, with its hole as far off as is drawn.
-
-    Args:
-        plan: carried out from there; by default that of the condition. Up to there it is as the one that fetched.
-    """
+    """A trial that goes on where the pin has been fetched, by a plan that begins as the condition's does."""
     if begun.ended:
         return replace(trial, told=_told(begun))
     drawn = random_numbers(trial.seed, f"insertion.error.{trial.number}").standard_normal(2) * condition.sd
@@ -290,19 +271,16 @@ def _plan(search: Search, step: float) -> Plan:
     return made.plan
 
 
-GENTLE: Final = 20.0
-"""N that a peak is held against."""
+GENTLE: Final = 20.0  # N that a peak is held against
 
 
 class Setting(Record, frozen=True, kw_only=True):
     """A condition, and how gently its pins went in."""
 
     condition: str
-    step_in: float | None
-    """Step of the search."""
+    step_in: float | None  # Step of the search
     n: int
-    gentle: int
-    """Trials in which the peak was at most 20 N."""
+    gentle: int  # Trials in which the peak was at most 20 N
 
 
 def _settings(rows: Sequence[InsertionRow]) -> list[Setting]:
@@ -333,4 +311,3 @@ INSERTION: Final = Sweep(
     ],
     shared_worlds=True,
 )
-"""One pin into one hole."""

@@ -13,8 +13,7 @@ class Rate(Record, frozen=True, kw_only=True):
 
     successes: int
     trials: int
-    rate: float | None
-    """Successes over trials; None, as the bounds: nothing was tried."""
+    rate: float | None  # Successes over trials; None, as the bounds: nothing was tried
     wilson95: tuple[float, float] | None
     """Wilson's score interval: it holds the probability in about 95 of 100 batches."""
     p_s: float | None
@@ -40,12 +39,7 @@ def rate(successes: int, trials: int) -> Rate:
 
 
 def mcnemar(only_first: int, only_second: int) -> float:
-    """Two-sided p of McNemar's exact test: how likely pairs that differ fall so unevenly if neither is better.
-
-    Args:
-        only_first: pairs in which only the first succeeded.
-        only_second: pairs in which only the second did.
-    """
+    """Two-sided p of McNemar's exact test: how likely pairs that differ fall so unevenly if neither is better."""
     from scipy.stats import binomtest
 
     differ = only_first + only_second
@@ -53,11 +47,7 @@ def mcnemar(only_first: int, only_second: int) -> float:
 
 
 def signed_rank(differences: Sequence[float]) -> float:
-    """Two-sided p of Wilcoxon's signed-rank test: how likely pairs differ so far to one side if both are alike.
-
-    Args:
-        differences: of each pair, in any unit; pairs that do not differ say nothing.
-    """
+    """Two-sided p of Wilcoxon's signed-rank test: how likely pairs differ so far to one side if both are alike."""
     from scipy.stats import wilcoxon
 
     return float(wilcoxon(differences).pvalue) if any(differences) else 1.0

@@ -25,8 +25,7 @@ from handeye.trials.workers import in_processes
 
 _VERDICTS: Final = {0: ("assembled", "good"), 1: ("stopped", "doubtful"), 3: ("not right", "bad")}
 """Verdict and colour by exit code."""
-_TOLD: Final = 2
-"""Findings that a row tells."""
+_TOLD: Final = 2  # Findings that a row tells
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -82,26 +81,48 @@ class Results(Sequence[Result]):
         return f"{self.assembled} of {len(self)} assembled"
 
 
-def assemble_in(
+def assemble_each(
     worlds: Iterable[int | World],
     *,
-    script: FileName | Planned | None,
-    taught: FileName | None,
-    camera: str,
-    search: SearchPattern | None,
-    referee: Referee | Limits | None,
-    jobs: int,
+    script: FileName | Planned | None = None,
+    taught: FileName | None = None,
+    camera: str = "auto",
+    search: SearchPattern | None = None,
+    referee: Referee | Limits | None = None,
+    jobs: int = 1,
 ) -> Results:
-    """Results of a script in some worlds; see `handeye.trials.assemble_each`."""
+    """Carry out a script in each of some worlds, and have each result judged.
+
+    Args:
+        worlds: seeds, or worlds.
+        script: what `handeye.plan` takes; by default that of the water pump.
+        taught: as for `handeye.plan`.
+        camera: how pictures are made: `auto`, `gl` or `ray`.
+        search: as for `handeye.begin`.
+        referee: as for `handeye.begin`.
+        jobs: processes at a time; with more than 1 a program must be guarded by `if __name__ == "__main__":`, and
+            limits are taken, but no code in the place of a part.
+
+    Returns:
+        a table of results in the order of the worlds.
+
+    Raises:
+        ScriptError: the script has errors.
+        InvalidInput: an argument cannot be used.
+
+    >>> results = handeye.trials.assemble_each([0, 1], script="OPEN 1\\n", camera="ray")
+    >>> [(result.seed, result.completed) for result in results]
+    [(0, True), (1, True)]
+    """
     if isinstance(worlds, str) or not isinstance(worlds, Iterable):
         raise BadArgument(f"worlds are seeds or worlds one after the other, not {worlds!r}")
     specs = [_spec(world) for world in worlds]
     record = plan(default_script() if script is None else script, taught=taught).record
-    parts, umpire, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
+    parts, own_referee, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
     if given_count(jobs, "jobs") == 1:
-        trial = partial(run_plan, record, camera=camera, limits=limits, parts=parts, umpire=umpire)
+        trial = partial(run_plan, record, camera=camera, limits=limits, parts=parts, own_referee=own_referee)
         return Results(tuple(trial(world=spec).result for spec in specs))
-    if search is not None or umpire is not None:
+    if search is not None or own_referee is not None:
         raise BadArgument("code in the place of a part takes one process: leave jobs=... out")
     found = list(in_processes(partial(_result, record, camera, limits), specs, jobs))
     return Results(tuple(sorted(found, key=lambda result: specs.index(result.world))))

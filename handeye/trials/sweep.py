@@ -25,8 +25,7 @@ the host's; before there was anything to try it on."""
 Standing = Literal["right", "wrong", "silent", "uncounted"]
 """How an outcome counts: a success; a failure; a failure that was taken for a success; not at all."""
 
-FAILED: Final = "failed"
-"""Outcome of a trial that broke off."""
+FAILED: Final = "failed"  # Outcome of a trial that broke off
 GRACE: Final = 1.1
 """Multiple of the limit of wall time at which a process is ended from outside: it hangs where nothing looks at it."""
 _CAME_TO_AN_END: Final = ("ended", "not built")
@@ -40,11 +39,9 @@ _BROKEN_OFF: Final[Mapping[str, str]] = {
 class Case(Record, frozen=True, kw_only=True):
     """Trials that are carried out together, in one world."""
 
-    trials: tuple[int, ...]
-    """Their numbers among the trials of the condition, from 0."""
+    trials: tuple[int, ...]  # Their numbers among the trials of the condition, from 0
     seed: int
-    condition: str = ""
-    """Condition under which they run; empty: there is only one."""
+    condition: str = ""  # Condition under which they run; empty: there is only one
 
 
 class TrialRow(Record, frozen=True, kw_only=True):
@@ -54,10 +51,8 @@ class TrialRow(Record, frozen=True, kw_only=True):
     seed: Annotated[int, msgspec.Meta(ge=0)]
     condition: str = ""
     ended: Ended = "ended"
-    raised: str = ""
-    """Type and words of the exception."""
-    killed: Annotated[int, msgspec.Meta(ge=0)] = 0
-    """How often its process was killed."""
+    raised: str = ""  # Type and words of the exception
+    killed: Annotated[int, msgspec.Meta(ge=0)] = 0  # How often its process was killed
     wall_s: float = 0.0
     cpu_s: float = 0.0
 
@@ -119,13 +114,11 @@ R = TypeVar("R", bound=TrialRow)
 class Details:
     """A table that a kind of sweep adds to its figures: on the terminal, the page, as CSV, and in the JSON."""
 
-    name: str
-    """Name of the table and of its key in the JSON."""
+    name: str  # Name of the table and of its key in the JSON
     title: str
     rows: Sequence[Record]
     """Flat records; their fields are the columns. Fields that end in `_share` are shares of 1, in `_s` seconds."""
     heads: tuple[str, ...]
-    """Names of the columns for people."""
     span: tuple[str, str, str] | None = None
     """Fields that are drawn as a bar with a dot in it: its low end, the dot, its high end."""
 
@@ -160,34 +153,22 @@ def percent(*parts: float | None) -> str:
     return f"{' to '.join(f'{100 * part:.1f}' for part in parts if part is not None)} %"
 
 
-def _nothing(_: Sequence[Any]) -> dict[str, object]:
-    return {}
-
-
-def _no_details(_: Sequence[Any]) -> tuple[Details, ...]:
-    return ()
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sweep(Generic[R]):
     """A kind of sweep."""
 
-    kind: str
-    """Its folders say so; of several words, the first is what `sweep_of` looks up."""
+    kind: str  # Its folders say so; of several words, the first is what `sweep_of` looks up
     row: type[R]
     outcomes: Mapping[str, Standing]
-    success: str
-    """The word for trials that are right."""
+    success: str  # The word for trials that are right
     noun: str = "trial"
     sentence: Callable[[R], str] | None = None
     """Text printed as each trial ends, if not empty. None: failures are listed at the end."""
-    narrated: bool = False
-    """Each trial is noted on standard error with the rate so far."""
+    narrated: bool = False  # Each trial is noted on standard error with the rate so far
     summary: Callable[[Sequence[R]], Sequence[str]] = field(default=lambda _: ())
-    """Lines below all others."""
-    more: Callable[[Sequence[R]], Mapping[str, object]] = _nothing
+    more: Callable[[Sequence[R]], Mapping[str, object]] = field(default=lambda _: {})
     """Further entries of the JSON."""
-    details: Callable[[Sequence[R]], Sequence[Details]] = _no_details
+    details: Callable[[Sequence[R]], Sequence[Details]] = field(default=lambda _: ())
     work: "Callable[[Case], Sequence[R]] | None" = None
     """Carries out the trials of a case, where that takes no options: such a kind has a command for nothing."""
     shared_worlds: bool = False
@@ -256,14 +237,7 @@ def carry_out(
     folder: "BatchFolder[R] | None" = None,
     told: Callable[[R], None] = lambda _: None,
 ) -> tuple[R, ...]:
-    """Rows of the trials of some cases, in their order; those that a folder has are not tried again.
-
-    Args:
-        told: called with each new row once it is kept.
-
-    Raises:
-        InvalidInput: a row cannot be written.
-    """
+    """Rows of the trials of some cases, in their order, each `told` once it is kept; a folder's are not tried again."""
     rows: dict[tuple[str, int], R] = {} if folder is None else dict(folder.rows)
     todo = [case for case in cases if any((case.condition, number) not in rows for number in case.trials)]
     with closing(engine(GuardedWork(work, sweep.row), todo)) as carried_out:

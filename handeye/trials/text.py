@@ -10,7 +10,7 @@ from rich.text import Text
 from handeye.core.diagnostics import visible
 from handeye.core.plain_text import counted, printable
 from handeye.trials.comparing import PairedBatch
-from handeye.trials.figures import ConditionFigures, Failure, Figures, Spread
+from handeye.trials.figures import ConditionFigures, Figures
 from handeye.trials.sweep import R, Sweep, percent
 
 NARROWEST: Final = 80
@@ -77,12 +77,12 @@ def _measures(figures: "Sequence[ConditionFigures | Figures]") -> PlainTable:
     for each in figures:
         name = f"{each.condition}: " if isinstance(each, ConditionFigures) else ""
         for measure, found in each.measures.items():
-            table.row(f"{name}{measure}", *_spread(found))
+            table.row(
+                f"{name}{measure}",
+                str(found.n),
+                *(f"{value:.3g}" for value in (found.median, found.p95, found.most)),
+            )
     return table
-
-
-def _spread(found: Spread) -> tuple[str, ...]:
-    return str(found.n), *(f"{value:.3g}" for value in (found.median, found.p95, found.most))
 
 
 def sure(wilson95: tuple[float, float] | None, p_s: float | None) -> tuple[str, str]:
@@ -93,7 +93,11 @@ def sure(wilson95: tuple[float, float] | None, p_s: float | None) -> tuple[str, 
 def failures(found: Figures) -> Iterator[str]:
     """The failures, each with the command that carries it out again, and their causes counted."""
     for failure in found.failures:
-        yield from _failure(failure)
+        place = _place(failure.stage, failure.line)
+        condition = f", {failure.condition}" if failure.condition else ""
+        yield f"trial {failure.trial}, seed {failure.seed}{condition}: {failure.verdict}, {place}{failure.detail}"
+        if failure.command:
+            yield f"  {failure.command}"
     for cause in found.causes:
         yield f"{cause.count} of {found.n}: {_place(cause.stage)}{cause.cause}"
 
@@ -116,14 +120,6 @@ def verdict(sweep: Sweep[R], found: Figures) -> str:
         if interval
         else text
     )
-
-
-def _failure(failure: Failure) -> Iterator[str]:
-    place = _place(failure.stage, failure.line)
-    condition = f", {failure.condition}" if failure.condition else ""
-    yield f"trial {failure.trial}, seed {failure.seed}{condition}: {failure.verdict}, {place}{failure.detail}"
-    if failure.command:
-        yield f"  {failure.command}"
 
 
 def _place(stage: str, line: str | None = None) -> str:

@@ -17,10 +17,8 @@ from handeye.core.host_time import HostTimer
 Item = TypeVar("Item")
 T = TypeVar("T")
 
-TRIES: Final = 2
-"""Times that a trial is begun whose process is killed."""
-LONGEST_WAIT_S: Final = 86400.0
-"""Longest single wait; the system accepts at most 24 days."""
+TRIES: Final = 2  # Times that a trial is begun whose process is killed
+LONGEST_WAIT_S: Final = 86400.0  # Longest single wait; the system accepts at most 24 days
 
 
 class WorkerLost(HandeyeError):
@@ -33,15 +31,10 @@ class Answer(Generic[Item, T]):
 
     item: Item
     value: T | None = None
-    """None: there is none, for the reason that follows."""
     error: BaseException | None = None
-    """Exception that the trial raised."""
-    killed: int = 0
-    """How often its process was killed."""
-    overdue: bool = False
-    """Its process was ended because it took too long."""
-    wall_s: float = 0.0
-    """Duration of the last attempt."""
+    killed: int = 0  # How often its process was killed
+    overdue: bool = False  # Its process was ended because it took too long
+    wall_s: float = 0.0  # Duration of the last attempt
 
     @property
     def lost(self) -> bool:
@@ -92,12 +85,9 @@ class _Given(Generic[Item]):
 def answers(
     trial: Callable[[Item], T], items: Sequence[Item], count: int, *, limit_s: float | None = None
 ) -> Generator[Answer[Item, T], None, None]:
-    """Answers for each item, in the order they end, from a pool of processes.
+    """Answers for each item, in the order they end, from processes, which end with whoever asks.
 
-    A trial whose process is killed is begun once more, in a new one. Who stops asking for answers ends the processes.
-
-    Args:
-        limit_s: seconds by the clock after which the process of a trial is ended.
+    A trial whose process is killed is begun once more in a new one; one that takes `limit_s` is ended for good.
     """
     todo = deque(_Given[Item](item=item) for item in items)
     workers: list[Worker] = []
@@ -123,14 +113,7 @@ def answers(
 
 
 def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) -> Iterator[T]:
-    """Values for many items, in the order they end.
-
-    Who stops asking for them ends the processes too.
-
-    Raises:
-        WorkerLost: the process of one was killed twice.
-        Exception: what a trial raises.
-    """
+    """Values for many items, in the order they end; raises WorkerLost, or what a trial raised."""
     for answer in answers(trial, worlds, jobs):
         if answer.error is not None:
             raise answer.error
@@ -146,11 +129,8 @@ def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) 
 def deaf_to_interrupts() -> Iterator[None]:
     """While processes are begun that shall not hear Ctrl-C at the terminal: we do, and end them without their words.
 
-    Threads that begin here, and the processes that those begin, are deaf for good. We ourselves are interrupted, or
-    told to end, when all have begun: half begun, one would not be known, and complain.
-
-    Raises:
-        KeyboardInterrupt: behind it, if we were interrupted or told to end meanwhile.
+    Threads that begin here, and the processes that those begin, are deaf for good. We ourselves are interrupted when
+    all have begun: half begun, one would not be known, and complain.
     """
     if not hasattr(signal, "pthread_sigmask"):  # as on Windows
         yield

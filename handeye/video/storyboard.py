@@ -25,8 +25,7 @@ from handeye.video.request import FOLLOW, LONGEST, ORBIT, SECONDS, VideoRequest
 View = str | Near
 _FAR: Final = 0.95  # eye distance from the cell's middle, over the cell's size
 _SWAY_DEG: Final = 34.0
-_CLOSE, _WIDE = 0.42, 2.3
-"""Distance from where the hand works: m, and m for each m of the hand's range."""
+_CLOSE, _WIDE = 0.42, 2.3  # Distance from where the hand works: m, and m for each m of the hand's range
 _AMID: Final = np.array([0.5, 0.5, -0.1])
 """Aim within the hand's range: below its middle, as the hand works low."""
 _STILL_M: Final = 0.05
@@ -104,8 +103,7 @@ def _smooth(values: Array, window: int) -> Array:
     return np.stack([np.convolve(column, weights, mode="valid") for column in around.T], axis=1)
 
 
-_HELD: Final = 0.1, 1.5
-"""Duration of the last frame: fraction of the video, and s at most."""
+_HELD: Final = 0.1, 1.5  # Duration of the last frame: fraction of the video, and s at most
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

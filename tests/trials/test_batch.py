@@ -27,11 +27,9 @@ from handeye.trials.figures import Figures
 from handeye.trials.figures import figures as figures_of
 from handeye.trials.folder import BatchFolder, Head, read_batch
 from handeye.trials.page import sweep_page
-from handeye.trials.plans.contacts import Contact, SearchEnd, contacts, searches
-from handeye.trials.plans.dismantling import DISMANTLING
 from handeye.trials.plans.distributions import margins
-from handeye.trials.plans.row import Row
-from handeye.trials.plans.trial import ASSEMBLY, Trial, answered
+from handeye.trials.plans.row import Contact, Row, SearchEnd, contacts, searches
+from handeye.trials.plans.trial import ASSEMBLY, DISMANTLING, Trial, answered
 from handeye.trials.rates import mcnemar, rate
 from handeye.trials.sweep import Case, Engine, GuardedWork, cases, processes, rows_of
 from handeye.trials.sweep import carry_out as carry_out_sweep

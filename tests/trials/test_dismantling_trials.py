@@ -12,9 +12,8 @@ from handeye.core.variation import WorldSpec
 from handeye.results.result import Check
 from handeye.trials.figures import figures
 from handeye.trials.folder import BatchFolder
-from handeye.trials.plans.dismantling import DISMANTLING, DismantlingTrial
 from handeye.trials.plans.row import Row
-from handeye.trials.plans.trial import ASSEMBLY, Trial
+from handeye.trials.plans.trial import ASSEMBLY, DISMANTLING, DismantlingTrial, Trial
 from handeye.trials.sweep import cases
 
 WORLD = WorldSpec(seed=5)

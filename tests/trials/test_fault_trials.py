@@ -172,7 +172,7 @@ def test_what_cannot_be_tried_is_bad_input(command: Command, words: tuple[str, .
 
 def test_the_panic_button_is_hit_once_in_the_middle_of_its_stage() -> None:
     button = PanicInStage(1, periods=2)
-    button.watching(cast("Runner", SimpleNamespace(stages=("a", "b"))))
+    button.watching(cast("Runner", SimpleNamespace(listing=SimpleNamespace(stages=("a", "b")))))
     hit = []
     for stage in "ab":
         button.event(StageStarted(time=0.0, stage=stage))

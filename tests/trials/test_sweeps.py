@@ -17,8 +17,7 @@ from handeye.core.errors import InvalidInput, NoSuchName
 from handeye.core.variation import WorldSpec
 from handeye.trials.comparing import paired
 from handeye.trials.figures import figures
-from handeye.trials.folder import head_of, read_batch
-from handeye.trials.kinds import sweep_of
+from handeye.trials.folder import head_of, read_batch, sweep_of
 from handeye.trials.plans.trial import ASSEMBLY
 from handeye.trials.sweep import carry_out, cases, processes
 

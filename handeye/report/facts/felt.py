@@ -29,8 +29,7 @@ class GuardedMotion:
     stage: str
     step: StepStarted
     guard: GuardKind
-    times: Array
-    """Ends of the periods, shape (n,), s since the run began."""
+    times: Array  # Ends of the periods, shape (n,), s since the run began
     values: Array
     """Force along the guard's axis (N), moment about it, torque of the screwdriver (N m), or switches, shape (n,)."""
     limit: float  # N, N m, or switches

@@ -29,8 +29,7 @@ class Outcome:
     step: StepStarted | None = None  # The step under way then, or done last
     call: OperatorCalled | None = None
     wrong: tuple[Check, ...] = ()
-    doubts: tuple[Check, ...] = ()
-    """What he found not as it should be, and does not hold against it."""
+    doubts: tuple[Check, ...] = ()  # What he found not as it should be, and does not hold against it
 
     @property
     def good(self) -> bool:

@@ -83,8 +83,7 @@ class Search:
 
     step: StepStarted  # The step that sent it on last
     times: tuple[float, ...]  # When it went on, s since the run began
-    places: tuple[tuple[float, float], ...]
-    """All of them, from the first on: x and y from the first, m."""
+    places: tuple[tuple[float, float], ...]  # All of them, from the first on: x and y from the first, m
     exhausted: bool
 
 
@@ -137,10 +136,8 @@ class Cause:
 
     name: str
     by: Mover
-    place: str
-    """The line of its SAVE, of the look, or that sent the search on."""
-    time: float
-    """When that was, s since the run began."""
+    place: str  # The line of its SAVE, of the look, or that sent the search on
+    time: float  # When that was, s since the run began
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

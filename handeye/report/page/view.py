@@ -24,9 +24,15 @@ _KEYS: Final = (
 def view_section(run: RecordedRun, strip: Sequence[Photograph]) -> Markup:
     """The section."""
     pairs = joined((joined([element("kbd", key), f" {does}"]) for key, does in _KEYS), ", ")
+    canvas = element(
+        "canvas", id="view", hidden=True, tabindex="0", role="img",
+        aria_label="the cell at this moment; arrows walk round it, plus and minus come nearer and go farther",
+    )  # fmt: skip
+    photographs = element("div", *_photographs(strip), id="strip", class_="strip")
+    picked = element("p", id="picked", role="status", hidden=True)
     viewer = element(
         "div",
-        _screen(strip),
+        element("div", canvas, photographs, picked, class_="screen"),
         element("p", id="caption", class_="caption", hidden=True),
         _bar(run),
         _controls(run),
@@ -44,16 +50,6 @@ def view_section(run: RecordedRun, strip: Sequence[Photograph]) -> Markup:
         aria_label="script",
     )
     return section("run", "The run", element("div", viewer, script, class_="beside"))
-
-
-def _screen(strip: Sequence[Photograph]) -> Markup:
-    canvas = element(
-        "canvas", id="view", hidden=True, tabindex="0", role="img",
-        aria_label="the cell at this moment; arrows walk round it, plus and minus come nearer and go farther",
-    )  # fmt: skip
-    photographs = element("div", *_photographs(strip), id="strip", class_="strip")
-    picked = element("p", id="picked", role="status", hidden=True)
-    return element("div", canvas, photographs, picked, class_="screen")
 
 
 def _photographs(strip: Sequence[Photograph]) -> Iterator[Markup]:

@@ -12,8 +12,7 @@ from handeye.core.pose import Array
 from handeye.report.player.packing import columns, octahedral, quantised, rounded, zigzag
 from handeye.report.player.surfaces import Surface, creased
 
-FINE: Final = 200
-"""Triangles from which on a body has a coarser surface as well."""
+FINE: Final = 200  # Triangles from which on a body has a coarser surface as well
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -118,8 +117,7 @@ def _points(pieces: Sequence[Piece]) -> Array:
     return np.concatenate([piece.surface.points for piece in pieces])
 
 
-CELLS: Final = 14
-"""Along the longest side of a body: what lies in one cell becomes one point."""
+CELLS: Final = 14  # Along the longest side of a body: what lies in one cell becomes one point
 
 
 def coarsened(surface: Surface, cell: float) -> Surface:

@@ -21,8 +21,7 @@ GRAIN: Final = 512
 QUALITY: Final = 45
 _MOST: Final = 128
 _RGB: Final = 1  # Where a material has its texture: MuJoCo's `mjTEXROLE_RGB`
-_SLENDER: Final = 3.0
-"""Ratio of length to width above which the grain goes along a piece."""
+_SLENDER: Final = 3.0  # Ratio of length to width above which the grain goes along a piece
 
 Row = tuple[float, ...]
 """Red, green, blue as light, 0 to 1; light of its own; how metallic; roughness; number of its grain or -1; axis of the
@@ -215,15 +214,12 @@ def _small_first(pieces: Sequence[Piece]) -> list[Piece]:
 
 
 ROOM: Final = "room"
-_SEEN_AS: Final = {"studio": ROOM}
-"""Cameras of scenes that have another name here."""
+_SEEN_AS: Final = {"studio": ROOM}  # Cameras of scenes that have another name here
 _ORDER: Final = (ROOM, "hand", "pump", "work", "belt", "tv")
 _TOOL: Final = "tool"
 _BESIDE: Final = np.array([0.30, 0.38, 0.36])  # From the hand to who looks at it, m
-_FINGERS: Final = 0.8
-"""Where its fingers are, from the wrist to the tool centre point."""
-_LENS: Final = 37.0
-"""Angle of view where no camera says it, degrees."""
+_FINGERS: Final = 0.8  # Where its fingers are, from the wrist to the tool centre point
+_LENS: Final = 37.0  # Angle of view where no camera says it, degrees
 _LAMP: Final = np.array([1.05, -0.65, 1.3])
 """From the middle of a scene to its lamp, over the scene's size: high, in front, on the left of who looks in."""
 

@@ -22,8 +22,7 @@ class Surface:
 
     points: Array  # Corners, shape (n, 3), m
     normals: Array  # Normals of the surface at the corners, shape (n, 3)
-    triangles: NDArray[np.int64]
-    """Numbers of corners, shape (m, 3), counterclockwise from outside."""
+    triangles: NDArray[np.int64]  # Numbers of corners, shape (m, 3), counterclockwise from outside
 
     @classmethod
     def joined(cls, surfaces: Sequence[Self]) -> Self:

@@ -23,10 +23,8 @@ from handeye.runs.snapshot import Checkpoint
 from handeye.trials.assembly import brakes_hold
 from handeye.trials.chaos.schedule import Answer, Break, Schedule
 
-POLL: Final = 0.01
-"""s between two looks at what a process has written."""
-LIMIT: Final = 300.0
-"""s after which a process is taken to hang."""
+POLL: Final = 0.01  # s between two looks at what a process has written
+LIMIT: Final = 300.0  # s after which a process is taken to hang
 
 
 class ReachedPosition(StopCondition, frozen=True, kw_only=True):
@@ -43,8 +41,7 @@ class Answers:
     """An operator who answers one thing after the other, and aborts then."""
 
     answers: Sequence[Answer]
-    before: int
-    """Answers that were given before the schedule began."""
+    before: int  # Answers that were given before the schedule began
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         """How to go on; what is refused counts as abort."""
@@ -74,9 +71,7 @@ class ScheduleRun:
     runner: Runner
     pause: Pause
     unbraked: list[str] = field(default_factory=list)
-    """Stops at which the brakes were not on."""
     lost: list[str] = field(default_factory=list)
-    """Sentences on what could not be read back from disk."""
 
 
 class ScheduleRunner:
@@ -99,19 +94,17 @@ class ScheduleRunner:
             if pause is not None and pause.kind != "panic" and not self._waits(pause):
                 break
             runner = pause = None
-            self._take_up()
+            self._folder, self._start, faults = open_again(self._place)
+            self._again = True
+            self._lost += faults
         if runner is None or pause is None:
             runner = self._runner(Button(None))
             pause = self._attended(runner, stops)
-        self._end(runner, pause)
-        return ScheduleRun(self._place, runner, pause, self._unbraked, self._lost)
-
-    def _end(self, runner: Runner, pause: Pause) -> None:
-        """Finish the run, unless it only pauses, and keep its result; photographs would cost more than the run."""
         if pause.kind != "break":
             runner.finish()
         self._folder.close()
         write_whole(self._place / RESULT, to_json(outcome(runner, pause, Meter(), judged=False)))
+        return ScheduleRun(self._place, runner, pause, self._unbraked, self._lost)
 
     def _waits(self, pause: Pause) -> bool:
         """The pause is that of an interruption, and not one at which the schedule ends."""
@@ -151,12 +144,6 @@ class ScheduleRunner:
             return [self._folder.watch(runner, self._start, again=self._again), button]
 
         return Runner(self._start, halt=button.down, observers=watch)
-
-    def _take_up(self) -> None:
-        """Take the run up from what is on disk."""
-        self._folder, self._start, faults = open_again(self._place)
-        self._again = True
-        self._lost += faults
 
 
 class Interruption(ReachedPosition, frozen=True, kw_only=True):

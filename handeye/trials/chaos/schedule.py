@@ -23,20 +23,16 @@ process killed after N events."""
 Answer = Literal["retry", "skip", "proceed", "abort"]
 Count = Annotated[int, msgspec.Meta(ge=1, le=9999)]
 
-_NEAR: Final = (1, 400)
-"""Servo periods before the panic button is hit: up to seven seconds."""
-_FEW: Final = (1, 6)
-"""Steps or events before any other interruption."""
-MOST_STEPS: Final = 24
-"""Steps of a schedule that does not go on to the end of its stage."""
+_NEAR: Final = (1, 400)  # Servo periods before the panic button is hit: up to seven seconds
+_FEW: Final = (1, 6)  # Steps or events before any other interruption
+MOST_STEPS: Final = 24  # Steps of a schedule that does not go on to the end of its stage
 
 
 class Break(Record, frozen=True, kw_only=True):
     """An interruption."""
 
     kind: BreakKind
-    after: Count
-    """Count since the run went on, in the unit of its kind."""
+    after: Count  # Count since the run went on, in the unit of its kind
 
     def __str__(self) -> str:
         return f"{self.kind}:{self.after}"
@@ -47,15 +43,11 @@ class Schedule(Record, frozen=True, kw_only=True):
 
     seed: int
     level: Level = "nominal"
-    start: Annotated[int, msgspec.Meta(ge=0)]
-    """Steps of the sound run that are done when it begins."""
-    steps: Count | None = None
-    """Most steps before it ends; None: until the end of its first stage."""
-    faults: tuple[str, ...] = ()
-    """As they would be typed."""
+    start: Annotated[int, msgspec.Meta(ge=0)]  # Steps of the sound run that are done when it begins
+    steps: Count | None = None  # Most steps before it ends; None: until the end of its first stage
+    faults: tuple[str, ...] = ()  # As they would be typed
     breaks: tuple[Break, ...] = ()
-    answers: tuple[Answer, ...] = ()
-    """Answers of the operator in order, then abort."""
+    answers: tuple[Answer, ...] = ()  # Answers of the operator in order, then abort
 
     def __str__(self) -> str:
         words = {
@@ -77,11 +69,7 @@ class Schedule(Record, frozen=True, kw_only=True):
                 yield msgspec.structs.replace(self, **{name: (*things[:number], *things[number + 1 :])})
 
     def given(self, catalogue: Catalogue) -> tuple[Fault, ...]:
-        """Its faults.
-
-        Raises:
-            InvalidInput: one cannot be had, or not in mid-work.
-        """
+        """Its faults; raises InvalidInput if one is unknown, or sets in with no stage."""
         found = faults(catalogue, self.faults, by_number)
         for fault in found:
             if fault.stage is None:
@@ -90,11 +78,7 @@ class Schedule(Record, frozen=True, kw_only=True):
 
 
 def parse_schedule(text: str) -> Schedule:
-    """The schedule that a text tells.
-
-    Raises:
-        InvalidInput: it tells none.
-    """
+    """The schedule that a text tells; raises InvalidInput if it tells none."""
     words = dict(re.findall(r"(\w+)=(\S+)", text))
     known = {*Schedule.__struct_fields__}
     if (
@@ -128,13 +112,7 @@ def draw(
     number: int, seed: int, worlds: Sequence[tuple[int, Level]], starts: Sequence[Sequence[int]], catalogue: Catalogue,
     stage_of: Sequence[Sequence[int]],
 ) -> Schedule:  # fmt: skip
-    """The schedule of a number among those of a seed.
-
-    Args:
-        worlds: seeds and levels to choose from.
-        starts: of each world the steps done where a schedule can begin.
-        stage_of: of each world the numbers of the stages that these begin in.
-    """
+    """The schedule of a number among those of a seed; `starts` and `stage_of` are those of each world."""
     chance = random.Random(f"{seed} {number}")  # noqa: S311 - choices, not secrets
     which = chance.randrange(len(worlds))
     place = chance.randrange(len(starts[which]))

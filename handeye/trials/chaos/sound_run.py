@@ -19,12 +19,9 @@ from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import listing_of
 from handeye.tasks import task
 
-EVERY: Final = 3
-"""Steps from one checkpoint to the next."""
-NEAR_END: Final = 36
-"""Steps before the end of a program of one stage where no schedule begins any more."""
-_WHOLE: Final = "whole"
-"""A file that says that the run was carried out to its end."""
+EVERY: Final = 3  # Steps from one checkpoint to the next
+NEAR_END: Final = 36  # Steps before the end of a program of one stage where no schedule begins any more
+_WHOLE: Final = "whole"  # A file that says that the run was carried out to its end
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,17 +30,11 @@ class SoundRun:
 
     world: WorldSpec
     store: CheckpointStore
-    starts: tuple[int, ...]
-    """Steps done where a schedule can begin."""
-    stages: tuple[int, ...]
-    """Numbers, from 1, of the stages that these begin in."""
+    starts: tuple[int, ...]  # Steps done where a schedule can begin
+    stages: tuple[int, ...]  # Numbers, from 1, of the stages that these begin in
 
     def at(self, position: int) -> Checkpoint:
-        """The state at or before a number of steps.
-
-        Raises:
-            InvalidInput: there is none.
-        """
+        """The state at or before a number of steps; raises InvalidInput if there is none."""
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
             raise Refused(f"a schedule cannot begin with {position} steps done: there is no such state")
@@ -51,17 +42,17 @@ class SoundRun:
 
 
 def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
-    """The sound run of a world, set up as another run but for that, and carried out now unless the folder has it.
-
-    Raises:
-        InvalidInput: the folder holds something else, or cannot be written to.
-    """
+    """The sound run of a world, carried out now unless the folder has it; raises InvalidInput for a wrong folder."""
     store = CheckpointStore(folder / f"{world.seed}-{world.level}")
     setup = msgspec.structs.replace(of, world=world)
     store.check(setup)
     if not (store.folder / _WHOLE).exists():
         store.folder.mkdir(parents=True, exist_ok=True)
-        _carry_out(store, setup)
+        runner = Runner(Checkpoint(setup=setup))
+        while not runner.ended:
+            if runner.position % EVERY == 0 or runner.between_stages:
+                store.save(runner.checkpoint())
+            runner.step()
         write_whole(store.folder / _WHOLE, b"")
     begun = sorted(_begun(store, listing_of(setup).stages))
     return SoundRun(
@@ -84,20 +75,8 @@ def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int,
             yield head.position, stages.index(head.stage) + 1
 
 
-def _carry_out(store: CheckpointStore, setup: Setup) -> None:
-    runner = Runner(Checkpoint(setup=setup))
-    while not runner.ended:
-        if runner.position % EVERY == 0 or runner.between_stages:
-            store.save(runner.checkpoint())
-        runner.step()
-
-
 def with_faults(start: Checkpoint, faults: Sequence[Fault]) -> Checkpoint:
-    """A state of a sound run as that of a run with faults which have not set in: until then both are the same.
-
-    Raises:
-        InvalidInput: the faults cannot be had.
-    """
+    """A state of a sound run as that of one with faults that have yet to set in; raises InvalidInput."""
     if not faults:
         return start
     snapshot, world = start.snapshot, msgspec.structs.replace(start.setup.world, faults=tuple(faults))

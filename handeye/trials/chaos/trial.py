@@ -1,21 +1,88 @@
-"""One schedule tried: carried out with its interruptions and without, and what of it is broken."""
+"""One schedule tried, with its interruptions and without, and the invariants that do not hold after it."""
 
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
+import msgspec
+
+from handeye.core.errors import InvalidInput
 from handeye.core.record import Record
+from handeye.judge.finding import Findings
 from handeye.program.events import OperatorAnswered, StageFinished
 from handeye.results.judging import findings_so_far
+from handeye.results.result import Result
 from handeye.runs.advance import StopCondition, advance
+from handeye.runs.checkpoint_store import CheckpointStore
+from handeye.runs.folder import CHECKPOINTS, EVENTS, RESULT, TRACE
 from handeye.runs.runner import Runner
-from handeye.runs.snapshot import Checkpoint
+from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.runs.systems import listing_of
 from handeye.tasks import any_task
+from handeye.trace.eventlist import effective, read_events
+from handeye.trace.reading import read_trace
 from handeye.trials.chaos.carrying_out import ReachedPosition, ScheduleRun, ScheduleRunner
-from handeye.trials.chaos.invariants import after_resuming, in_trace, on_disk, wrong
 from handeye.trials.chaos.schedule import MOST_STEPS, Schedule
 from handeye.trials.chaos.sound_run import SoundRun, with_faults
+
+
+def on_disk(carried: ScheduleRun) -> Iterator[str]:
+    """Sentences on what is lost or unsound on disk."""
+    yield from carried.lost
+    yield from CheckpointStore(carried.folder / CHECKPOINTS).damaged()
+    try:
+        if list(effective(read_events(carried.folder / EVENTS))) != carried.runner.events:
+            yield "the event list is not what happened"
+        msgspec.json.decode((carried.folder / RESULT).read_bytes(), type=Result)
+    except (InvalidInput, OSError, msgspec.DecodeError) as fault:
+        yield str(fault)
+
+
+def in_trace(carried: ScheduleRun) -> Iterator[str]:
+    """Sentences on what is unsound in the trace."""
+    try:
+        trace = read_trace(carried.folder / TRACE)
+    except InvalidInput as fault:
+        yield str(fault)
+        return
+    if list(trace.events) != carried.runner.events:
+        yield "the trace does not tell what happened"
+    if trace.head.world != carried.runner.setup.world:
+        yield "the trace is of another world"
+
+
+def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]:
+    """Differences of a run that was interrupted from the same without interruptions, a sentence each."""
+    if carried.runner.events != unbroken.runner.events:
+        yield "other events than without interruptions"
+    if _bytes(carried.folder) != _bytes(unbroken.folder):
+        yield "another trace than without interruptions"
+    if _plain(carried.runner.history[-1]) != _plain(unbroken.runner.history[-1]):
+        yield "another state than without interruptions"
+    if carried.pause != unbroken.pause and carried.pause.kind != unbroken.pause.kind:
+        yield f"it ended with {carried.pause.kind}, and without interruptions with {unbroken.pause.kind}"
+
+
+def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
+    """Findings that fail although they hold once `done` stages are: all after the last, some by `holds_from` before."""
+    return [
+        f"{name}: {finding.subject} {finding.value:.3g} {finding.unit}"
+        for name, finding in findings.items()
+        if not finding.ok
+        and not finding.caution
+        and done >= next((stage for words, stage in holds_from.items() if name.startswith(words)), stages)
+    ]
+
+
+def _bytes(folder: Path) -> bytes:
+    return (folder / TRACE).read_bytes()
+
+
+def _plain(snapshot: Snapshot) -> bytes:
+    return msgspec.msgpack.encode(
+        (snapshot.position, snapshot.happened, snapshot.cell, snapshot.state),
+        enc_hook=lambda array: array.tobytes(),
+    )
 
 
 class EndOfStage(StopCondition, frozen=True, kw_only=True):
@@ -32,7 +99,6 @@ class Violation(Record, frozen=True):
 
     invariant: str
     what: str
-    """What was violated, a sentence."""
 
     def __str__(self) -> str:
         return f"{self.invariant}: {self.what}"
@@ -42,10 +108,8 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
     """Result of a schedule."""
 
     schedule: str
-    ended: str
-    """The kind of its last pause; `error`: it raised what nothing should."""
+    ended: str  # The kind of its last pause; `error`: it raised what nothing should
     broken: tuple[Violation, ...]
-    """None if all is well."""
 
     @property
     def names(self) -> frozenset[str]:
@@ -54,11 +118,7 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
 
 
 def try_schedule(schedule: Schedule, sound: SoundRun) -> ScheduleResult:
-    """Carry a schedule out, and check what must hold.
-
-    Raises:
-        InvalidInput: it cannot be carried out: there is no such fault, or no such state to begin with.
-    """
+    """Carry a schedule out, and check what must hold; raises InvalidInput for an unknown fault or start."""
     begun = sound.at(schedule.start)
     start = with_faults(begun, schedule.given(any_task(begun.setup.task).faults(schedule.seed)))
     ended, broken = "error", list[Violation]()

@@ -21,8 +21,7 @@ LEVELS: Final[tuple[Level, ...]] = ("nominal", "low", "high")
 class ChaosRow(TrialRow, frozen=True, kw_only=True):
     """One schedule, which is the condition, tried."""
 
-    drawn: ScheduleResult | None = None
-    """Its result; None: it broke off."""
+    drawn: ScheduleResult | None = None  # Its result; None: it broke off
     shrunk: ScheduleResult | None = None
     """The same with the fewest things with which it still fails; None: it does not fail."""
 
@@ -39,8 +38,7 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 class ChaosWork:
     """Tries schedules on the sound runs of a folder."""
 
-    setup: Setup
-    """What the runs are but for their worlds."""
+    setup: Setup  # What the runs are but for their worlds
     folder: Path
 
     def __call__(self, case: Case) -> list[ChaosRow]:
@@ -108,4 +106,3 @@ CHAOS: Final = Sweep(
     sentence=_sentence,
     more=_more,
 )
-"""Schedules of faults, interruptions and answers."""

@@ -11,8 +11,7 @@ from handeye.trials.plans.row import Row
 from handeye.trials.rates import rate
 from handeye.trials.sweep import Details
 
-ALIKE: Final = 1e-3
-"""Part of their mean by which margins may vary and still count as equal."""
+ALIKE: Final = 1e-3  # Part of their mean by which margins may vary and still count as equal
 
 
 class StageTime(Record, frozen=True, kw_only=True):
@@ -30,8 +29,7 @@ class SearchPlaces(Record, frozen=True, kw_only=True):
 
     at: str
     n: int
-    found: int
-    """How many did not end in vain."""
+    found: int  # How many did not end in vain
     median: float
     p95: float
     most: int
@@ -45,8 +43,7 @@ class Margin(Record, frozen=True, kw_only=True):
     n: int
     median: float
     p5: float
-    worst: float
-    """Negative: beyond the limit."""
+    worst: float  # Negative: beyond the limit
     worst_seed: int
     deviations: float | None
     """Mean margin in standard deviations: the finding with the fewest is the next to fail. None: they hardly vary."""
@@ -58,12 +55,10 @@ class OperationRate(Record, frozen=True, kw_only=True):
     operation: str
     successes: int
     trials: int
-    low_share: float | None
-    """Wilson's interval, 95 %."""
+    low_share: float | None  # Wilson's interval, 95 %
     rate_share: float | None
     high_share: float | None
-    at_least_share: float | None
-    """Exact lower bound, 95 %."""
+    at_least_share: float | None  # Exact lower bound, 95 %
 
 
 def operations(rows: Sequence[Row]) -> Iterator[OperationRate]:

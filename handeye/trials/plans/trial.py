@@ -1,4 +1,4 @@
-"""One trial of a planned program, from a seed to the row that is kept of it."""
+"""One trial of a planned program, or of taking apart what it built, from a seed to the row that is kept of it."""
 
 import hashlib
 import time
@@ -10,25 +10,28 @@ import msgspec
 
 from handeye.core.host_time import HostTimer
 from handeye.core.variation import WorldSpec
+from handeye.judge.finding import all_right
 from handeye.planfile.plan import Plan
-from handeye.program.events import AnyEvent, StepStarted, to_line
+from handeye.program.events import AnyEvent, StepStarted, UndoFinished, to_line
 from handeye.program.senses import Sense
+from handeye.results.finishing import finished
+from handeye.results.judging import findings
+from handeye.runs.advance import AfterStage, advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.operator import NOBODY, parse_policy
 from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
 from handeye.tasks import task
 from handeye.trials.assembly import FinishedRun, run_plan
 from handeye.trials.folder import Head, head_of
-from handeye.trials.plans.contacts import contacts, searches
-from handeye.trials.plans.distributions import details
-from handeye.trials.plans.row import OUTCOMES, Row
+from handeye.trials.plans.distributions import details, margin_details
+from handeye.trials.plans.row import APART, OUTCOMES, Row, contacts, searches
 from handeye.trials.sweep import Case, Ended, Sweep
 
-SIMULATED_LIMIT_S: Final = 3600.0
-"""Of the cell's clock: five times what a whole pump takes."""
-WALL_LIMIT_S: Final = 1800.0
-"""Of the host's: thirty times what a whole pump takes."""
+SIMULATED_LIMIT_S: Final = 3600.0  # Of the cell's clock: five times what a whole pump takes
+WALL_LIMIT_S: Final = 1800.0  # Of the host's: thirty times what a whole pump takes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,11 +39,9 @@ class Trial:
     """Carries out trials of one plan."""
 
     plan: Plan
-    world: WorldSpec
-    """What the worlds are but for their seeds."""
+    world: WorldSpec  # What the worlds are but for their seeds
     camera: str = "auto"
     without: tuple[Sense, ...] = ()
-    """Senses that the program does without."""
     on_stop: str = "abort"
     """How calls of the operator are answered: a policy, as `parse_policy` knows it, that asks nobody."""
     simulated_limit_s: float = SIMULATED_LIMIT_S
@@ -153,3 +154,40 @@ ASSEMBLY: Final = Sweep(
     details=details,
 )
 """Programs carried out and judged."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DismantlingTrial(Trial):
+    """Builds by a plan, has the arm undo all of it, and asks the referee whether everything is where it was."""
+
+    to: str = ""  # The stage behind which it begins to undo; empty: the program comes to its end
+
+    @property
+    def settings(self) -> dict[str, str]:
+        return {"stage to undo from": self.to}
+
+    def _facts(self, world: WorldSpec, timer: HostTimer, watch: Watch) -> dict[str, object]:
+        setup = Setup(plan=self.plan, world=world, camera=self.camera, without=self.without, judged=True)
+        runner = Runner(Checkpoint(setup=setup), observers=watch.looking_on, halt=watch.over)
+        stages = self.plan.program.stages
+        stops = [AfterStage(stage=stages.index(self.to), name=self.to)] if self.to else []
+        pause = advance(runner, stops)
+        built = pause.kind == "break" or (pause.kind == "end" and all_right(findings(runner, pause)))
+        if built:
+            runner.order_reversal(0, halts=True)
+            pause = advance(runner)
+        done = FinishedRun(result=finished(runner, pause, Meter(timer=timer), judged=True), runner=runner)
+        ended = "not built" if not built and watch.ended == "ended" else watch.ended
+        met = [event.force for event in runner.events if isinstance(event, UndoFinished)]
+        return facts(done, ended) | {"force": max(met, default=None)}
+
+
+DISMANTLING: Final = Sweep(
+    kind="dismantling",
+    row=Row,
+    outcomes=APART,
+    success="apart",
+    narrated=True,
+    details=lambda rows: (margin_details([row for row in rows if row.verdict != "not built"]),),
+)
+"""Programs carried out and undone by the arm."""
