@@ -22,23 +22,15 @@ class Diagnostic:
     ('unknown-instruction', 1, 'did you mean `OPEN`?')
     """
 
-    code: str
-    """Its kind, as `handeye explain` takes it."""
-    severity: Severity
-    """`error` or `warning`."""
+    code: str  # its kind, as `handeye explain` takes it
+    severity: Severity  # `error` or `warning`
     message: str
-    file: str
-    """Name of the text it is in: the script, or a file that it requires."""
-    line: int
-    """From 1."""
-    column: int
-    """First character, from 1."""
-    end: int
-    """Character behind the last one."""
-    help: str | None
-    """What to do about it."""
-    shown: str = field(repr=False)
-    """All of it, with the line of the text."""
+    file: str  # name of the text it is in: the script, or a file that it requires
+    line: int  # from 1
+    column: int  # first character, from 1
+    end: int  # character behind the last one
+    help: str | None  # what to do about it
+    shown: str = field(repr=False)  # all of it, with the line of the text
 
     def __str__(self) -> str:
         return self.shown
@@ -72,8 +64,7 @@ class ScriptError(InvalidInput):
     1 position `NOWHERE` is neither taught nor defined by `TRANS`
     """
 
-    diagnostics: tuple[Diagnostic, ...]
-    """Errors and warnings, in the order of the text."""
+    diagnostics: tuple[Diagnostic, ...]  # errors and warnings, in the order of the text
 
     def __init__(self, found: Iterable[Diagnostic]) -> None:
         self.diagnostics = tuple(found)

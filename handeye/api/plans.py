@@ -30,10 +30,8 @@ from handeye.runs.scripts import plan_script, plan_text, program_named
 class FlowDrawing:
     """The steps of a plan, and the ways from one to the next, by themselves or on an error. Notebooks show it."""
 
-    svg: str
-    """The drawing, as `handeye inspect --graph svg` writes it."""
-    about: str
-    """What it shows, in words."""
+    svg: str  # the drawing, as `handeye inspect --graph svg` writes it
+    about: str  # what it shows, in words
 
     def __repr__(self) -> str:
         return f"<FlowDrawing {self.about}>"
@@ -84,8 +82,7 @@ class Plan:
     ('a hand', ['OPEN 1', 'OPEN 2'])
     """
 
-    record: planfile.Plan
-    """All of it, as it is on disk, in SI units."""
+    record: planfile.Plan  # all of it, as it is on disk, in SI units
     diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
     """Warnings about the script it was made from; none if it was read from a file of plans."""
 
@@ -159,8 +156,7 @@ class Plan:
         return plan_page(self._laid_open, self.diagnostics, self.flow() if small else None)
 
 
-Planned = Plan | planfile.Plan
-"""A plan, or its record."""
+Planned = Plan | planfile.Plan  # a plan, or its record
 
 
 def plan(script: FileName | Planned, *, taught: FileName | None = None, task: str | None = None) -> Plan:

@@ -54,8 +54,7 @@ class RunEnding:
     folder: RunFolder | None
     judged: bool
     referee: Referee | None
-    meter: Meter
-    """Measures what the run costs this computer."""
+    meter: Meter  # measures what the run costs this computer
 
 
 class Run:

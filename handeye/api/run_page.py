@@ -14,8 +14,7 @@ _INKS: Final = {
     "skipped": "doubtful",
     "stopped": "bad",
     "not reached": "quiet",
-}
-"""Colours of the states of a stage."""
+}  # colours of the states of a stage
 
 
 def run_page(result: Result, state: State, name: str | None, webp: bytes | None) -> str:

@@ -38,8 +38,7 @@ class RunRequest:
     task: str | None
     judged: bool
     limits: dict[str, float] | None
-    replaced: dict[str, str]
-    """Parts of the caller's own, with the names of their code."""
+    replaced: dict[str, str]  # parts of the caller's own, with the names of their code
 
     @property
     def of_task(self) -> str | None:
@@ -67,8 +66,7 @@ class Start:
 
     state: Checkpoint
     folder: RunFolder | None = None
-    planning_cpu_s: float = 0.0
-    """Seconds of this computer's processor for the planning phase."""
+    planning_cpu_s: float = 0.0  # seconds of this computer's processor for the planning phase
 
 
 def start_of(

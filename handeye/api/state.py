@@ -17,15 +17,11 @@ from handeye.runs.runner import Runner
 class Memory:
     """What the program remembers; differences and places are of the frame W."""
 
-    error: int | None
-    """The error that was raised and that the next step may test."""
-    saved: Mapping[str, Array]
-    """Differences that `SAVE` saved, shape (3,), m."""
+    error: int | None  # the error that was raised and that the next step may test
+    saved: Mapping[str, Array]  # differences that `SAVE` saved, shape (3,), m
     counters: Mapping[str, int]
-    parts: Mapping[str, Pose]
-    """Where parts were measured: X_WP, shape (4, 4), m."""
-    place: int | None
-    """Number of the place that a search has come to, from 0; None if none is under way."""
+    parts: Mapping[str, Pose]  # where parts were measured: X_WP, shape (4, 4), m
+    place: int | None  # number of the place that a search has come to, from 0; None if none is under way
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Memory) and _same(_values(self), _values(other))
@@ -42,29 +38,20 @@ class State:
     ((6,), 1.0)
     """
 
-    position: int
-    """Steps done since the run began."""
-    time: float
-    """Simulated seconds since the run began; the camera was calibrated before."""
-    stage: str | None
-    """The stage under way, or the one about to begin; None after the last."""
-    step: int | None
-    """Number of the step that comes next; None if the run cannot go on by itself."""
-    file: str
-    """The required file that its line is in; empty: the script itself."""
+    position: int  # steps done since the run began
+    time: float  # simulated seconds since the run began; the camera was calibrated before
+    stage: str | None  # the stage under way, or the one about to begin; None after the last
+    step: int | None  # number of the step that comes next; None if the run cannot go on by itself
+    file: str  # the required file that its line is in; empty: the script itself
     line: int | None
-    text: str | None
-    """Its statement, without the `STOP` or what else modifies it."""
-    why: str
-    """Why the run pauses, in words."""
+    text: str | None  # its statement, without the `STOP` or what else modifies it
+    why: str  # why the run pauses, in words
     joints: Array
     """Joint positions, shape (n,), rad, and m for joints that slide (joint 3 of the Stanford arm)."""
-    gap: float
-    """Between the fingers, m."""
+    gap: float  # between the fingers, m
     hand: Pose
     """X_WT, shape (4, 4), m: midway between the finger tips, z along the approach, y along the finger line."""
-    force: Array
-    """Force that the hand exerts on the world, as it was last estimated, in W, shape (3,), N."""
+    force: Array  # force that the hand exerts on the world, as it was last estimated, in W, shape (3,), N
     memory: Memory
 
     def __eq__(self, other: object) -> bool:

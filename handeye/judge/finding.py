@@ -17,16 +17,12 @@ class Finding:
     """
 
     ok: bool
-    subject: str
-    """The quantity that was measured."""
-    value: float
-    """In `unit`, as `limit`."""
-    relation: Relation
-    """How the value must stand to its limit; it may reach it."""
+    subject: str  # the quantity that was measured
+    value: float  # in `unit`, as `limit`
+    relation: Relation  # how the value must stand to its limit; it may reach it
     limit: float
     unit: str
-    caution: bool = False
-    """If it is not `ok`, people are told, and the work may be right all the same."""
+    caution: bool = False  # if it is not `ok`, people are told, and the work may be right all the same
 
     @property
     def refuses(self) -> bool:

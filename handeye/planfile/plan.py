@@ -8,11 +8,9 @@ from typing import Final
 from handeye.core.record import Record
 from handeye.program.program import Program
 
-VERSION: Final = 3
-"""Version of the format on disk."""
+VERSION: Final = 3  # version of the format on disk
 
-Joints = tuple[float, ...]
-"""One for each joint of the arm, rad or m."""
+Joints = tuple[float, ...]  # one for each joint of the arm, rad or m
 
 
 class PlannedMotion(Record, frozen=True, kw_only=True):
@@ -20,8 +18,7 @@ class PlannedMotion(Record, frozen=True, kw_only=True):
 
     knots: tuple[Joints, ...]
     """Start, lift-off, what it passes, set-down and goal of a Move; start and goal of a straight motion or an arc."""
-    times: tuple[float, ...]
-    """Duration of each segment between knots, s."""
+    times: tuple[float, ...]  # duration of each segment between knots, s
 
 
 class Plan(Record, frozen=True, kw_only=True):
@@ -29,17 +26,12 @@ class Plan(Record, frozen=True, kw_only=True):
 
     format: str = "handeye plan"
     version: int = VERSION
-    task: str
-    """Name of the task whose arm and cell it is for."""
-    arm: str
-    """Name of the arm model."""
-    arm_digest: str
-    """Digest of the arm model's figures: a plan is not run on an arm it was not made for."""
-    speed: float
-    """Speed of free motions as a share of the arm's limits."""
+    task: str  # name of the task whose arm and cell it is for
+    arm: str  # name of the arm model
+    arm_digest: str  # digest of the arm model's figures: a plan is not run on an arm it was not made for
+    speed: float  # speed of free motions as a share of the arm's limits
     program: Program
-    motions: dict[int, PlannedMotion]
-    """Planned motion of each step that moves the arm, by step number."""
+    motions: dict[int, PlannedMotion]  # planned motion of each step that moves the arm, by step number
 
     @property
     def joint_counts(self) -> tuple[int, ...]:

@@ -145,5 +145,4 @@ STANFORD: Final = ArmModel(
     hand=_HAND,
     servo=_SERVO,
     compliance=_COMPLIANCE,
-)
-"""The arm of the pump assembly."""
+)  # the arm of the pump assembly
