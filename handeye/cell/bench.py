@@ -94,7 +94,8 @@ class Bench(Clock, Mechanism[BenchTime]):
     def advance(self, seconds: float) -> None:
         end = self._steps + whole_steps(seconds, float(self.tick))
         while True:
-            self._handle_due()
+            while self._due and self._begins(self._due[0]) <= self._steps:
+                self.handlers[self._due.pop(0).name]()
             if self._steps == end:
                 return
             self._pass(min([end, *(self._begins(due) for due in self._due[:1])]) - self._steps)
@@ -109,10 +110,6 @@ class Bench(Clock, Mechanism[BenchTime]):
     def _begins(self, due: Due) -> int:
         """The number of the physics step before which an event is handled."""
         return -int(-Fraction(due.microseconds, MICROSECONDS) // self.tick)
-
-    def _handle_due(self) -> None:
-        while self._due and self._begins(self._due[0]) <= self._steps:
-            self.handlers[self._due.pop(0).name]()
 
     def _pass(self, most: int) -> None:
         """Let at most `most` physics steps pass: a stretch of them, or all of them if everything sleeps."""

@@ -218,8 +218,6 @@ class BenchAxes(Axes, Mechanism[AxesState]):
 
 
 class OutputsState(Record, frozen=True, kw_only=True):
-    """State of outputs."""
-
     values: dict[str, float]
 
 

@@ -106,14 +106,13 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
 
     def digitise(self, *, hold_target: bool = False) -> Picture:
         view = self.true_view()
-        light = self._raster.read(self._renderer.render(self._data, view), self._drifted())
-        disc = blur_disc(self._lens, self._focus, self._sight(view))
+        drift = self._rng.normal(0.0, self._drift, 2) * HALF if self._drift else np.zeros(2)
+        light = self._raster.read(self._renderer.render(self._data, view), drift)
+        X_WC = view.X_WC
+        geom, distance, _ = cast(self._data.model, self._data, X_WC[:3, 3], X_WC[None, :3, 2])
+        disc = blur_disc(self._lens, self._focus, float(distance[0]) if geom[0] >= 0 else 1e3)
         picture = self._vidicon.expose(light, disc=disc, hold_target=hold_target)
         return self._lines.carried_picture(picture)
-
-    def _drifted(self) -> Array:
-        """Where the next picture lies, points: nothing moves between two pictures but this."""
-        return np.asarray(self._rng.normal(0.0, self._drift, 2) * HALF) if self._drift else np.zeros(2)
 
     @property
     def renderer(self) -> Renderer:
@@ -132,8 +131,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
     def check(self, state: CameraState) -> None:
         check_noise(state.noise)
         self._model.lens(state.lens)
-        numbers = (*state.pots, *state.stand, state.focus or 0.0, state.gain or 0.0)
-        finite(numbers, "the camera")
+        finite((*state.pots, *state.stand, state.focus or 0.0, state.gain or 0.0), "the camera")
 
     def restore(self, state: CameraState) -> None:
         set_noise(self._rng, state.noise)
@@ -154,12 +152,6 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
     def shown(self, points_W: Array) -> Array:
         """True picture points, shape (n, 2), of points, shape (n, 3), m, but for the drift. For referee and tests."""
         return self._raster.shown(self.true_view().project(points_W))
-
-    def _sight(self, view: View) -> float:
-        """Distance along the line of sight of what is in the middle of the picture, m."""
-        X_WC = view.X_WC
-        geom, distance, _ = cast(self._data.model, self._data, X_WC[:3, 3], X_WC[None, :3, 2])
-        return float(distance[0]) if geom[0] >= 0 else 1e3
 
 
 def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:

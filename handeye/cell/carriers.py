@@ -78,7 +78,9 @@ class Carriers:
         axis = X_BS[:3, 2]
         along = float(axis @ (X_BS[:3, 3] - self.mouths[hole]))
         model.body_pos[self._body[hole]] = X_BS[:3, 3] - along * axis
-        model.body_quat[self._body[hole]] = _upright_to(axis)
+        x, y, z = axis
+        turn = np.array([1.0 + z, -y, x, 0.0])  # the shortest of z to the axis, a quaternion
+        model.body_quat[self._body[hole]] = turn / np.linalg.norm(turn)
         self._move(hole, along, rate)
         self._show(hole, there=True)
 
@@ -118,13 +120,6 @@ class Carriers:
         contype, conaffinity = self._bits[hole] if there else (0, 0)
         model.geom_contype[solid], model.geom_conaffinity[solid] = contype, conaffinity
         model.geom_group[self._looks[hole]] = SEEN if there else LATENT
-
-
-def _upright_to(axis: Array) -> Array:
-    """Quaternion of the shortest turn of z to an axis."""
-    x, y, z = axis
-    turn = np.array([1.0 + z, -y, x, 0.0])
-    return np.asarray(turn / np.linalg.norm(turn))
 
 
 def _helix(model: mujoco.MjModel, slide: int, turn: int) -> int:

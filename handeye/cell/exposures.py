@@ -153,10 +153,7 @@ def photographed(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int, how: Exposing | None,
     told: Told = lambda number, of: None,
 ) -> Photograph:  # fmt: skip
-    """A photograph by a camera of the scene: a fine one, or a plain one.
-
-    Raises InvalidInput if there is no such camera, size or OpenGL.
-    """
+    """A fine photograph by a camera of the scene, or a plain one; raises as `fine_photograph`."""
     if how is None:
         return smooth_photograph(model, data, camera=camera, width=width, height=height)
     return fine_photograph(model, data, view=camera, width=width, height=height, how=how, told=told)
@@ -186,15 +183,12 @@ def fine_photograph(
 
 
 def _exposures(number: int) -> Iterator[_Exposure]:
-    """So many exposures, always the same, spread evenly over lens, lamp, sky and point, and each in another order."""
-    disc, order = _spiral(number), np.random.default_rng(_SEED)
-    lamps, skies = disc[order.permutation(number)], disc[order.permutation(number)]
-    for k, (lens, lamp, sky) in enumerate(zip(disc, lamps, skies, strict=True)):
-        yield _Exposure(lens=lens, lamp=lamp, sky=sky, shift=k * _PLASTIC % 1 - 0.5)
-
-
-def _spiral(number: int) -> Array:
-    """Points spread evenly over the unit disc, shape (n, 2)."""
-    k = np.arange(number)
+    """Exposures, always the same, spread evenly over lens, lamp, sky and point, and each in another order."""
+    k, order = np.arange(number), np.random.default_rng(_SEED)
     radius, angle = np.sqrt((k + 0.5) / number), _TURN * k
-    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle)])
+    disc = np.column_stack(
+        [radius * np.cos(angle), radius * np.sin(angle)]
+    )  # spread evenly over the unit disc
+    lamps, skies = disc[order.permutation(number)], disc[order.permutation(number)]
+    for at, (lens, lamp, sky) in enumerate(zip(disc, lamps, skies, strict=True)):
+        yield _Exposure(lens=lens, lamp=lamp, sky=sky, shift=at * _PLASTIC % 1 - 0.5)

@@ -83,20 +83,9 @@ class FilmStock:
 
     def develop(self, light: Array) -> NDArray[np.uint8]:
         """The photograph that light (1: white), shape (height, width, 3), makes."""
-        values = self.developed(light * _falloff(*light.shape[:2])[..., None])
+        y, x = (np.linspace(-1, 1, side) for side in light.shape[:2])
+        values = self.developed(light * (1 - _VIGNETTE * np.add.outer(y**2, x**2))[..., None])
         return np.asarray(np.rint(255 * np.clip(values, 0, 1)), dtype=np.uint8)
-
-
-def _falloff(height: int, width: int) -> Array:
-    """Share of the light that passes a lens to each point, shape (height, width)."""
-    y, x = np.linspace(-1, 1, height), np.linspace(-1, 1, width)
-    return np.asarray(1 - _VIGNETTE * np.add.outer(y**2, x**2))
-
-
-def _shoulder(light: Array, gain: float) -> Array:
-    """Light that is not cut off where it is much, but pressed together."""
-    bright = gain * light
-    return np.asarray(1.28 * bright * (1 + bright / 9) / (1 + bright))
 
 
 def _contrast(values: Array, share: float) -> Array:
@@ -105,11 +94,9 @@ def _contrast(values: Array, share: float) -> Array:
 
 
 def _on_screen(light: Array, gain: float) -> Array:
-    return np.asarray(np.clip(_shoulder(light, gain), 0, 1) ** (1 / GAMMA))
-
-
-def _colour(light: Array) -> Array:
-    return _contrast(_on_screen(light, 3.1), 0.35)
+    """Light is not cut off where it is much, but pressed together."""
+    bright = gain * light
+    return np.asarray(np.clip(1.28 * bright * (1 + bright / 9) / (1 + bright), 0, 1) ** (1 / GAMMA))
 
 
 def _black_and_white(light: Array) -> Array:
@@ -138,7 +125,7 @@ FILMS: Final[Mapping[str, FilmStock]] = {
             lamp=(0.76, 0.69, 0.59), gloss=0.55, sky=(0.44, 0.47, 0.52), everywhere=(0.29, 0.295, 0.31),
             stand=(0.9, -0.95, 0.9), radius=0.12,
         ),
-        developed=_colour,
+        developed=lambda light: _contrast(_on_screen(light, 3.1), 0.35),
     ),
     "1973": FilmStock(
         lighting=Lighting(

@@ -14,7 +14,7 @@ from trimesh.visual.material import PBRMaterial
 
 from handeye.cell.keyframe import body_pose
 from handeye.cell.solids import Solid, SolidScene
-from handeye.core.pose import Array, Pose, inverse, pose
+from handeye.core.pose import Array, inverse, pose
 
 FRAME: Final = "scene"  # the node of the world frame, z up
 _OUTSIDE: Final = "world"  # name of a file's frame in trimesh
@@ -33,8 +33,12 @@ def glb(scene: SolidScene, told: Mapping[str, str]) -> bytes:
         node = _node(tree, body, data, scene.bodies)
         for solid in solids:
             _hang(tree, node, name, solid)
+        around = pose(np.eye(3), np.zeros(3)) if node == FRAME else body_pose(data, node)
         for site in body.sites:
-            _mark(tree, node, data, site.name)
+            if site.name not in tree.graph.nodes:  # else a body has its name
+                place = data.site(site.name)
+                X_WP = pose(place.xmat.reshape(3, 3).copy(), place.xpos.copy())
+                tree.graph.update(frame_from=node, frame_to=site.name, matrix=inverse(around) @ X_WP)
     file = tree.export(file_type="glb")
     assert isinstance(file, bytes)
     return file
@@ -62,19 +66,6 @@ def _hang(tree: trimesh.Scene, node: str, body: str, solid: Solid) -> None:
         shape.visual = _looks(shape, solid.colours)
         tree.geometry[geometry] = shape
     tree.graph.update(frame_from=node, frame_to=name, matrix=solid.X_BS, geometry=geometry)
-
-
-def _mark(tree: trimesh.Scene, node: str, data: mujoco.MjData, name: str) -> None:
-    """A node without a shape where a site is, unless a body has its name."""
-    if name not in tree.graph.nodes:
-        X_WP = _there(data, name)
-        there = pose(np.eye(3), np.zeros(3)) if node == FRAME else body_pose(data, node)
-        tree.graph.update(frame_from=node, frame_to=name, matrix=inverse(there) @ X_WP)
-
-
-def _there(data: mujoco.MjData, site: str) -> Pose:
-    found = data.site(site)
-    return pose(found.xmat.reshape(3, 3).copy(), found.xpos.copy())
 
 
 def _looks(shape: trimesh.Trimesh, colours: Array) -> ColorVisuals | TextureVisuals:

@@ -51,16 +51,13 @@ def _meshes(spec: mujoco.MjSpec) -> dict[str, bytes]:
     for mesh in spec.meshes:
         shape = mesh_of(mesh)
         mesh.uservert, mesh.userface, mesh.file = [], [], f"{MESHES}/{mesh.name}.obj"
-        files[mesh.file] = _obj(shape).encode()
+        text = shape.export(
+            file_type="obj", digits=_DIGITS, header=None,
+            include_normals=False, include_color=False, include_texture=False,
+        )  # fmt: skip
+        assert isinstance(text, str)
+        files[mesh.file] = text.encode()
     return files
-
-
-def _obj(shape: trimesh.Trimesh) -> str:
-    text = shape.export(
-        file_type="obj", digits=_DIGITS, header=None, include_normals=False, include_color=False, include_texture=False
-    )  # fmt: skip
-    assert isinstance(text, str)
-    return text
 
 
 def _textures(spec: mujoco.MjSpec) -> dict[str, bytes]:

@@ -63,7 +63,7 @@ class OpenGlRenderer(SceneRenderer):
     def _context(self) -> mujoco.MjrContext:
         """The scene as OpenGL keeps it, made for the first picture: longer work than building the cell."""
         self._gl.make_current()
-        with _replaced(self._model.vis.quality, _QUALITY):
+        with replaced(self._model.vis.quality, _QUALITY):
             made = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_100)
         mujoco.mjr_resizeOffscreen(_WIDTH, _HEIGHT, made)
         return made
@@ -72,7 +72,12 @@ class OpenGlRenderer(SceneRenderer):
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
         mujoco.mjv_updateScene(self._model, data, self._option, None, self._camera, every, self._scene)
         self._aim(view)
-        self._dull()
+        for light in self._scene.lights[
+            : self._scene.nlight
+        ]:  # no gloss, and no light that is for people's viewers
+            light.specular[:] = 0
+            if light.headlight:
+                light.diffuse[:] = 0
         context = self._context
         self._gl.make_current()
         # each time: where somebody else has drawn in between, OpenGL still draws into their picture
@@ -96,16 +101,9 @@ class OpenGlRenderer(SceneRenderer):
             eye.frustum_top = NEAR * ROWS / 2 / fy
             eye.frustum_bottom = -eye.frustum_top
 
-    def _dull(self) -> None:
-        """No gloss; and of the head light, which is for people's viewers, only the ambient part."""
-        for light in self._scene.lights[: self._scene.nlight]:
-            light.specular[:] = 0
-            if light.headlight:
-                light.diffuse[:] = 0
-
 
 @contextlib.contextmanager
-def _replaced(record: Any, values: Mapping[str, int]) -> Iterator[None]:
+def replaced(record: Any, values: Mapping[str, int]) -> Iterator[None]:
     """Other values in a record of the simulator, for a while."""
     before = {name: getattr(record, name) for name in values}
     for name, value in values.items():

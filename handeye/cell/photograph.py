@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.cell.opengl import MOST_GEOMS, context
+from handeye.cell.opengl import MOST_GEOMS, context, replaced
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.files import Kind
 
@@ -46,7 +46,8 @@ class Photographer:
         """
         _, self._gl = context()
         self._gl.make_current()
-        self._drawing = _drawing(scene, shadow, samples)
+        with replaced(scene.vis.quality, {"shadowsize": shadow, "offsamples": samples}):
+            self._drawing = mujoco.MjrContext(scene, mujoco.mjtFontScale.mjFONTSCALE_100)
         self._viewport = mujoco.MjrRect(0, 0, width, height)
         self._scene = mujoco.MjvScene(scene, maxgeom=MOST_GEOMS)
         self._option = mujoco.MjvOption()
@@ -146,14 +147,3 @@ def png(picture: Photograph) -> bytes:
     done, data = cv2.imencode(".png", picture[:, :, ::-1])
     assert done
     return data.tobytes()
-
-
-def _drawing(model: mujoco.MjModel, shadow: int, samples: int) -> mujoco.MjrContext:
-    """A drawing context with finer shadows than the television camera needs; it keeps its own settings."""
-    quality = model.vis.quality
-    before = quality.shadowsize, quality.offsamples
-    quality.shadowsize, quality.offsamples = shadow, samples
-    try:
-        return mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
-    finally:
-        quality.shadowsize, quality.offsamples = before

@@ -63,7 +63,9 @@ def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: flo
         body, pose = known[name], np.asarray(stood[name], dtype=float)
         data.xpos[body] = pose[:3]
         mujoco.mju_quat2Mat(data.xmat[body], pose[3:])
-        _show(model, body)
+        mine = model.geom_bodyid == body
+        if (model.geom_group[mine] == LATENT).any():  # the event that some shapes wait for has happened
+            model.geom_group[mine] = SEEN
     for geom, body in enumerate(model.geom_bodyid):
         R, turn = data.xmat[body].reshape(3, 3), np.empty(9)
         mujoco.mju_quat2Mat(turn, model.geom_quat[geom])
@@ -87,10 +89,3 @@ def as_it_stands(scene: mujoco.MjModel, truth: Truth) -> Posed:
     there = [body for body in range(1, model.nbody) if body not in waiting]
     poses = {model.body(body).name: (*data.xpos[body], *data.xquat[body]) for body in there}
     return posed(scene, poses, data.time)
-
-
-def _show(model: mujoco.MjModel, body: int) -> None:
-    """Show a body of which some shapes wait for an event: it has happened."""
-    mine = model.geom_bodyid == body
-    if (model.geom_group[mine] == LATENT).any():
-        model.geom_group[mine] = SEEN

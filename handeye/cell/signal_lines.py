@@ -94,18 +94,15 @@ class SignalLines(Mechanism[SignalLinesState]):
 
     def _arriving(self, line: str, values: Values) -> Values:
         for place, defect in enumerate(self.defects):
-            seconds = self._states[place].seconds
-            if defect.line == line and seconds is not None:
-                values = defect.effect.on(values, self._first(place, values), seconds)
+            state = self._states[place]
+            if defect.line == line and state.seconds is not None:
+                first = values
+                if state.first is None:
+                    self._states[place] = msgspec.structs.replace(state, first=values.tobytes())
+                else:
+                    first = np.frombuffer(state.first, values.dtype).reshape(values.shape)
+                values = defect.effect.on(values, first, state.seconds)
         return values
-
-    def _first(self, place: int, values: Values) -> Values:
-        """Values on the line of a defect when it set in."""
-        state = self._states[place]
-        if state.first is None:
-            self._states[place] = msgspec.structs.replace(state, first=values.tobytes())
-            return values
-        return np.frombuffer(state.first, values.dtype).reshape(values.shape)
 
     # -- state ----------------------------------------------------------------------------------------
 

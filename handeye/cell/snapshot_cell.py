@@ -77,7 +77,9 @@ class SnapshotCell:
         """
         try:
             self._check(state)
-            states = [self._checked(part, state) for part in self._mechanisms]
+            states = [msgspec.convert(state.mechanisms[part.name], part.kind) for part in self._mechanisms]
+            for part, own in zip(self._mechanisms, states, strict=True):
+                part.check(own)
         except (ValueError, KeyError, TypeError, OverflowError, RecursionError, InvalidInput) as error:
             raise BadFile(f"this is not a state of this work cell: {error}") from None
         model, data = self._model, self._data
@@ -107,9 +109,3 @@ class SnapshotCell:
         if set(state.mechanisms) != {part.name for part in self._mechanisms}:
             raise ValueError("it has other devices and mechanisms")
         check_noise(state.noise)
-
-    def _checked(self, part: Mechanism[Any], state: CellState) -> msgspec.Struct:
-        """The state of one mechanism. Raises what `Mechanism.check` does."""
-        own: msgspec.Struct = msgspec.convert(state.mechanisms[part.name], part.kind)
-        part.check(own)
-        return own

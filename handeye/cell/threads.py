@@ -184,7 +184,12 @@ class Threads(Mechanism[ThreadsState]):
             offsets = (self._data.xpos[body] - mouths) @ self._axes()
             k = int(np.argmin(np.hypot(offsets[:, 0], offsets[:, 1])))
             if self.holes[k].screw is None and self._bites(j, k, offsets[k], seconds):
-                self.take(j, k, self._from_bit(j))
+                head = self._model.geom(f"screw_head{j}").id
+                depth = mujoco.mj_geomDistance(self._model, self._data, self._bit, head, 0.0, None)
+                X_WS = self._pose(
+                    j
+                )  # out of the bit: a carrier does not give way, and would throw the driver off
+                self.take(j, k, translated(X_WS, min(depth, 0.0) * X_WS[:3, 2]))
 
     def _axes(self) -> Array:
         return np.asarray(self._data.xmat[self._base].reshape(3, 3))
@@ -192,15 +197,6 @@ class Threads(Mechanism[ThreadsState]):
     def _pose(self, screw: int) -> Pose:
         body = self._screw[screw]
         return pose(self._data.xmat[body].reshape(3, 3).copy(), self._data.xpos[body].copy())
-
-    def _from_bit(self, screw: int) -> Pose:
-        """Where a loose screw is, but as far from the bit as soft contact has let that into its head.
-
-        On a carrier, which does not give way, the same depth would throw the driver off.
-        """
-        X_WS, head = self._pose(screw), self._model.geom(f"screw_head{screw}").id
-        depth = mujoco.mj_geomDistance(self._model, self._data, self._bit, head, 0.0, None)
-        return translated(X_WS, min(depth, 0.0) * X_WS[:3, 2])
 
     def _bites(self, screw: int, hole: int, offset: Array, seconds: float) -> bool:
         """True if the tip of a screw, `offset` from the mouth of a hole (3,), takes the thread within a time (s)."""
@@ -269,9 +265,8 @@ class Threads(Mechanism[ThreadsState]):
 
     def _under_bit(self) -> int | None:
         """The hole in whose screw's slot the bit is."""
-        return next(
-            (k for k, thread in enumerate(self.holes) if thread.screw is not None and self._on(k)), None
-        )
+        filled = (k for k, thread in enumerate(self.holes) if thread.screw is not None)
+        return next(filter(self._on, filled), None)
 
     def _on(self, hole: int) -> bool:
         """True if the bit stands on the head of a hole's screw, upright over its slot."""

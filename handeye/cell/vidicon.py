@@ -41,7 +41,9 @@ class Vidicon:
         image = np.asarray(cv2.GaussianBlur(image, (0, 0), sigmaX=BLUR[0], sigmaY=BLUR[1]), np.float32)
         signal = np.clip(image * _shading(), 0, None) ** GAMMA
         if self.gain is None or not hold_target:
-            self.gain = PEAK / max(float(np.percentile(_middle(signal), BRIGHT)), 1e-3)
+            rows, columns = (round(n * (1 - GAIN_WINDOW) / 2) for n in signal.shape)
+            bright = float(np.percentile(signal[rows:-rows, columns:-columns], BRIGHT))
+            self.gain = PEAK / max(bright, 1e-3)
         noise = self._rng.normal(0.0, NOISE, signal.shape)
         return np.asarray(np.clip(np.rint(signal * self.gain + noise), 0, 15), dtype=np.uint8)
 
@@ -60,11 +62,6 @@ def blur_disc(focal_length: float, focused: float, distance: float) -> float:
 def _shading() -> Luminance:
     v, u = np.mgrid[-1 : 1 : ROWS * 1j, -1 : 1 : COLUMNS * 1j]
     return np.asarray(1 - SHADING * (u**2 + v**2) / 2, dtype=np.float32)
-
-
-def _middle(signal: Luminance) -> Luminance:
-    rows, columns = (round(n * (1 - GAIN_WINDOW) / 2) for n in signal.shape)
-    return signal[rows:-rows, columns:-columns]
 
 
 def _defocused(image: Luminance, disc: float) -> Luminance:

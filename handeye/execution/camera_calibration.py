@@ -43,14 +43,9 @@ def calibrate_camera(
 ) -> Calibration:
     """Show the lamp to the camera, and fit the camera model to the arm's positions.
 
-    Raises CalibrationFailed if the lamp is seen too few times or the picture does not change, Halted on panic.
-
-    Args:
-        state: of the drive, with the arm's measurements of itself.
-        drawing: the camera as known so far.
-        looks: where the lamp is shown, in order.
-        halt: the panic button.
-        viewed: called with number and count of each view.
+    `state` has the arm's measurements of itself, `drawing` is the camera as known so far, and `viewed` is called with
+    number and count of each view. Raises CalibrationFailed if the lamp is seen too few times or the picture does not
+    change, Halted on panic.
     """
     drive = ArmDrive(cell=cell, arm=arm, state=state, halt=halt)
     home = drive.state.q.copy()
@@ -58,7 +53,10 @@ def calibrate_camera(
     sightings: list[Sighting] = []
     ready = 0.0
     for look in looks:
-        ready = max(ready, cell.clock.now) + _set_up(_camera(drive), drawing, look)
+        camera = _camera(drive)
+        turning, slewing = camera.lens(look.lens), camera.aim(*drawing.aim(look.at, look.lens))
+        focusing = camera.focus(math.dist(look.sharp, drawing.mount))
+        ready = max(ready, cell.clock.now) + (turning + slewing + focusing)
         for place in look.places:
             viewed(next(numbers), views)
             sightings += _sightings(drive, look, place, ready)
@@ -84,13 +82,6 @@ def _camera(drive: ArmDrive) -> TvCamera:
     camera = drive.cell.camera
     assert camera is not None
     return camera
-
-
-def _set_up(camera: TvCamera, drawing: CameraModel, look: CalibrationLook) -> float:
-    """Select the lens, aim and focus; returns the seconds this takes, during which the arm may move."""
-    turning = camera.lens(look.lens)
-    slewing = camera.aim(*drawing.aim(look.at, look.lens))
-    return turning + slewing + camera.focus(math.dist(look.sharp, drawing.mount))
 
 
 def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3, ready: float) -> Iterator[Sighting]:

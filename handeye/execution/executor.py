@@ -66,14 +66,18 @@ class Executor:
     def step(self) -> None:
         """Do one step, or reverse one; an error that the next step does not test calls the operator."""
         if self.state.undoing is not None:
-            self._undo()
+            stopped = undo_last(self.run)
+            if stopped is not None:
+                self._stop(error=stopped.error, cause=stopped.cause)
             return
         run, here = self.run, self.state.at
         assert here is not None
         step = run.plan.program.steps[here]
         enters = self.state.stage is None
         self.state.held = None
-        self._enter(step.stage)
+        if self.state.stage is None:
+            self.state.stage = step.stage
+            run.emit(StageStarted(time=run.time, stage=run.plan.program.stages[step.stage]))
         found = before(run)
         run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
         self.state.at = self._perform(step)
@@ -82,7 +86,10 @@ class Executor:
         if step.operation.calls is not None:
             self._stop(message=step.operation.calls)
         elif self.state.unwound.get(here, 0) < step.operation.undoes:
-            self._undo_stage(here)
+            self.state.unwound[here] = self.state.unwound.get(here, 0) + 1
+            done = self.state.done
+            began = next(index for index in reversed(range(len(done))) if done[index].enters)
+            self.undo(Undoing(left=began, asked_by="program"))
         elif self.state.pending is not None and not self._tests(self.state.at):
             self._stop(error=self.state.pending.number, cause=self.state.pending.cause)
         else:
@@ -98,12 +105,8 @@ class Executor:
         going_on = {"proceed": self.state.onward}
         if stage is not None:
             going_on |= {"retry": self._first(stage), "skip": self._first(stage + 1)}
-        self.state.at, self.state.stopped, self.state.onward, self.state.idle = (
-            going_on[choice],
-            None,
-            None,
-            0,
-        )
+        self.state.at, self.state.idle = going_on[choice], 0
+        self.state.stopped = self.state.onward = None
         if choice != "proceed":
             end(self.state)
             self.state.unwound.clear()
@@ -115,23 +118,8 @@ class Executor:
         if undoing.asked_by == "person":
             self.state.unwound.clear()
         order(self.state, undoing)
-        asked_by = undoing.asked_by
-        self.run.emit(
-            UndoOrdered(time=self.run.time, left=undoing.left, halts=undoing.halts, asked_by=asked_by)
-        )
-
-    def _undo_stage(self, number: int) -> None:
-        """Order the reversal of the stage by a step, and count it."""
-        self.state.unwound[number] = self.state.unwound.get(number, 0) + 1
-        done = self.state.done
-        began = next(index for index in reversed(range(len(done))) if done[index].enters)
-        self.undo(Undoing(left=began, asked_by="program"))
-
-    def _undo(self) -> None:
-        """Reverse the last executed step; a failure calls the operator."""
-        stopped = undo_last(self.run)
-        if stopped is not None:
-            self._stop(error=stopped.error, cause=stopped.cause)
+        left, halts, asked_by = undoing.left, undoing.halts, undoing.asked_by
+        self.run.emit(UndoOrdered(time=self.run.time, left=left, halts=halts, asked_by=asked_by))
 
     def finish(self) -> bool:
         """End the run; True if the program is complete."""
@@ -152,16 +140,14 @@ class Executor:
         if operation.raising and not operation.only_checks:
             self.state.finger_line = None
         fault = ACTIONS[type(operation)](self.run, operation)
-        if operation.raising:
-            self._raise(fault)
-        return step.next
-
-    def _raise(self, fault: Fault | None) -> None:
+        if not operation.raising:
+            return step.next
         if self.state.drive.cut:  # whatever the action made of it
             fault = Fault(number=errors.WATCHDOG)
         self.state.pending = fault
         if fault is not None:
             self.run.emit(ErrorRaised(time=self.run.time, number=fault.number, cause=fault.cause))
+        return step.next
 
     def _tests(self, number: int | None) -> bool:
         """True if a step tests an error."""
@@ -180,13 +166,6 @@ class Executor:
         """The first step of a stage, or of a later one; None past the last."""
         steps = self.run.plan.program.steps
         return next((number for number, step in enumerate(steps) if step.stage >= stage), None)
-
-    def _enter(self, stage: int) -> None:
-        """Report a stage as it begins."""
-        if self.state.stage is None:
-            run = self.run
-            self.state.stage = stage
-            run.emit(StageStarted(time=run.time, stage=run.plan.program.stages[stage]))
 
     def _leave(self, status: Literal["done", "skipped"] = "done") -> None:
         """Report a stage as the program leaves it or ends."""

@@ -32,17 +32,14 @@ def test_error(run: ExecutionContext, operation: Test) -> bool:
     pending = run.state.pending
     occurred = pending is not None and pending.number == operation.number
     if TESTED.get(operation.number) in run.without:
-        occurred = _is_hoped_for(run, operation)
+        # without its sense an error leads on if its absence would lead to the operator or to a retry
+        assert run.state.at is not None
+        unless = run.plan.program.steps[run.state.at].next
+        occurred = not _gives_up(run, operation.raised) and _gives_up(run, unless)
     run.emit(ErrorTested(time=run.time, number=operation.number, occurred=occurred))
     if occurred:
         run.state.pending = None
     return occurred
-
-
-def _is_hoped_for(run: ExecutionContext, operation: Test) -> bool:
-    """True if an error without its sense leads on, while its absence would lead to the operator or to a retry."""
-    assert run.state.at is not None
-    return not _gives_up(run, operation.raised) and _gives_up(run, run.plan.program.steps[run.state.at].next)
 
 
 def _gives_up(run: ExecutionContext, number: int | None) -> bool:

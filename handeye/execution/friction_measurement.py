@@ -61,12 +61,8 @@ def measure_joints(
 ) -> JointMeasurement:
     """Measure joint friction and link weights; the arm ends where it began.
 
-    Raises FrictionUnknown if a joint does not move as driven or takes far more torque than its friction, or if a link
-    weight is implausible; Halted on panic.
-
-    Args:
-        state: of the drive: the set-point about which the arm is moved.
-        halt: the panic button.
+    The arm is moved about the set-point of `state`. Raises FrictionUnknown if a joint does not move as driven or takes
+    far more torque than its friction, or if a link weight is implausible; Halted on panic.
     """
     periods: list[ServoPeriod] = []
     drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt)

@@ -71,7 +71,9 @@ def close(run: ExecutionContext, operation: Close) -> Fault | None:
 def center(run: ExecutionContext, operation: Center) -> Fault | None:
     """Close on an object, moving the arm so that the object stays in place."""
     if "centring" in run.without:
-        return _close_instead(run, operation)
+        fault = close(run, Close(minimum=operation.minimum))  # the object moves to the middle of the hand
+        run.state.finger_line = forward(run.arm, run.drive.state.q)[:3, 1] if fault is None else None
+        return fault
     fault = _begin_to_close(run)
     if fault is not None:
         return fault
@@ -94,18 +96,16 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
         return still
     least = least_gap(operation.minimum)
     if centring.error and "touch" not in run.without:
-        return _nothing_centred(run, least)
+        gap = (
+            run.drive.sensed.gap
+        )  # fingers that did not both touch, and are held apart, have not noticed a contact
+        if at_least(gap, least + FREE_OPENING):
+            return _switches_open(run)
+        return Fault(number=errors.NOTHING_HELD, cause=NothingBetween(gap=round(gap, 6)))
     run.state.finger_line = (
-        line if "touch" not in run.without else np.zeros(3)
-    )  # nothing is measured along it
+        np.zeros(3) if "touch" in run.without else line
+    )  # without touch it measures nothing
     return _thick_enough(run, least)
-
-
-def _close_instead(run: ExecutionContext, operation: Center) -> Fault | None:
-    """Close on an object, which moves to the middle of the hand."""
-    fault = close(run, Close(minimum=operation.minimum))
-    run.state.finger_line = forward(run.arm, run.drive.state.q)[:3, 1] if fault is None else None
-    return fault
 
 
 def _touch(run: ExecutionContext) -> tuple[bool, bool]:
@@ -144,14 +144,6 @@ def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
     if "touch" in run.without or not stood_still(start - run.drive.sensed.gap, driven):
         return None
     return _gap_wrong(GapStill(gap=round(run.drive.sensed.gap, 6), driven=round(driven, 6)))
-
-
-def _nothing_centred(run: ExecutionContext, least: float) -> Fault:
-    """The error of fingers that did not both touch: unnoticed contact if they are held apart."""
-    gap = run.drive.sensed.gap
-    if at_least(gap, least + FREE_OPENING):
-        return _switches_open(run)
-    return Fault(number=errors.NOTHING_HELD, cause=NothingBetween(gap=round(gap, 6)))
 
 
 def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault | None:

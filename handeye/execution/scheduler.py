@@ -62,15 +62,14 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
     def turn(self, met: Callable[[str], bool], pass_until: Callable[[Time], Time]) -> str | None:
         """The task whose turn it is: call `sleep`, `wait` or `end` for it then. None: all have ended.
 
-        Args:
-            met: tells whether what a task waits for has come about.
-            pass_until: lets time pass at least until a time; when it then is.
+        `met` says whether what a task waits for has come about; `pass_until` lets time pass at least until a time, and
+        returns when it then is.
         """
         while self.due:
             ready = [
-                (self._since(task), number, task)
-                for number, task in enumerate(self.due)
-                if (met(task) if task in self.waits else self.due[task][0] <= self.now)
+                (max(at, (self.now, 0)) if task in self.waits else at, number, task)
+                for number, (task, at) in enumerate(self.due.items())
+                if (met(task) if task in self.waits else at[0] <= self.now)
             ]
             if ready:
                 since, _, task = min(ready)
@@ -82,9 +81,6 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
                 raise Deadlock(dict(self.waits))
             self.now = pass_until(min(times))
         return None
-
-    def _since(self, task: str) -> tuple[Time, int]:
-        return max(self.due[task], (self.now, 0)) if task in self.waits else self.due[task]
 
     def sleep(self, task: str, duration: Time) -> None:
         """Let a task go on so long after it was due, however late it was served."""
@@ -110,9 +106,7 @@ def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> li
     """Let tasks under one clock go on together, each when it is due; how each ended.
 
     An arm whose motion has ended is no longer driven while others move on, so that its watchdog sets its brakes.
-
-    Args:
-        names: of the tasks, as a deadlock tells them; by default `task 1`, `task 2` and so on.
+    A deadlock calls the tasks by `names`, by default `task 1`, `task 2` and so on.
     """
     running = dict(zip(names or [f"task {number + 1}" for number in range(len(tasks))], tasks, strict=True))
     agenda: Agenda[Fraction] = Agenda(now=Fraction(0))

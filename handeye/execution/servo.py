@@ -128,12 +128,9 @@ class Servo:
     ) -> Motion[None]:
         """One servo period in which the arm should begin at `q` with rates `qd`.
 
-        Args:
-            estimate: the force on the hand is estimated at its end.
-            sense: which way the joints slide, -1 to 1: friction that opposes it is overcome, and not felt.
-            dither: torques beside those that the servo needs.
-            guards: those that will look at what is then felt.
-            taring: what is felt is no force yet, but what the tare is made of.
+        The force on the hand is estimated at its end if `estimate` is set, for `guards` or, if `taring`, as what the
+        tare is made of. `sense` is which way joints slide, -1 to 1: friction that opposes it is overcome, and not felt.
+        `dither` are torques beside those that the servo needs.
         """
         q_was, qd_was = self.state.here, self.sensed.qd
         load = here.J[2] * self.state.load
@@ -144,16 +141,14 @@ class Servo:
         tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
 
         def feel(after: Sensed) -> None:
-            there = self._given_way(here, q, (q_was + self.state.here) / 2)
-            felt = felt_wrench(there.M, there.bias + friction, there.J, tau, qd_was, after.qd, self.period)
+            # gravity and Jacobian where the arm is, not at its set-point: under a force it gives way
+            q_is = (q_was + self.state.here) / 2
+            (is_so, set_so), (J, _) = gravity_and_jacobian(self.built, np.stack((q_is, q)))
+            bias_so = here.bias + is_so - set_so + friction
+            felt = felt_wrench(here.M, bias_so, J, tau, qd_was, after.qd, self.period)
             self.state.wrench = felt - self.state.tare
 
         yield from self._wait(tau, feel if estimate else None, guards, taring=taring)
-
-    def _given_way(self, here: Dynamics, q: Array, q_is: Array) -> Dynamics:
-        """Dynamics at a set-point `q` with gravity and Jacobian of where the arm is: under a force it gives way."""
-        (is_so, set_so), (J, _) = gravity_and_jacobian(self.built, np.stack((q_is, q)))
-        return Dynamics(M=here.M, bias=here.bias + is_so - set_so, J=J)
 
     def _wait(
         self,
@@ -164,11 +159,9 @@ class Servo:
         taring: bool = False,
         periods: int = 1,
     ) -> Motion[None]:
-        """One servo period under a torque, or (None) the brakes.
+        """One servo period under a torque, or (None) the brakes: several `periods` at once, if it is the brakes.
 
-        Args:
-            feel: estimates the force on the hand by what is sensed at its end.
-            periods: as many at once, for an arm that the brakes hold.
+        `feel` estimates the force on the hand by what is sensed at its end.
         """
         halted = self.halt()
         if halted:

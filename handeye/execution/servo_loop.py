@@ -14,7 +14,7 @@ from handeye.arm.computed_torque import prepare
 from handeye.arm.converters import sliding
 from handeye.arm.dynamics import Dynamics, gravity, mass_matrix
 from handeye.arm.ik import solve
-from handeye.arm.joint_agreement import Disagreement, JointAgreement, crept
+from handeye.arm.joint_agreement import JointAgreement, crept
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import constants
 from handeye.arm.samples import Samples
@@ -98,9 +98,8 @@ class ServoLoop(Servo):
     ) -> Motion[Outcome]:
         """Follow set-points; end early when `guard` trips.
 
-        Args:
-            direction: unit vectors of the motion for the guard, shape (3,) or (N, 3), in W.
-            beside: sets what else is put out in a servo period, by the number of its set-point.
+        The guard looks along `direction`, unit vectors in W, shape (3,) or (N, 3); `beside` sets what else is put out
+        in a servo period, by the number of its set-point.
         """
         if len(samples) == 0:
             return REACHED
@@ -110,10 +109,13 @@ class ServoLoop(Servo):
             if zeroed.error is not None:
                 return zeroed
         motion = prepare(self.built, self.state.q, samples)
-        J = jacobian(self.arm, motion.q) if guard is not None or self.state.load else _no_jacobian(motion.q)
+        count, n = motion.q.shape
+        felt = guard is not None or self.state.load
+        J = jacobian(self.arm, motion.q) if felt else np.zeros((count, 6, n))  # without effect
+        directions = np.broadcast_to(np.zeros(3) if direction is None else direction, (count, 3))
         sensors, off = self._sensors(), np.zeros(len(self.state.q))
         for i in range(len(motion)):
-            here, along = Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i]), _row(direction, i)
+            here, along = Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i]), directions[i]
             q, qd, qdd = motion.q[i], motion.qd[i], motion.qdd[i]
             guards = _active(guard, along)
             sense = sliding(self.arm, qd)
@@ -270,7 +272,9 @@ class ServoLoop(Servo):
 
     def _doubted(self, sensors: JointAgreement) -> Outcome | None:
         """Compare the sensors of the joints; the set-point becomes where the arm says it is if they disagree."""
-        found = self._crept() or sensors.step(self.sensed.q, self.sensed.qd)
+        change, self.state.crept = self.state.crept, None  # under the brakes; told once
+        rested = None if change is None else crept(self.arm, change)
+        found = rested or sensors.step(self.sensed.q, self.sensed.qd)
         if found is None:
             return None
         self.state.q = self.state.here.copy()
@@ -282,11 +286,6 @@ class ServoLoop(Servo):
         )  # fmt: skip
         return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
 
-    def _crept(self) -> Disagreement | None:
-        """The joint whose potentiometer has changed while the arm rested under its brakes; told once."""
-        change, self.state.crept = self.state.crept, None
-        return None if change is None else crept(self.arm, change)
-
     def _behind(self) -> Outcome | None:
         """See that every joint keeps up with its set-point, which else becomes where it is."""
         lag = np.abs(self.state.here - self.state.q) > constants(self.arm).lag
@@ -297,17 +296,6 @@ class ServoLoop(Servo):
         return Outcome(error=errors.SERVO_LAG, cause=JointBehind(joint=joint))
 
 
-def _no_jacobian(q: Array) -> Array:
-    """Jacobians of no effect for set-points (N, n)."""
-    return np.zeros((len(q), 6, q.shape[1]))
-
-
 def _active(guard: Monitor | None, direction: Array) -> tuple[ActiveGuard, ...]:
     """The guards of a motion in a servo period in which it goes along a unit vector."""
     return () if guard is None else guard.active(direction)
-
-
-def _row(direction: Array | None, i: int) -> Array:
-    if direction is None:
-        return np.zeros(3)
-    return direction if direction.ndim == 1 else direction[i]

@@ -218,24 +218,16 @@ def _fits_program(state: ExecutionState, plan: Plan) -> bool:
 
 
 def _fits_sizes(state: ExecutionState, arm: ArmModel) -> bool:
-    vectors = [state.goal, *state.saved.values(), *state.restored.values()]
+    drive, vectors = state.drive, [state.goal, *state.saved.values(), *state.restored.values()]
+    joints = (drive.q, drive.here, drive.friction, drive.links, drive.rest, drive.crept)
     vectors += [vector for vector in (state.finger_line, state.drive.met) if vector is not None]
     return (
         all(vector.shape == (3,) for vector in vectors)
-        and all(values.shape == (len(arm.joints),) for values in (*_joints(state.drive), *_measured(state)))
+        and all(values.shape == (len(arm.joints),) for values in joints if values is not None)
         and all(values.shape == (6,) for values in (state.drive.tare, state.drive.wrench))
         and all(X.shape == (4, 4) for X in state.world.measured.values())
         and all(shot.picture.shape == (ROWS, COLUMNS) for shot in state.shots.values())
     )
-
-
-def _joints(drive: DriveState) -> tuple[Array, ...]:
-    return drive.q, drive.here, drive.friction
-
-
-def _measured(state: ExecutionState) -> list[Array]:
-    drive = state.drive
-    return [values for values in (drive.links, drive.rest, drive.crept) if values is not None]
 
 
 def _finite(value: object) -> bool:

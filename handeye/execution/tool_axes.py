@@ -32,11 +32,7 @@ class ToolAxes(Axes):
     """
 
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
-        """Take an arm that is held where it is.
-
-        Args:
-            reach: how far from the origin of W goals may be, m; where in it the arm gets to, its kinematics tell.
-        """
+        """Take an arm that is held where it is; goals may be `reach` (m) from the origin of W, if it gets there."""
         self.name, self._drive = name, drive
         self._goal = self._pose(drive.state.q)
         self._motion: Motion[Outcome] | None = None

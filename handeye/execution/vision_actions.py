@@ -3,10 +3,8 @@
 import math
 from typing import Final
 
-import numpy as np
-
 from handeye.core import errors
-from handeye.core.pose import Array, Pose, planar, yaw
+from handeye.core.pose import Array, planar, yaw
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Shot, VisionResult
 from handeye.planning.grasp_state import first_grasp
@@ -23,10 +21,10 @@ from handeye.program.events import (
 from handeye.program.operation import Operation
 from handeye.program.vision_operations import Aim, Comparison, General, Inspect, Lens, Look, Match, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
-from handeye.vision.camera_model import CameraModel, View
+from handeye.vision.camera_model import CameraModel
 from handeye.vision.gasket import inspect as inspect_gasket
 from handeye.vision.live import blank, repeated
-from handeye.vision.marks import GraspLine, Mark, grasp_line
+from handeye.vision.marks import Mark, grasp_line
 
 
 def _tv(run: ExecutionContext) -> TvCamera:
@@ -64,13 +62,10 @@ def _target(run: ExecutionContext, name: str) -> Array:
     part = run.world.parts[name]
     p_W = run.world.part(name)[:3, 3].copy()
     if len(part.holes) > 1:  # the middle of the two large holes is the middle of the picture
-        p_W[:2] = _middle(run.world.part(name), part.holes[1].x / 2, part.holes[1].y / 2)
+        X_WP, hole = run.world.part(name), part.holes[1]
+        p_W[:2] = X_WP[:2, :2] @ (hole.x / 2, hole.y / 2) + X_WP[:2, 3]
     p_W[2] += part.face
     return p_W
-
-
-def _middle(X_WP: Pose, x: float, y: float) -> Array:
-    return np.asarray(X_WP[:2, :2] @ (x, y) + X_WP[:2, 3])
 
 
 def look(run: ExecutionContext, operation: Look) -> Fault | None:
@@ -159,20 +154,14 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
         return Fault(number=errors.FEATURES_NOT_SEEN, cause=found.cause)
     x, y, angle = (round(value, 9) for value in found.pose)
     run.world.measure(operation.part, planar(x, y, part.at[2], angle))
-    run.state.found[operation.picture] = VisionResult(
-        specific=found, grasp=_grasp_line(run, shot.view, operation.part)
-    )
+    assert run.state.at is not None
+    grasp = first_grasp(run.plan.program, run.arm.hand, run.state.at, operation.part)
+    line = None
+    if grasp is not None:
+        line = grasp_line(shot.view, run.world.position(grasp.position), grasp.gap, part.at[2] + part.face)
+    run.state.found[operation.picture] = VisionResult(specific=found, grasp=line)
     run.emit(PartSeen(time=run.time, part=operation.part, x=x, y=y, yaw=angle))
     return None
-
-
-def _grasp_line(run: ExecutionContext, view: View, name: str) -> GraspLine | None:
-    """The line of the first grasp of a located part, on its upper face."""
-    assert run.state.at is not None
-    grasp, part = first_grasp(run.plan.program, run.arm.hand, run.state.at, name), run.world.parts[name]
-    if grasp is None:
-        return None
-    return grasp_line(view, run.world.position(grasp.position), grasp.gap, part.at[2] + part.face)
 
 
 def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:

@@ -98,21 +98,32 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     """A step, by its number in the plan."""
 
     step: int
-    file: str = ""  # the required file of its line; empty: the script itself
+    file: str = ""
+    """The required file of its line; empty: the script itself."""
     line: int
     text: str
     """Its statement. `conditions` (`STOP`, `FORCE`) and `depends` (`RESTORE`) say what modifies it."""
-    operation: str  # name on disk
-    seconds: float | None  # planned duration of its motion; None if it has none
-    guards: Guards  # guards that end it, SI
-    press: Vector3 | None  # force it exerts, N, table coordinates
-    conditions: tuple[str, ...]  # what ends it and the force it exerts, in words and units of the language
+    operation: str
+    """Name on disk."""
+    seconds: float | None
+    """Planned duration of its motion; None if it has none."""
+    guards: Guards
+    """Guards that end it, SI."""
+    press: Vector3 | None
+    """Force it exerts, N, table coordinates."""
+    conditions: tuple[str, ...]
+    """What ends it and the force it exerts, in words and units of the language."""
     depends: tuple[Dependence, ...]
-    error: int | None  # the error it tests for
-    raised: int | None  # the step that follows if that error was raised
-    counter: str | None = None  # the counter it counts down
-    positive: int | None = None  # the step that follows while the counter is positive
-    next: int | None  # the step that follows otherwise; None ends the program
+    error: int | None
+    """The error it tests for."""
+    raised: int | None
+    """The step that follows if that error was raised."""
+    counter: str | None = None
+    """The counter it counts down."""
+    positive: int | None = None
+    """The step that follows while the counter is positive."""
+    next: int | None
+    """The step that follows otherwise; None ends the program."""
 
 
 class InspectedStage(Record, frozen=True, kw_only=True):
@@ -120,7 +131,8 @@ class InspectedStage(Record, frozen=True, kw_only=True):
 
     number: int
     name: str
-    seconds: float  # planned motion, each step counted once
+    seconds: float
+    """Planned motion, each step counted once."""
     steps: tuple[InspectedStep, ...]
 
 

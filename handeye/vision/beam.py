@@ -32,8 +32,10 @@ class Edge(NamedTuple):
 class Edges(NamedTuple):
     """Edges of several beams, a row each."""
 
-    met: NDArray[np.bool_]  # whether the beam met an edge; the other fields are meaningless if not
-    uv: Array  # position of the edge, shape (n, 2)
+    met: NDArray[np.bool_]
+    """Whether the beam met an edge; the other fields are meaningless if not."""
+    uv: Array
+    """Position of the edge, shape (n, 2)."""
     before: Array
     after: Array
     length: Array

@@ -89,7 +89,8 @@ class Blob(NamedTuple):
 
     u: float
     v: float
-    width: float  # length of the last chord along the lines
+    width: float
+    """Length of the last chord along the lines."""
     height: float
     bounces: int
 
