@@ -20,10 +20,8 @@ def torque(
 ) -> Array:  # fmt: skip
     """Drive torques for one period, shape (n,), N m, and N for prismatic joints.
 
-    Args:
-        M, bias: mass matrix (n, n) and bias torques (n,) of the planned state.
-        q_des, qd_des, qdd_des: planned state when q and qd are read.
-        exerted: torques of a force or load to exert, J^T F.
+    `M`, `bias` (n, n), (n,) are those of the planned state when `q` and `qd` are read; `exerted` is J^T F of a force or
+    load to exert.
     """
     omega = constants(arm).frequency
     acceleration = qdd_des + 2 * omega * (qd_des - qd) + omega * omega * (q_des - q)
@@ -33,14 +31,7 @@ def torque(
 def felt_wrench(
     M: Array, bias: Array, J: Array, tau: Array, qd_before: Array, qd_after: Array, period: float
 ) -> Array:
-    """Force and moment on the hand over a servo period (s), before any tare; see `external_wrench`.
-
-    Args:
-        M, bias: mass matrix (n, n) and bias torques (n,) in the period.
-        J: Jacobian at T, (6, n).
-        tau: torques in the period, shape (n,), N m, and N for prismatic joints.
-        qd_before, qd_after: rates at its beginning and end, shape (n,).
-    """
+    """Force and moment on the hand over a servo period (s) under torques `tau`, untared; see `external_wrench`."""
     acceleration = (qd_after - qd_before) / period
     return external_wrench(J, M @ acceleration + bias - tau)
 
@@ -48,12 +39,8 @@ def felt_wrench(
 def external_wrench(J: Array, unexplained: Array) -> Array:
     """The wrench on the hand at T, world axes, shape (6,), N and N m, that best explains torques.
 
-    It needs no wrist sensor, but joint friction missing in the model appears as force. An arm of fewer than six joints
-    feels only what its joints carry.
-
-    Args:
-        J: Jacobian at T, (6, n).
-        unexplained: M qdd + bias - torque, shape (n,).
+    `unexplained` is M qdd + bias - torque, shape (n,). It needs no wrist sensor, but joint friction missing in the
+    model appears as force. An arm of fewer than six joints feels only what its joints carry.
     """
     if J.shape[0] == J.shape[1]:
         return np.asarray(np.linalg.solve(J.T, unexplained), dtype=np.float64)
@@ -79,12 +66,7 @@ class Motion:
 
 
 def prepare(arm: ArmModel, q_start: Array, samples: Samples) -> Motion:
-    """Precompute a motion, so that the working phase needs no trigonometry.
-
-    Args:
-        q_start: initial configuration at rest, shape (n,).
-        samples: set-points at the *ends* of periods 1 to N.
-    """
+    """Precompute a motion from rest, so that the working phase needs no trigonometry."""
     q = np.vstack([q_start, samples.q])[:-1]
     qd = np.vstack([np.zeros(len(q_start)), samples.qd])
     return Motion(

@@ -26,21 +26,12 @@ and converters.
 
 
 def felt_friction(arm: ArmModel, q: Array, friction: Array) -> Array:
-    """Wrench felt from each joint's friction, as columns, shape (6, n): N and N m, in W.
-
-    Args:
-        q: configuration, shape (n,).
-        friction: Coulomb friction, shape (n,), N m, and N for prismatic joints.
-    """
+    """Wrench felt from each joint's Coulomb friction (N m, N), as columns, shape (6, n): N and N m, in W."""
     return external_wrench(jacobian(arm, q), np.diag(friction))
 
 
 def faint(felt: Array, exerted: Exerted) -> float | None:
-    """The most that friction adds to a force (N) or moment (N m), if that is hard to tell from it; else None.
-
-    Args:
-        felt: wrench felt from each joint's friction, shape (6, n).
-    """
+    """The most that `felt_friction` adds to a force (N) or moment (N m), if that is hard to tell from it; else None."""
     vector = np.array(exerted.vector)
     size = float(np.linalg.norm(vector))
     most = float(np.abs(vector @ (felt[3:] if exerted.turning else felt[:3])).sum()) / size

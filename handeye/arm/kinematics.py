@@ -12,10 +12,7 @@ from handeye.core.pose import Array, Pose
 
 
 def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """DH frames 0 (base) to n (tool) in the world at `q`, shape (..., n), rad and m.
-
-    Returns rotations (..., n + 1, 3, 3) and origins (..., n + 1, 3).
-    """
+    """DH frames 0 (base) to n (tool) in W at `q`, (..., n): rotations (..., n + 1, 3, 3), origins (..., n + 1, 3)."""
     k = constants(arm)
     q = np.asarray(q, dtype=np.float64)
     step = np.zeros((*q.shape, 4, 4))
@@ -39,13 +36,9 @@ def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
 
 
 def point_jacobian(arm: ArmModel, R: Array, p: Array, points: Array) -> tuple[Array, Array]:
-    """Jacobians of points on the hand side of all joints.
+    """Jacobians of points, shape (..., m, 3), W, on the hand side of all joints of a chain `R`, `p`.
 
-    Args:
-        R, p: the chain.
-        points: shape (..., m, 3), world.
-    Returns:
-        velocity of each point per joint rate, (..., m, n, 3); angular velocity per joint rate, (..., n, 3).
+    Velocity of each point per joint rate, (..., m, n, 3), and angular velocity per joint rate, (..., n, 3).
     """
     prismatic = constants(arm).prismatic[:, None]
     axes = R[..., :-1, :, 2]
@@ -65,12 +58,9 @@ def tool_jacobian(arm: ArmModel, R: Array, p: Array) -> Array:
 def centripetal(
     arm: ArmModel, R: Array, p: Array, points: Array, links: NDArray[np.int_], qd: Array
 ) -> tuple[Array, Array]:
-    """Accelerations of points and of their links at joint rates `qd`, without joint accelerations.
+    """Accelerations of points, (..., m, 3), and of their links at joint rates `qd`, without joint accelerations.
 
-    Args:
-        points: (..., m, 3), point k fixed in link `links[k]` (from 0).
-    Returns:
-        linear, (..., m, 3), and angular, (..., m, 3).
+    Point k is fixed in link `links[k]` (from 0). Linear, (..., m, 3), and angular, (..., m, 3).
     """
     k = constants(arm)
     prismatic = k.prismatic[:, None]

@@ -21,10 +21,7 @@ def straight(
 ) -> Samples | IKResult:
     """Set-points of a straight motion of the tool point with constant orientation, or why there are none.
 
-    Args:
-        q_start: shape (n,).
-        displacement: shape (3,), m, world.
-        speed: m/s, cruising at most; a short motion is slower.
+    By a displacement (m, W, shape (3,)), cruising at a speed (m/s) at most: a short motion is slower.
     """
     displacement = np.asarray(displacement, dtype=np.float64)
     distance = float(np.linalg.norm(displacement))
@@ -39,18 +36,18 @@ def straight(
 def arc(
     arm: ArmModel, q_start: Array, centre_xy: Array, angle: float, speed: float, ramp: float = RAMP
 ) -> Samples | IKResult:
-    """Set-points of a turn of the hand about a vertical axis, or why there are none.
+    """Set-points of a turn of the hand about a vertical axis at a place (m, shape (2,)), or why there are none.
 
-    Args:
-        centre_xy: position of the axis, shape (2,), m.
-        angle: rad, counter-clockwise from above.
-        speed: rad/s, cruising at most.
+    By an angle (rad, counter-clockwise from above), cruising at a speed (rad/s) at most.
     """
     s, sd, sdd = _profile(abs(angle), speed, ramp, arm.servo.period)
     s, sd, sdd = (math.copysign(1.0, angle) * x for x in (s, sd, sdd))
     X_start = forward(arm, q_start)
     centre = np.array([centre_xy[0], centre_xy[1], 0.0])
-    X = np.stack([_turned(X_start, centre, a) for a in s]) if len(s) else np.zeros((0, 4, 4))
+    X = np.tile(translated(X_start, -centre), (len(s), 1, 1))
+    for turned, a in zip(X, s, strict=True):
+        turned[:3] = rotation_z(a) @ turned[:3]
+    X[:, :3, 3] += centre
     lever = X[:, :3, 3] - [centre_xy[0], centre_xy[1], X_start[2, 3]]
     across = np.stack([-lever[:, 1], lever[:, 0], np.zeros(len(s))], axis=1)
     up = np.array([0.0, 0.0, 1.0])
@@ -62,9 +59,7 @@ def arc(
 def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float = RAMP) -> Samples | IKResult:
     """Set-points of a turn of the hand about its tool point, or why there are none.
 
-    Args:
-        turn: rotation vector, shape (3,), rad, world.
-        speed: rad/s, cruising at most.
+    By a rotation vector (rad, W, shape (3,)), cruising at a speed (rad/s) at most.
     """
     angle = float(np.linalg.norm(turn))
     s, sd, sdd = _profile(angle, speed, ramp, arm.servo.period)
@@ -73,12 +68,6 @@ def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float 
     X = np.stack([displaced(X_start, still, a * u) for a in s]) if len(s) else np.zeros((0, 4, 4))
     about = np.concatenate([still, u])
     return _follow(arm, q_start, X, sd[:, None] * about, sdd[:, None] * about)
-
-
-def _turned(X: Pose, centre: Array, angle: float) -> Pose:
-    Y = translated(X, -centre)
-    Y[:3] = rotation_z(angle) @ Y[:3]
-    return translated(Y, centre)
 
 
 def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple[Array, Array, Array]:
@@ -110,7 +99,7 @@ def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Sampl
         tick = int(np.argmin(exists.all(axis=1)))
         return replace(solve(arm, X[tick], q_start), along=length(X[: tick + 1]))
     turn = np.where(constants(arm).prismatic, np.inf, 2 * np.pi)
-    branch = int(np.argmin(_distance(candidates[0] - q_start, turn)))
+    branch = int(np.argmin(np.abs(_shortest(candidates[0] - q_start, turn)).sum(axis=-1)))
     q = candidates[:, branch]
     stuck = singular(arm, q_start, q, V)
     if stuck is not None:
@@ -135,21 +124,14 @@ def _shortest(step: Array, turn: Array) -> Array:
     return np.asarray(step - np.where(whole == 0, 0.0, whole * np.where(np.isinf(turn), 0.0, turn)))
 
 
-def _distance(step: Array, turn: Array) -> Array:
-    return np.asarray(np.abs(_shortest(step, turn)).sum(axis=-1))
-
-
 _PEAK_SPEED: Final = 1.875  # peak rate of the quintic 10 s3 - 15 s4 + 6 s5, over its mean
 _PEAK_ACCELERATION: Final = 5.774  # over distance / duration2
 
 
 def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Samples | IKResult:
-    """Set-points of a smooth motion of one joint to `goal` (rad or m), or why there are none.
+    """Set-points of a smooth motion of one joint, by its index from 0, to a goal (rad or m), or why there are none.
 
-    Args:
-        q: initial configuration, shape (n,).
-        joint: index from 0.
-        speed: fraction of the joint's rate limit; its square applies to the acceleration.
+    `speed` is a fraction of the joint's rate limit; its square applies to the acceleration.
     """
     if arm.joints[joint].name in arm.held:
         return IKResult(reason=HeldJoint(joint, arm.held[arm.joints[joint].name]))

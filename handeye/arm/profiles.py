@@ -12,13 +12,7 @@ _PEAK_ACCELERATION = 5.774  # over distance / duration2
 
 
 def quintic(start: Array, goal: Array, speed: Array, acceleration: Array, period: float) -> Iterator[Array]:
-    """Set-points of a fast quintic motion from rest to rest; all axes arrive together.
-
-    Args:
-        start, goal: positions of the axes, shape (n,).
-        speed, acceleration: limits of each axis, shape (n,).
-        period: s between two set-points.
-    """
+    """Set-points of a fast quintic motion of n axes from rest to rest, one a period (s); all arrive together."""
     distance = np.abs(goal - start)
     longest = max(
         np.max(_PEAK_SPEED * distance / speed),
@@ -31,13 +25,7 @@ def quintic(start: Array, goal: Array, speed: Array, acceleration: Array, period
 
 
 def slow_line(start: Array, goal: Array, speed: Array, period: float) -> Iterator[Array]:
-    """Set-points of a slow motion at constant speed, safe to stop at any of them.
-
-    Args:
-        start, goal: positions of the axes, shape (n,).
-        speed: limit of each axis, shape (n,).
-        period: s between two set-points.
-    """
+    """Set-points of a slow motion of n axes at constant speed, one a period (s), safe to stop at any of them."""
     steps = max(1, math.ceil(float(np.max(np.abs(goal - start) / speed)) / period))
     for step in range(1, steps + 1):
         yield start + (goal - start) * (step / steps)

@@ -60,14 +60,8 @@ class Trajectory:
 
 
 def four_three_four(knots: Array, times: Array) -> Trajectory:
-    """The trajectory from rest to rest through all knots, smooth to the second derivative.
-
-    Args:
-        knots: shape (N + 1, n), rad and m, N at least 3.
-        times: duration of each segment, shape (N,), s.
-    """
-    knots = np.array(knots, dtype=np.float64)
-    times = np.array(times, dtype=np.float64)
+    """The trajectory from rest to rest through all knots, smooth to the second derivative; arrays as it has them."""
+    knots, times = np.array(knots, dtype=np.float64), np.array(times, dtype=np.float64)
     return Trajectory(knots=knots, times=times, coefficients=_coefficients(knots, times))
 
 
@@ -77,12 +71,9 @@ def move(
 ) -> Trajectory | IKResult:  # fmt: skip
     """The free motion to a hand pose on the nearest branch, in whole servo periods, or why there is none.
 
-    Args:
-        q_start: initial configuration, shape (n,).
-        via: configurations passed without stopping, each shape (n,).
-        departure, approach: heights of lift-off and set-down points over the ends, m; 0 for none; lowered by quarters
-            where out of reach.
-        speed: fraction of the joints' rates; its square applies to accelerations.
+    It passes the configurations `via` without stopping. `departure` and `approach` are heights of lift-off and set-down
+    points over the ends, m, 0 for none; they are lowered by quarters where out of reach. `speed` is a fraction of the
+    joints' rates; its square applies to accelerations.
     """
     height = float(X_WT_goal[2, 3])
     if height < -1e-9:

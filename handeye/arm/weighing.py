@@ -31,19 +31,9 @@ def weighed(arm: ArmModel, factors: tuple[float, ...]) -> ArmModel:
 
 
 def mass_factors(arm: ArmModel, q: Array, unexplained: Array) -> Array:
-    """Factors on link masses, shape (n,), that explain the torques that hold the arm up.
-
-    Args:
-        q: configuration, shape (n,).
-        unexplained: torques beyond `gravity`, shape (n,), N m, and N for prismatic joints.
-    """
+    """Factors on link masses, shape (n,), that explain the torques (N m, N) that the arm takes beyond `gravity`."""
     doubt = TORQUE_DOUBT * constants(arm).effort
-    shares = MASS_DOUBT * _link_gravity(arm, q) / doubt[:, None]
+    alone = [gravity(weighed(arm, tuple(one)), q) for one in np.eye(len(arm.joints)).tolist()]  # of each link
+    shares = MASS_DOUBT * np.stack(alone, axis=1) / doubt[:, None]
     likeliest = shares.T @ np.linalg.solve(shares @ shares.T + np.eye(len(doubt)), unexplained / doubt)
     return np.asarray(1.0 + MASS_DOUBT * likeliest)
-
-
-def _link_gravity(arm: ArmModel, q: Array) -> Array:
-    """Torques that hold up each link alone, as columns, shape (n, n)."""
-    alone = np.eye(len(arm.joints))
-    return np.stack([gravity(weighed(arm, tuple(one)), q) for one in alone.tolist()], axis=1)

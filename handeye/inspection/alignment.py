@@ -18,7 +18,11 @@ def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
     Identical steps are matched first. Between two such matches, steps are paired by their statements, then by the kind
     of their operation: a step counts as changed rather than as removed and added.
     """
-    keys = (_exact, _said, _kind)
+    keys = (
+        lambda step: f"{one_line(step.text)} {does(step)}",
+        lambda step: one_line(step.text),
+        lambda step: type(step.operation).__name__,
+    )
     return list(_matched(before, after, range(len(before)), range(len(after)), keys))
 
 
@@ -62,20 +66,6 @@ def _survivor(pairs: Sequence[Pair], at: int) -> int | None:
 
 def does(step: Step) -> dict[str, Any]:
     """The operation of a step as data, without its branch target."""
-    operation = step.operation
-    found: dict[str, Any] = msgspec.to_builtins(
-        operation.leading_to(None) if operation.branches else operation
-    )
+    operation = step.operation.leading_to(None) if step.operation.branches else step.operation
+    found: dict[str, Any] = msgspec.to_builtins(operation)
     return found
-
-
-def _exact(step: Step) -> str:
-    return f"{one_line(step.text)} {does(step)}"
-
-
-def _said(step: Step) -> str:
-    return one_line(step.text)
-
-
-def _kind(step: Step) -> str:
-    return type(step.operation).__name__

@@ -13,7 +13,6 @@ from handeye.core.record import Record
 from handeye.inspection.alignment import Pair, aligned, does, leads_alike
 from handeye.inspection.wording import conditions
 from handeye.planfile.plan import Plan, PlannedMotion
-from handeye.program.operation import Branch
 from handeye.program.program import Part, Position, Program, Step
 
 _TOLERANCE_M: Final = 1e-9  # m; smaller shifts are rounding
@@ -154,7 +153,8 @@ def _step(before: Plan, after: Plan, pair: Pair, pairs: list[Pair]) -> StepChang
     ways = [("then", one.next, other.next)]
     was, now = one.operation.branch, other.operation.branch
     if was is not None and now is not None and (was.error is None) == (now.error is None):
-        ways.append((_when(now), was.target, now.target))
+        when = f"while {now.counter} is positive" if now.error is None else f"if error {now.error}"
+        ways.append((when, was.target, now.target))
     for what, there, here in ways:
         follows = (there, here) == (old + 1, new + 1)
         if not follows and not leads_alike(pairs, there, here):
@@ -162,18 +162,13 @@ def _step(before: Plan, after: Plan, pair: Pair, pairs: list[Pair]) -> StepChang
     stages = before.program.stages[one.stage], after.program.stages[other.stage]
     if stages[0] != stages[1] and {*stages} <= {*before.program.stages} & {*after.program.stages}:
         changes.append(("stage", *stages))
-    arm = _arm(before, after)
+    arm = robot(after.arm) if before.arm == after.arm else None
+    if arm is not None and not {*before.joint_counts, *after.joint_counts} <= {len(arm.joints)}:
+        arm = None  # a known name, of other joints
     motion = _motion(before.motions.get(old), after.motions.get(new), arm)
     if not changes and motion is None:
         return None
     return _change("changed" if changes else "replanned", after, new, pair, tuple(changes), motion)
-
-
-def _arm(before: Plan, after: Plan) -> ArmModel | None:
-    """The arm of both plans, if it is a known one."""
-    arm = robot(after.arm) if before.arm == after.arm else None
-    same = arm is not None and {*before.joint_counts, *after.joint_counts} <= {len(arm.joints)}
-    return arm if same else None
 
 
 def _change(
@@ -189,10 +184,8 @@ def _change(
 
 def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
     """Differences of two steps apart from their targets: what, before, after."""
-    texts, guards = (
-        [one_line(s.text) for s in (one, other)],
-        [("; ".join(conditions(s.operation)) or "none") for s in (one, other)],
-    )
+    texts = [one_line(step.text) for step in (one, other)]
+    guards = ["; ".join(conditions(step.operation)) or "none" for step in (one, other)]
     if texts[0] != texts[1]:
         yield "statement", texts[0], texts[1]
     if guards[0] != guards[1]:
@@ -200,11 +193,6 @@ def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
     if texts[0] == texts[1] and guards[0] == guards[1]:
         was, now = does(one), does(other)
         yield from ((key, f"{was.get(key)}", f"{now[key]}") for key in now if was.get(key) != now[key])
-
-
-def _when(branch: Branch) -> str:
-    """The condition of a branch."""
-    return f"if error {branch.error}" if branch.error is not None else f"while {branch.counter} is positive"
 
 
 def _place(target: int | None) -> str:
@@ -215,26 +203,16 @@ def _motion(
     one: PlannedMotion | None, other: PlannedMotion | None, arm: ArmModel | None
 ) -> MotionChange | None:
     before, after = (None if m is None else round(sum(m.times), 6) for m in (one, other))
-    if one is None or other is None:
-        return None if one is other else MotionChange(before=before, after=after)
-    if arm is None:
+    if one is None or other is None or arm is None:
         return None if one == other else MotionChange(before=before, after=after)
     if len(one.knots) == len(other.knots) and np.allclose(one.knots, other.knots, rtol=0, atol=_ALIKE):
-        return (
-            None
-            if np.allclose(one.times, other.times, rtol=0, atol=_ALIKE)
-            else MotionChange(before=before, after=after)
-        )
+        alike = np.allclose(one.times, other.times, rtol=0, atol=_ALIKE)
+        return None if alike else MotionChange(before=before, after=after)
     moved = np.array(other.knots[-1]) - np.array(one.knots[-1])
     if (np.abs(moved) < _ALIKE).all():
         return MotionChange(before=before, after=after)
     index = int(np.argmax(np.abs(moved) / constants(arm).speed))
-    joint = arm.joints[index]
+    joint, by = arm.joints[index], float(moved[index])
     return MotionChange(
-        before=before,
-        after=after,
-        joint=index + 1,
-        name=joint.name,
-        kind=joint.kind,
-        moved=float(moved[index]),
+        before=before, after=after, joint=index + 1, name=joint.name, kind=joint.kind, moved=by
     )

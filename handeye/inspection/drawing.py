@@ -4,7 +4,7 @@ from html import escape
 from typing import Final
 
 from handeye.core.plain_text import counted
-from handeye.inspection.flow import Flow, FlowEdge
+from handeye.inspection.flow import Flow
 from handeye.inspection.layout import NOTE, ROW, WIDTH, Layout, Point, Route, StepBox, layout
 
 COLOURS: Final = {
@@ -98,12 +98,9 @@ def _route(route: Route, graph: Flow) -> str:
     if route.kind != "out":
         return line
     x, y = route.points[-1]
-    said = escape(_cut(_outside(route.edge, graph), 28))
+    end = route.edge.end
+    said = escape(_cut("end" if end is None else f"to {graph.outside[end]}", 28))
     return f'{line}<text class="l h" x="{x + 8:g}" y="{y + 4:g}">{said}</text>'
-
-
-def _outside(edge: FlowEdge, graph: Flow) -> str:
-    return "end" if edge.end is None else f"to {graph.outside[edge.end]}"
 
 
 def _label(route: Route) -> str:

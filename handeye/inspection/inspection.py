@@ -83,15 +83,12 @@ def _newest(program: Program) -> list[Newest]:
         for follower in dict.fromkeys(graph.onward[number]):
             if follower is None:
                 continue
-            merged = _merged(before[follower], after)
-            if merged != before[follower]:
+            here = before[follower]
+            merged = here | {key: here.get(key, frozenset()) | found for key, found in after.items()}
+            if merged != here:
                 before[follower] = merged
                 waiting.append(follower)
     return before
-
-
-def _merged(one: Newest, other: Newest) -> Newest:
-    return one | {key: one.get(key, frozenset()) | steps for key, steps in other.items()}
 
 
 class InspectedStep(Record, frozen=True, kw_only=True):

@@ -208,16 +208,14 @@ def layout(graph: Flow) -> Layout:
     )  # fmt: skip
 
 
-def _beside(edge: FlowEdge, lane: int, side: str, boxes: dict[int, StepBox]) -> Route:
+def _beside(edge: FlowEdge, lane: int, side: Literal["back", "skip"], boxes: dict[int, StepBox]) -> Route:
     assert edge.end is not None
     one, other = boxes[edge.start], boxes[edge.end]
     start, end = one.y + one.height * 0.62, other.y + other.height * 0.38
-    if side == "back":
-        x, edge_x = one.x - SIDE - lane * LANE, one.x
-    else:
-        x, edge_x = one.x + WIDTH + SIDE + lane * LANE, one.x + WIDTH
+    away, edge_x = (-1, one.x) if side == "back" else (1, one.x + WIDTH)
+    x = edge_x + away * (SIDE + lane * LANE)
     points = ((edge_x, start), (x, start), (x, end), (edge_x, end))
-    return Route(edge=edge, points=points, kind="back" if side == "back" else "skip")
+    return Route(edge=edge, points=points, kind=side)
 
 
 def _plain(
@@ -239,15 +237,8 @@ def _plain(
         one.node.step + 1 == other.node.step and other.y == shelf + TOP
     ):  # from the foot of a column to the next
         out, down, corner = border - 4, bottom + 12, other.x + WIDTH / 2
-        points = (
-            (middle, bottom),
-            (middle, down),
-            (out, down),
-            (out, over),
-            (corner, over),
-            (corner, other.y),
-        )
-        return Route(edge=edge, points=points, kind="over")
+        leaving = (middle, bottom), (middle, down), (out, down), (out, over)
+        return Route(edge=edge, points=(*leaving, (corner, over), (corner, other.y)), kind="over")
     end = other.y + other.height * 0.38
     out, back, over = border - 8, back + 8, over - 8
     points = ((right, y), (out, y), (out, over), (back, over), (back, end), (other.x, end))

@@ -75,10 +75,6 @@ def conditions(operation: AnyOperation) -> tuple[str, ...]:
     return guarded if said is None else (*guarded, *said(operation))
 
 
-def _via(operation: Move) -> list[str]:
-    return [f"by way of {', '.join(operation.via)}"] if operation.via else []
-
-
 def _with_force(operation: Change) -> list[str]:
     said = []
     if operation.press is not None:
@@ -102,23 +98,17 @@ def _held(operation: Close | Center) -> str:
     return f"holds {held}, else error {NOTHING_HELD}"
 
 
-def _gone(operation: Travel) -> list[str]:
-    way = f"{inches(operation.minimum)} to {inches(operation.maximum)}"
-    return [f"went {way}, else error {WRONG_TRAVEL}"]
-
-
-def _stands(operation: Height) -> list[str]:
-    way = f"{inches(operation.minimum)} to {inches(operation.maximum)}"
-    return [f"stands {way} over {operation.name}, else error {WRONG_HEIGHT}"]
+def _within(operation: Travel | Height) -> str:
+    return f"{inches(operation.minimum)} to {inches(operation.maximum)}"
 
 
 _CONDITIONS: Final[dict[type[AnyOperation], Callable[[Any], list[str]]]] = {
-    Move: _via,
+    Move: lambda operation: [f"by way of {', '.join(operation.via)}"] if operation.via else [],
     Change: _with_force,
     Close: _closed,
     Center: lambda operation: [_held(operation)],
-    Travel: _gone,
-    Height: _stands,
+    Travel: lambda operation: [f"went {_within(operation)}, else error {WRONG_TRAVEL}"],
+    Height: lambda one: [f"stands {_within(one)} over {one.name}, else error {WRONG_HEIGHT}"],
     Undo: lambda operation: [f"undoes the stage, {counted(operation.times, 'time')} at most"],
 }
 """Further conditions by operation."""

@@ -118,12 +118,9 @@ class Weakness:
 def weakness(
     arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
 ) -> Weakness | None:
-    """The joint that keeps the hand from exerting a force at any of the configurations `q`, or None.
+    """The joint that keeps the hand from exerting a force (N, W) at any of the configurations (N, n), or None.
 
-    Args:
-        q: shape (N, n), rad and m.
-        wanted: N, table axes, shape (3,); a moment (N m) if `turning`.
-        weight: additional weight in the hand, N.
+    A moment (N m) is `wanted` if `turning`; `weight` (N) is in the hand besides.
     """
     size = float(np.linalg.norm(wanted))
     if size == 0.0:
@@ -192,9 +189,8 @@ class Checks:
         X_WT, grip, goal = forward(self.arm, q), self._grip, step.operation.goal_position
         for boxes, held in ((grip.fingers, None), (grip.load, grip.held)):
             judged = held is None and goal is not None
-            crossing = table_crossing(X_WT, boxes, goal=judged) or self._obstacles.crossing(
-                X_WT, boxes, goal=judged
-            )
+            crossing = table_crossing(X_WT, boxes, goal=judged)
+            crossing = crossing or self._obstacles.crossing(X_WT, boxes, goal=judged)
             if crossing is not None:
                 position = goal if crossing.at_end else None
                 self.findings.add(
@@ -221,15 +217,10 @@ class Checks:
             wanted, turning = demand.exerted
             weak = weakness(self.arm, q[[0, -1]], np.array(wanted), turning=turning, weight=weight)
             if weak is not None:
-                self.findings.add(
-                    TooWeak(
-                        step=number,
-                        exerted=demand.exerted,
-                        guard=demand.guard,
-                        joint=weak.joint,
-                        most=weak.most,
-                    )
+                found = TooWeak(
+                    step=number, exerted=demand.exerted, guard=demand.guard, joint=weak.joint, most=weak.most
                 )
+                self.findings.add(found)
                 return
 
     def told_from_friction(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
@@ -239,8 +230,5 @@ class Checks:
         for demand in guarded:
             most = None if felt is None else faint(felt, demand.exerted)
             if most is not None:
-                self.findings.add(
-                    TooFaint(
-                        step=number, exerted=demand.exerted, friction=most, margin=MARGIN
-                    )
-                )  # fmt: skip
+                faintest = TooFaint(step=number, exerted=demand.exerted, friction=most, margin=MARGIN)
+                self.findings.add(faintest)

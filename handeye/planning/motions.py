@@ -44,17 +44,12 @@ def move_trajectory(
             return Unreachable(name=name, why=result)
         passed.append(result.q)
     places = [forward(arm, q), *via, X_WT]
+    away = [float(np.hypot(*(X_to[:2, 3] - X_from[:2, 3]))) for X_from, X_to in (places[:2], places[-2:])]
     departure, approach = (
-        0.0 if operation.direct else _clearance(one, other) for one, other in (places[:2], places[-2:])
+        0.0 if operation.direct else float(np.clip(far, LEAST_CLEARANCE, CLEARANCE)) for far in away
     )
     made = move(arm, q, X_WT, via=passed, departure=departure, approach=approach, speed=speed)
     return Unreachable(name=operation.goal, why=made) if isinstance(made, IKResult) else made
-
-
-def _clearance(X_from: Pose, X_to: Pose) -> float:
-    """Height to rise between two places, m."""
-    away = float(np.hypot(*(X_to[:2, 3] - X_from[:2, 3])))
-    return float(np.clip(away, LEAST_CLEARANCE, CLEARANCE))
 
 
 def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKResult:

@@ -37,9 +37,7 @@ Fitted: with the invented acceleration limits it makes the whole job take about 
 study, section 5); one datum, so no evidence of how slow the real arm was.
 """
 HOME = "PARK"  # the position a program starts from
-_COLLISION_STRIDE = (
-    2  # servo periods between collision checks of a free motion: under .6 in at the pump's speeds
-)
+_COLLISION_STRIDE = 2  # servo periods between checks of a free motion: under .6 in at the pump's speeds
 
 
 def make_plan(
@@ -47,11 +45,8 @@ def make_plan(
 ) -> tuple[Plan | None, list[PlanFinding]]:
     """The plan of a program for an arm, None if there are errors, and the findings.
 
-    A position that only a `HERE` defines has the pose planned for it.
-
-    Args:
-        task: name of the task that the plan is for.
-        start: initial configuration, shape (n,), rad and m; by default at `HOME`, else at the first goal.
+    A position that only a `HERE` defines has the pose planned for it. The arm is at `start` first, shape (n,), rad and
+    m, by default at `HOME`, else at the first goal.
     """
     findings = FindingList()
     walk = _Walk(

@@ -35,13 +35,7 @@ class Centring:
     _left: float | None = field(default=None, init=False)
 
     def step(self, *, touch: tuple[bool, bool], gap: float, period: float) -> CentringStep:
-        """Set-point changes of the next period.
-
-        Args:
-            touch: switches of the fingers on the hand's +y and -y side.
-            gap: opening between the finger tips, m.
-            period: s.
-        """
+        """Set-point changes of the next period (s), by the switches (of the +y finger first) and the gap (m)."""
         left = gap + OVERDRIVE if self._left is None else self._left
         if all(touch):
             self.done = True

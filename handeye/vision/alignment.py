@@ -35,9 +35,7 @@ def shift(first: Picture, second: Picture, where: Points | None = None) -> Array
     """Shift (columns, rows), shape (2,), of the second of two pictures of one view against the first.
 
     First in whole points, by the agreement of most; then, from the slopes of what agrees, in fractions of a point.
-
-    Args:
-        where: points of the first picture that count; by default all.
+    Only points of the first picture in the mask `where` count, by default all.
     """
     a, b = smooth(first), smooth(second)
     counts = np.ones(first.shape, dtype=np.bool_) if where is None else where

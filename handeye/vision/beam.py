@@ -72,11 +72,18 @@ def beams(
     """
     starts, directions = np.rint(starts), np.asarray(directions, dtype=float)
     scan.beams += len(starts)
-    low, high = _run(scan, starts, directions, reach)
+    back, ahead = scan.runs(starts, directions)
+    low = np.maximum(np.ceil(-back), 1 - SPAN)
+    high = np.minimum(np.floor(ahead), np.trunc(reach) + SPAN - 1)
+    high[high - low + 1 < 2 * SPAN] = -SPAN  # too short for a step
     k = np.arange(1 - SPAN, max(SPAN, int(high.max(initial=0))) + 1)
     usable = (k >= low[:, None]) & (k <= high[:, None])
-    where = _along(scan, starts, directions, k)
-    across = _across(scan, directions) if wide else None
+    u, v = np.rint(starts.T[:, :, None] + directions.T[:, :, None] * k)
+    where = np.asarray(v * scan.columns + u, dtype=np.intp)
+    across = None
+    if wide:  # to the neighbour below a ray, or to the right of it, (n, 1)
+        level = np.abs(directions[:, 0]) >= np.abs(directions[:, 1])
+        across = np.where(level, scan.columns, 1)[:, None]
     total = _sums(scan, where, across)
     rise = polarity * (total[:, SPAN:] - total[:, :-SPAN])
     scale = SPAN * (3 if wide else 1)
@@ -95,27 +102,6 @@ def beams(
 
 
 _BLOCKED: Final = -1e6  # the rise where a beam may not look
-
-
-def _run(scan: Scan, starts: Array, directions: Array, reach: float | Array) -> tuple[Array, Array]:
-    """First and last readable point of each ray, shape (n,); rays too short for a step become empty."""
-    back, ahead = scan.runs(starts, directions)
-    low = np.maximum(np.ceil(-back), 1 - SPAN)
-    high = np.minimum(np.floor(ahead), np.trunc(reach) + SPAN - 1)
-    high[high - low + 1 < 2 * SPAN] = -SPAN
-    return low, high
-
-
-def _along(scan: Scan, starts: Array, directions: Array, k: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Indices of the points at distances `k` along rays, shape (n, len(k))."""
-    u, v = np.rint(starts.T[:, :, None] + directions.T[:, :, None] * k)
-    return np.asarray(v * scan.columns + u, dtype=np.intp)
-
-
-def _across(scan: Scan, directions: Array) -> NDArray[np.intp]:
-    """Index offset to the neighbour across a ray, shape (n, 1): below, or to the right."""
-    level = np.abs(directions[:, 0]) >= np.abs(directions[:, 1])
-    return np.where(level, scan.columns, 1)[:, None]
 
 
 def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) -> Array:

@@ -84,7 +84,7 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
     return Calibration(
         model=model,
         residual_px={f: _rms([_miss_px(model, s) for s in sightings if np.isclose(s.lens, f)]) for f in used},
-        residual_m=_rms([_miss_on_table(model, s) for s in sightings]),
+        residual_m=_rms([(_on_table(model, s) - s.point_W)[:2] for s in sightings]),
     )
 
 
@@ -124,9 +124,8 @@ def _miss(model: CameraModel, s: Sighting) -> Array:
     return np.asarray(_miss_px(model, s) / view.focal * distance)
 
 
-def _miss_on_table(model: CameraModel, s: Sighting) -> Array:
-    seen = _view(model, s).back_project(np.array([s.u, s.v]), s.point_W[2])[0]
-    return np.asarray((seen - s.point_W)[:2])
+def _on_table(model: CameraModel, s: Sighting) -> Array:
+    return np.asarray(_view(model, s).back_project(np.array([s.u, s.v]), s.point_W[2])[0])
 
 
 def _rms(misses: list[Array]) -> float:

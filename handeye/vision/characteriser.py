@@ -150,24 +150,11 @@ def _chord(
 
 
 def rim(
-    scan: Scan,
-    centre: tuple[float, float],
-    step: float,
-    reach: float,
-    *,
-    rays: int = RAYS,
-    inner: float = 0.0,
-    polarity: Polarity = BRIGHTER,
-    wide: bool = False,
-    beyond: float = 0.0,
-) -> Array:
-    """Border points (u, v) around a centre, shape (`rays`, 2), by angle; NaN where none is met.
-
-    Beams begin `inner` points from the centre.
-    """
+    scan: Scan, centre: tuple[float, float], step: float, reach: float, *, rays: int = RAYS, beyond: float = 0.0
+) -> Array:  # fmt: skip
+    """Border points (u, v) around a centre, shape (`rays`, 2), by angle, by wide beams; NaN where none is met."""
     borders = rims(
-        scan, np.array([centre]), step, np.array([reach]),
-        rays=rays, inner=np.array([inner]), polarity=polarity, wide=wide, beyond=beyond,
+        scan, np.array([centre]), step, np.array([reach]), rays=rays, inner=np.zeros(1), wide=True, beyond=beyond
     )  # fmt: skip
     return np.asarray(borders[0])
 
@@ -180,19 +167,18 @@ def rims(
     *,
     rays: int = RAYS,
     inner: Array,
-    polarity: Polarity = BRIGHTER,
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Array:
     """Border points around several centres at once, shape (n, `rays`, 2), faster than one by one.
 
-    Centres have shape (n, 2), `reach` and `inner` shape (n,).
+    Centres have shape (n, 2), `reach` and `inner`, where beams begin, shape (n,).
     """
     spokes = _spokes(rays)
     starts = centres[:, None] + inner[:, None, None] * spokes
     directions = np.broadcast_to(spokes, starts.shape).reshape(-1, 2)
     lengths = np.repeat(reach - inner, rays)
-    edges = beams(scan, starts.reshape(-1, 2), directions, polarity, step, lengths, wide=wide, beyond=beyond)
+    edges = beams(scan, starts.reshape(-1, 2), directions, BRIGHTER, step, lengths, wide=wide, beyond=beyond)
     points = edges.uv
     points[~edges.met] = np.nan
     return np.asarray(points.reshape(-1, rays, 2))

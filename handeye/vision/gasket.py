@@ -207,14 +207,8 @@ def _centre(
     seed, reach = _seen(view, place, hole)
     blob = characterise(scan, seed, step, reach, wide=True, beyond=beyond)
     middle = (blob.u, blob.v) if blob else seed
-    points = rim(scan, middle, step, reach, rays=RAYS, wide=True, beyond=beyond)
+    points = rim(scan, middle, step, reach, rays=RAYS, beyond=beyond)
     return fit_circle(view, points, float(place[2]), hole.diameter)
-
-
-def _border(scan: Scan, view: View, place: Array, hole: Hole, step: float, beyond: float) -> Array:
-    """Points (u, v) of the border of a hole around a place, shape (RAYS, 2)."""
-    centre, reach = _seen(view, place, hole)
-    return rim(scan, centre, step, reach, rays=RAYS, wide=True, beyond=beyond)
 
 
 def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], float]:
@@ -229,9 +223,9 @@ def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _
     Against its own median radius: half of the border of a union of two discs is nearly undisturbed. Only where the
     base's border is seen in the picture before: an aligning pin may stand in front of it.
     """
-    radii = []
+    radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):
-        points = _border(scan, view, centre, hole, step, beyond)
+        points = rim(scan, middle, step, reach, rays=RAYS, beyond=beyond)
         spokes = view.back_project(points, float(centre[2])) - centre
         radii.append(np.hypot(spokes[:, 0], spokes[:, 1]))
     seen = np.median(np.nan_to_num(radii[0], nan=hole.diameter / 2))

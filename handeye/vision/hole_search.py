@@ -190,10 +190,8 @@ class HoleFinder:
         diameter = self._part.holes[0].diameter
         width, height = diameter * self._across, diameter * self._down
         for _ in range(2):
-            points = rim(
-                self._scan, (float(middle[0]), float(middle[1])), self._step, width,
-                wide=True, beyond=0.9 * self._bright,
-            )  # fmt: skip
+            at = float(middle[0]), float(middle[1])
+            points = rim(self._scan, at, self._step, width, beyond=0.9 * self._bright)
             centre = fit_circle(self._view, points, self._z, diameter)
             if centre is None:
                 return None
@@ -245,12 +243,14 @@ class HoleFinder:
     def _tried(self, seed: Array) -> Candidate | None:
         """The characteriser's result at a point, if it may be a hole of the part."""
         reach = 1.35 * self._part.holes[0].diameter * self._across
-        blob = characterise(
-            self._scan, (float(seed[0]), float(seed[1])), self._step, reach,
-            wide=self._search.wide, beyond=0.9 * self._bright,
-        )  # fmt: skip
-        size = blob and _size(blob.width / self._across, blob.height / self._down, self._part)
-        if blob is None or size is None:
+        at, wide, beyond = (float(seed[0]), float(seed[1])), self._search.wide, 0.9 * self._bright
+        blob = characterise(self._scan, at, self._step, reach, wide=wide, beyond=beyond)
+        if blob is None:
+            return None
+        width, height = blob.width / self._across, blob.height / self._down
+        size = math.sqrt(max(width * height, 0.0))
+        smallest, largest = SIZES[0] * self._part.holes[1].diameter, SIZES[1] * self._part.holes[0].diameter
+        if not (ELONGATION[0] * height < width < ELONGATION[1] * height and smallest < size < largest):
             return None
         x, y, _ = self._view.back_project(np.array([blob.u, blob.v]), self._z)[0].tolist()
         return Candidate(blob, x, y, size)
@@ -270,14 +270,6 @@ class HoleFinder:
             for points, hole in zip(borders, self._part.holes, strict=False)
         ]
         return None if None in centres else np.array(centres)
-
-
-def _size(width: float, height: float, part: Part) -> float | None:
-    """Mean diameter (m) of a blob that is round enough and within the part's hole sizes."""
-    size = math.sqrt(max(width * height, 0.0))
-    is_round = ELONGATION[0] * height < width < ELONGATION[1] * height
-    fits = SIZES[0] * part.holes[1].diameter < size < SIZES[1] * part.holes[0].diameter
-    return size if is_round and fits else None
 
 
 def _lines(box: BoundingBox, spacing: int) -> tuple[Array, Array, Array]:

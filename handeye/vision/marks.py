@@ -13,7 +13,7 @@ import numpy as np
 
 from handeye.core.pose import Pose
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
+from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.camera_model import View
 from handeye.vision.gasket import GasketInspection
 from handeye.vision.part_match import PartMatch
@@ -90,7 +90,9 @@ def marks(
     if specific:
         first, second = specific.holes
         drawn.append(Line(ends=((first.u, first.v), (second.u, second.v)), colour=RED))
-        drawn += [mark for hole in specific.holes for mark in _hole(hole)]
+        for hole in specific.holes:
+            u, v, w, h = hole.u, hole.v, hole.width / 2, hole.height / 2
+            drawn += [_box(u - w, v - h, u + w, v + h, YELLOW, THIN), *_cross(u, v)]
     if grasp:
         drawn.append(Line(ends=grasp, colour=BLUE, width=BOLD))
     if inspection:
@@ -100,11 +102,6 @@ def marks(
     if match:
         drawn.append(Loop(points=match.outline, colour=GREEN if match.ok else RED, width=BOLD))
     return drawn
-
-
-def _hole(hole: SeenHole) -> list[Mark]:
-    u, v, w, h = hole.u, hole.v, hole.width / 2, hole.height / 2
-    return [_box(u - w, v - h, u + w, v + h, YELLOW, THIN), *_cross(u, v)]
 
 
 def _box(left: float, top: float, right: float, bottom: float, colour: Colour, width: float) -> Mark:

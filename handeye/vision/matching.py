@@ -15,7 +15,7 @@ from handeye.core.units import INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.diagnosis.causes import OutsidePicture, PartAstray
 from handeye.program.program import Part
-from handeye.vision.alignment import Points, changed, moved, shift, smooth
+from handeye.vision.alignment import changed, moved, shift, smooth
 from handeye.vision.base import Failure, silhouettes
 from handeye.vision.camera_model import View, in_picture
 from handeye.vision.part_match import PartMatch
@@ -40,8 +40,7 @@ def match(
 ) -> PartMatch | Failure:
     """Compare two pictures of a part at `pose` (x, y m, yaw rad).
 
-    Both must be taken with one aim and one target voltage, and with the arm in one place. The part must
-    have an outline.
+    Both must be taken with one aim, one target voltage and the arm in one place. The part must have an outline.
     """
     if part.outline is None:
         raise BadArgument(
@@ -52,10 +51,16 @@ def match(
     hull = cv2.convexHull(corners.astype(np.float32))[:, 0]
     if not in_picture(hull):
         return Failure(cause=OutsidePicture())
-    its, around = _points(hull)
+    drawn = np.zeros((ROWS, COLUMNS), np.uint8)
+    cv2.fillConvexPoly(drawn, np.rint(hull).astype(np.int32), 1)
+    wide = cv2.dilate(drawn, np.ones((2 * BESIDE + 1, 2 * BESIDE + 1), np.uint8))
+    its, around = drawn > 0, wide == 0
     background = shift(before, after, around)
     own = shift(before, after, its)
-    off = _on_face(view, part, (x, y), own - background)
+    z = part.at[2] + part.face
+    there = view.project(np.array([[x, y, z]]))[0]
+    first, second = view.back_project(np.array([there, there + (own - background)]), z)
+    off = float(np.hypot(*(second - first)[:2]))  # on the plane of the face
     differs = changed(smooth(before), moved(smooth(after), -own))
     unlike = float(differs[its].mean())
     wrong = off > MOVED or unlike > UNLIKE
@@ -65,19 +70,3 @@ def match(
         shift=off,
         unlike=unlike,
     )
-
-
-def _points(hull: np.ndarray) -> tuple[Points, Points]:
-    """Masks of a part with this hull, shape (n, 2), and of its surroundings."""
-    drawn = np.zeros((ROWS, COLUMNS), np.uint8)
-    cv2.fillConvexPoly(drawn, np.rint(hull).astype(np.int32), 1)
-    wide = cv2.dilate(drawn, np.ones((2 * BESIDE + 1, 2 * BESIDE + 1), np.uint8))
-    return drawn > 0, wide == 0
-
-
-def _on_face(view: View, part: Part, place: tuple[float, float], points: np.ndarray) -> float:
-    """Length (m) on the plane of the part's face of a shift in the picture (columns, rows)."""
-    z = part.at[2] + part.face
-    there = view.project(np.array([[*place, z]]))[0]
-    first, second = view.back_project(np.array([there, there + points]), z)
-    return float(np.hypot(*(second - first)[:2]))

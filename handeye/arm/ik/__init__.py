@@ -44,10 +44,6 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
     Nearest in the sum of joint travel times. Joints that the pose leaves free stay as in `near`; held joints go to
     where they are held.
-
-    Args:
-        X_WT: shape (4, 4).
-        near: shape (n,), rad and m.
     """
     return _SOLVERS[arm.structure].solve(arm, X_WT, near)
 
@@ -55,33 +51,20 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None = None) -> tuple[Array, NDArray[np.bool_]]:
     """All closed-form solutions for poses of shape (..., 4, 4), ignoring limits.
 
-    Args:
-        start: initial configuration of a motion along the poses, shape (n,): free and held joints stay as there. None:
-            free
-            joints are 0, held ones where they are held.
-    Returns:
-        joint positions (..., k, n), revolute ones in (-pi, pi], and which exist, (..., k).
+    Joint positions (..., k, n), revolute ones in (-pi, pi], and which exist, (..., k). Free and held joints stay as in
+    `start`, where a motion along the poses begins; without it free joints are 0, held ones where they are held.
     """
     return _SOLVERS[arm.structure].branches(arm, X_WT, start)
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """The first of N configurations in which the joints cannot give the hand its twist, and why, or None.
+    """The first of N configurations of a branch in which joints cannot give the hand its twist, and why, or None.
 
-    Args:
-        q_start: initial configuration, shape (n,).
-        q: configurations of one branch, shape (N, n).
-        V: twists at T in world axes, shape (N, 6).
+    `V` are the twists at T in world axes, shape (N, 6), on a motion from `q_start`.
     """
     return _SOLVERS[arm.structure].singular(arm, q_start, q, V)
 
 
 def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
-    """Joint rates for twists of the hand, where not singular; shape (N, n).
-
-    Args:
-        q: shape (N, n).
-        J: Jacobian at T, shape (N, 6, n).
-        V: twists at T in world axes, shape (N, 6).
-    """
+    """Joint rates, (N, n), for twists `V` at T in world axes, (N, 6), where not singular; `J`: Jacobian at `q`."""
     return _SOLVERS[arm.structure].rates(arm, q, J, V)

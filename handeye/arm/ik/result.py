@@ -42,7 +42,8 @@ def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResu
     """
     good = [q for q in found if all(map(_inside, arm.joints, q))]
     if good:
-        return IKResult(q=np.array(min(good, key=lambda q: _travel_time(arm, q, near))))
+        speeds = [joint.speed for joint in arm.joints]
+        return IKResult(q=np.array(min(good, key=lambda q: sum(map(_travel_time, q, near, speeds)))))
     return min((_fault(arm, q) for q in found), key=lambda fault: fault[0])[1]
 
 
@@ -50,8 +51,8 @@ def _inside(joint: Joint, x: float) -> bool:
     return joint.lower - SLACK <= x <= joint.upper + SLACK
 
 
-def _travel_time(arm: ArmModel, a: list[float], b: list[float]) -> float:
-    return sum(abs(x - y) / joint.speed for joint, x, y in zip(arm.joints, a, b, strict=True))
+def _travel_time(a: float, b: float, speed: float) -> float:
+    return abs(a - b) / speed
 
 
 def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:

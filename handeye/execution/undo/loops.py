@@ -29,17 +29,15 @@ def loop_entry(
     """Index of the step after which the last jump back found the world as that step had left it.
 
     It counts while the hand has only moved through free air since: the way back of a MOVE to the next place of a search
-    would end on what was met at the place before.
-
-    Args:
-        hand: position of the hand after a step given by index, shape (3,), W; None: it never moved.
-        grasping: the fingers were last closed; None: as before the last step.
+    would end on what was met at the place before. `hand` gives the position of the hand after a step, by its index,
+    shape (3,), W, None if it never moved; `grasping`: the fingers were last closed, None as before the last step.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
         jumped = done[head - 1].step >= done[head].step
-        passes = _keeps_hold if jumped and head == last else _in_air
-        if not passes(done, head, grasping):
+        here = done[head]
+        in_air = here.force == 0.0 and not here.tool and not here.called and not here.enters
+        if not (in_air or (jumped and head == last)) or not _keeps_hold(done, head, grasping):
             return None
         if jumped:
             return next(
@@ -47,13 +45,6 @@ def loop_entry(
                 None,
             )
     return None
-
-
-def _in_air(done: Sequence[ExecutedStep], index: int, grasping: bool | None) -> bool:
-    """True if a step felt nothing, called nobody, and left hand and driver unchanged."""
-    here = done[index]
-    nothing = here.force == 0.0 and not here.tool and not here.called and not here.enters
-    return nothing and _keeps_hold(done, index, grasping)
 
 
 def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None) -> bool:
@@ -71,10 +62,7 @@ def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None)
 def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
     """Index of the step after which an empty hand went to touch what the last step left; -1: before the first.
 
-    Args:
-        grasping: the fingers were last closed.
-    Returns:
-        None if the last step left no touch.
+    None if the last step left no touch; `grasping`: the fingers were last closed.
     """
     last = len(done) - 1
     if grasping or last < 1 or not _goes_empty(done[last]):

@@ -91,9 +91,17 @@ class Retracing:
 def retracing(arm: ArmModel, q: Array, gap: float, way: RecordedPath, *, slowly: bool) -> Retracing:
     """The path back from where the arm and its fingers are; `slowly`: at the speed of guarded motions at most."""
     rows = np.column_stack([way.q, way.gap])[::-1]
-    path = np.vstack([_joined(np.append(q, gap), rows[0]), rows])
+    here = np.append(q, gap)
+    joining = max(
+        1, int(np.ceil(np.abs(rows[0] - here)[:-1].max() / JOIN))
+    )  # servo periods to the end of the path
+    joined = here + np.linspace(0.0, 1.0, joining, endpoint=False)[:, None] * (rows[0] - here)
+    path = np.vstack([joined, rows])
     last, period = len(path) - 1, arm.servo.period
-    periods = _periods(arm, path[:, :-1]) if slowly else np.ones(last)
+    periods = np.ones(last)
+    if slowly:
+        went = np.linalg.norm(np.diff(forward(arm, path[:, :-1])[:, :3, 3], axis=0), axis=1)
+        periods = np.maximum(1.0, went / (GUARDED_SPEED * period))
     places = np.interp(_clock(float(periods.sum())), np.append(0.0, np.cumsum(periods)), np.arange(last + 1))
     points = np.column_stack([np.interp(places, np.arange(last + 1), column) for column in path.T])
     at = points[1:, :-1]
@@ -101,18 +109,6 @@ def retracing(arm: ArmModel, q: Array, gap: float, way: RecordedPath, *, slowly:
     qd[-1] = 0.0
     left = np.minimum(np.floor(last - places[1:]).astype(int), len(way) - 1)
     return Retracing(samples=Samples(q=at, qd=qd, qdd=np.zeros_like(at)), gap=points[1:, -1], left=left)
-
-
-def _joined(here: Array, there: Array) -> Array:
-    """Set-points from the arm's position to the path's end, exclusive; shape (N, n + 1)."""
-    periods = max(1, int(np.ceil(np.abs(there - here)[:-1].max() / JOIN)))
-    return np.asarray(here + np.linspace(0.0, 1.0, periods, endpoint=False)[:, None] * (there - here))
-
-
-def _periods(arm: ArmModel, q: Array) -> Array:
-    """Servo periods, one at least, between set-points, for a hand no faster than guarded motions."""
-    went = np.linalg.norm(np.diff(forward(arm, q)[:, :3, 3], axis=0), axis=1)
-    return np.asarray(np.maximum(1.0, went / (GUARDED_SPEED * arm.servo.period)))
 
 
 def _clock(periods: float) -> Array:

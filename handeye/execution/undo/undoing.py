@@ -82,9 +82,12 @@ def undo_last(run: ExecutionContext) -> UndoFailure | None:
     state = run.state
     first = _first_of_lift(run)
     here = state.done[-1].step
-    state.stage = run.plan.program.steps[here].stage
     run.drive.track.begin(run.drive.state.q, run.drive.state.gap)
-    _tell(run, here, len(state.done) - first)
+    step, count = run.plan.program.steps[here], len(state.done) - first
+    run.emit(
+        UndoStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text, steps=count)
+    )
+    state.stage = step.stage
     try:
         several = first < len(state.done) - 1
         remembered = [recalled(run, done.remembered) for done in state.done[first:]]
@@ -92,7 +95,9 @@ def undo_last(run: ExecutionContext) -> UndoFailure | None:
         undone = [] if stopped else _forget(run, first, remembered)
     except ValueError:  # a way or a memory that is none of this program and its arm
         stopped, undone = UndoFailure(cause=UndoUnknown()), []
-    run.emit(_finished(run, here))
+    hand, gap = vector(run.drive.hand()[:3, 3]), round(run.drive.sensed.gap, 6)
+    force = round(run.drive.track.force, 3)
+    run.emit(UndoFinished(time=run.time, step=here, hand=hand, planned=None, gap=gap, force=force))
     if undone:
         _proceed(run, undone)
     return stopped
@@ -109,20 +114,6 @@ def _first_of_lift(run: ExecutionContext) -> int:
         return last
     entry = touch_entry(state.done, grasping=state.grasping) if rounds is None else rounds
     return last if entry is None or entry + 1 < state.undoing.left else entry + 1
-
-
-def _tell(run: ExecutionContext, number: int, steps: int) -> None:
-    step = run.plan.program.steps[number]
-    run.emit(
-        UndoStarted(time=run.time, step=number, file=step.file, line=step.line, text=step.text, steps=steps)
-    )
-
-
-def _finished(run: ExecutionContext, number: int) -> UndoFinished:
-    """The event of a reversed step."""
-    hand, gap = vector(run.drive.hand()[:3, 3]), round(run.drive.sensed.gap, 6)
-    force = round(run.drive.track.force, 3)
-    return UndoFinished(time=run.time, step=number, hand=hand, planned=None, gap=gap, force=force)
 
 
 def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> list[ExecutedStep]:
@@ -165,9 +156,12 @@ def _undo(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
     if not done.way:
         return None
     if run.state.lets_go == len(run.state.done) - 1 and drive.magnet:
-        lost = _screw_lost(run, done)
-        if lost is not None:
-            return lost
+        # before the magnet lets go, the screw has to stand where a step took it
+        outcome = lower(run, force := SUPPORT_SHARE * done.force)
+        if outcome.error is not None:
+            return UndoFailure(error=outcome.error, cause=outcome.cause)
+        if outcome.trip is None:
+            return UndoFailure(cause=ScrewLost(way=LOWER, force=round(force, 6)))
         drive.magnet = False
     if done.tool:
         return _turn_out(run, done)
@@ -186,12 +180,25 @@ def _retrace(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
     way = _way(run, done)
     stopped = _go(run, done, RecordedPath(q=way.q, gap=np.full(len(way), run.drive.state.gap)))
     resisted = stopped is not None and isinstance(stopped.cause, UndoResisted)
-    return None if resisted and stands(run, way, lambda earlier: _grasps(run, earlier)) else stopped
+    steps = run.plan.program.steps
+
+    def grasps(earlier: ExecutedStep) -> bool:
+        return _UNDOING.get(type(steps[earlier.step].operation)) is _let_go
+
+    return None if resisted and stands(run, way, grasps) else stopped
 
 
 def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse a grasp: open the fingers to where they were; what they held before, they hold as firmly again."""
-    off = _lost(run, done.gap[1])
+    """Reverse a grasp: open the fingers to where they were; what they held before, they hold as firmly again.
+
+    They must hold what they took, by their gap when it was grasped, or taken again. A carried object may straighten
+    between them: one base of seed 1 by 1.1 mm. More than twice as much means another object, or none.
+    """
+    kept = done.gap[1]
+    held = kept if run.state.held is None else run.state.held
+    most = STRAIGHTER if at_least(min(held, kept), EMPTY_GAP) else 0.0
+    straighter = min(max(held - kept, -most), most)
+    off = _off_hold(run, kept, SKEW + max(-straighter, 0.0), SAME_HOLD + max(straighter, 0.0))
     if off is not None:
         return off
     done = replace(done, way=packed(where_the_hand_is(run, _way(run, done))))
@@ -214,25 +221,17 @@ def _take_again(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None
 
 
 def _fingers_back(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    stopped = _go(run, replace(done, force=_under(run, done)), _way(run, done), _meeting(run, done))
+    # the returned object presses with the force that ended the motion before
+    before = next((earlier for earlier in reversed(run.state.done[:-1]) if earlier.way), done)
+    meeting = None
+    if "touch" not in run.without:
+        meeting = EarlyContact(gap=lambda: run.drive.sensed.gap, kept=done.gap[0], holding=done.grasping)
+    stopped = _go(run, replace(done, force=max(done.force, before.force)), _way(run, done), meeting)
     if stopped is not None:
         return stopped
     _press(run, done.fingers)
     off = SKEW if done.grasping else SAME_HOLD
     return _off_hold(run, done.gap[0], off, off, holding=done.grasping)
-
-
-def _meeting(run: ExecutionContext, done: ExecutedStep) -> EarlyContact | None:
-    """The guard against early contact; None without the sense of touch."""
-    if "touch" in run.without:
-        return None
-    return EarlyContact(gap=lambda: run.drive.sensed.gap, kept=done.gap[0], holding=done.grasping)
-
-
-def _under(run: ExecutionContext, done: ExecutedStep) -> float:
-    """Force (N) with which the returned object presses: that with which the motion before ended."""
-    before = next((earlier for earlier in reversed(run.state.done[:-1]) if earlier.way), done)
-    return max(done.force, before.force)
 
 
 def _press(run: ExecutionContext, gap: float) -> None:
@@ -259,27 +258,6 @@ def _turn_out(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
     return None
 
 
-def _screw_lost(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Check that the screw stands where a step took it, before the magnet lets go."""
-    force = SUPPORT_SHARE * done.force
-    outcome = lower(run, force)
-    if outcome.error is not None or outcome.trip is not None:
-        return None if outcome.error is None else UndoFailure(error=outcome.error, cause=outcome.cause)
-    return UndoFailure(cause=ScrewLost(way=LOWER, force=round(force, 6)))
-
-
-def _lost(run: ExecutionContext, kept: float) -> UndoFailure | None:
-    """Check that the fingers hold what they took, by their gap when it was grasped, or taken again.
-
-    A carried object may straighten between them: one base of seed 1 by 1.1 mm. A difference of more than twice as much
-    means another object, or none.
-    """
-    held = kept if run.state.held is None else run.state.held
-    most = STRAIGHTER if at_least(min(held, kept), EMPTY_GAP) else 0.0
-    straighter = min(max(held - kept, -most), most)
-    return _off_hold(run, kept, SKEW + max(-straighter, 0.0), SAME_HOLD + max(straighter, 0.0))
-
-
 def _off_hold(
     run: ExecutionContext, kept: float, closer: float, wider: float, *, holding: bool = True
 ) -> UndoFailure | None:
@@ -296,10 +274,6 @@ _UNDOING: Final[dict[type[Operation], Callable[[ExecutionContext, ExecutedStep],
     Center: _let_go,
 }
 """Reversals by operation. Other motions retrace their set-points; where nothing moved, only memory is restored."""
-
-
-def _grasps(run: ExecutionContext, done: ExecutedStep) -> bool:
-    return _UNDOING.get(type(run.plan.program.steps[done.step].operation)) is _let_go
 
 
 # -- moving -------------------------------------------------------------------------------------------
