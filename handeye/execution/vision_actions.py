@@ -1,7 +1,8 @@
 """Actions of the camera, and of vision on its pictures."""
 
 import math
-from typing import Final
+from collections.abc import Callable
+from typing import Final, TypeVar
 
 from handeye.core import errors
 from handeye.core.pose import Array, planar, yaw
@@ -19,12 +20,17 @@ from handeye.program.events import (
     PictureTaken,
 )
 from handeye.program.operation import Operation
+from handeye.program.program import Part
 from handeye.program.vision_operations import Aim, Comparison, General, Inspect, Lens, Look, Match, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
-from handeye.vision.camera_model import CameraModel
+from handeye.vision.camera_model import CameraModel, View
+from handeye.vision.gasket import GasketInspection
 from handeye.vision.gasket import inspect as inspect_gasket
 from handeye.vision.live import blank, repeated
 from handeye.vision.marks import Mark, grasp_line
+from handeye.vision.part_match import PartMatch
+
+Found = TypeVar("Found")
 
 
 def _tv(run: ExecutionContext) -> TvCamera:
@@ -166,15 +172,9 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
 
 def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
     """Inspect a gasket by the difference of two pictures."""
-    if "vision" in run.without:
-        return None
-    shots = _compared(run, operation, errors.GASKET_WRONG)
-    if isinstance(shots, Fault):
-        return shots
-    before, after = shots
-    part = run.world.parts[operation.part]
-    with run.vision.running():
-        seen = inspect_gasket(before.picture, after.picture, after.view, part, _pose(run, operation.part))
+    seen = _compared(run, operation, errors.GASKET_WRONG, inspect_gasket)
+    if not isinstance(seen, GasketInspection):
+        return seen
     run.state.found[operation.after] = VisionResult(inspection=seen)
     run.emit(PartInspected(time=run.time, part=operation.part, ok=seen.ok, cause=seen.cause))
     return None if seen.ok else Fault(number=errors.GASKET_WRONG, cause=seen.cause)
@@ -182,44 +182,35 @@ def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
 
 def match(run: ExecutionContext, operation: Match) -> Fault | None:
     """Check by two pictures that a part has not moved."""
-    if "vision" in run.without:
-        return None
-    shots = _compared(run, operation, errors.PART_ASTRAY)
-    if isinstance(shots, Fault):
-        return shots
     from handeye.vision.matching import match as match_part  # takes OpenCV, without which plans are made
 
-    before, after = shots
-    part = run.world.parts[operation.part]
-    with run.vision.running():
-        seen = match_part(before.picture, after.picture, after.view, part, _pose(run, operation.part))
-    if isinstance(seen, Failure):
-        return Fault(number=errors.PART_ASTRAY, cause=seen.cause)
+    seen = _compared(run, operation, errors.PART_ASTRAY, match_part)
+    if not isinstance(seen, PartMatch):
+        return seen
     run.state.found[operation.after] = VisionResult(match=seen)
-    run.emit(
-        PartMatched(
-            time=run.time,
-            part=operation.part,
-            ok=seen.ok,
-            off=round(seen.shift, 6),
-            unlike=round(seen.unlike, 6),
-        )
-    )
+    off, unlike = round(seen.shift, 6), round(seen.unlike, 6)
+    run.emit(PartMatched(time=run.time, part=operation.part, ok=seen.ok, off=off, unlike=unlike))
     return None if seen.ok else Fault(number=errors.PART_ASTRAY, cause=seen.cause)
 
 
-def _compared(run: ExecutionContext, operation: Comparison, number: int) -> tuple[Shot, Shot] | Fault:
-    """The pictures to compare, earlier first, or an error with that number."""
+Pose2D = tuple[float, float, float]  # x, y (m) and yaw (rad)
+Examination = Callable[[Picture, Picture, View, Part, Pose2D], Found | Failure]
+
+
+def _compared(
+    run: ExecutionContext, operation: Comparison, number: int, examine: Examination[Found]
+) -> Found | Fault | None:
+    """What an examination of two pictures, earlier first, finds, or an error with that number; None without vision."""
+    if "vision" in run.without:
+        return None
     before, after = run.state.shots.get(operation.before), run.state.shots.get(operation.after)
     if before is None or after is None:
         return _no_picture(number, operation.after if before else operation.before)
-    return before, after
-
-
-def _pose(run: ExecutionContext, part: str) -> tuple[float, float, float]:
-    """Believed pose of a part: x, y (m) and yaw (rad)."""
-    X_WP = run.world.part(part)
-    return float(X_WP[0, 3]), float(X_WP[1, 3]), yaw(X_WP)
+    part, X_WP = run.world.parts[operation.part], run.world.part(operation.part)
+    believed = float(X_WP[0, 3]), float(X_WP[1, 3]), yaw(X_WP)
+    with run.vision.running():
+        seen = examine(before.picture, after.picture, after.view, part, believed)
+    return Fault(number=number, cause=seen.cause) if isinstance(seen, Failure) else seen
 
 
 def just_found(run: ExecutionContext) -> tuple[str, list[Mark]]:
