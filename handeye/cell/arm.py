@@ -51,7 +51,7 @@ class JointSensors:
         self._converters = Converters(np.concatenate((errors.pot_step, errors.tachometer_step)))
 
     def read(self, q: Array, qd: Array) -> tuple[Array, Array]:
-        """Positions and rates as they are told, for true ones; shape (n,), rad or m."""
+        """Positions and rates that the sensors show for true ones; shape (n,), rad or m."""
         n, lines = self._joints, self._lines
         told = np.concatenate((self._errors.readings(q), qd))
         told += self._sigma * self._noise.standard_normal(2 * n)

@@ -23,7 +23,7 @@ _TOLD: Final = "gloss/"
 
 
 def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
-    """Give the shapes of a prepared scene the gloss that is told of their materials."""
+    """Give the shapes of a prepared scene the gloss that the scene states for their materials."""
     told = _told(model)
     for shape in scene.geoms[: scene.ngeom]:
         if shape.matid in told:
@@ -110,12 +110,12 @@ _LIGHT: Final = ((np.arange(256) / 255) ** GAMMA).astype(np.float32)
 """Light of a point of the screen by its value."""
 _PLASTIC: Final = np.array([0.7548776662466927, 0.5698402909980532])
 """Steps of an even sequence in a square, from the root of x^3 = x + 1."""
-Told = Callable[[int, int], None]
-"""Is called with the number of each exposure before it is made, from 1 on, and with how many there are."""
+Progress = Callable[[int, int], None]
+"""Called with the number of each exposure, from 1, before it is made, and with how many there are."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Exposing:
+class ExposurePlan:
     """How a fine photograph is made."""
 
     exposures: int = USUAL
@@ -130,11 +130,11 @@ class Exposing:
             raise BadArgument(f"{self.exposures} exposures cannot be made; there are 1 to {MOST}")
 
 
-def exposing(*, fine: bool, film: str | None, exposures: int | None) -> Exposing | None:
-    """How a photograph is made by what was asked for, None: plainly; raises as `Exposing`. A plain one has no film."""
+def exposing(*, fine: bool, film: str | None, exposures: int | None) -> ExposurePlan | None:
+    """How a photograph is made by what was asked for, None: plainly, without a film; raises as `ExposurePlan`."""
     if not (fine or film is not None or exposures is not None):
         return None
-    return Exposing(
+    return ExposurePlan(
         film="colour" if film is None else str(film), exposures=USUAL if exposures is None else exposures
     )
 
@@ -150,8 +150,8 @@ class _Exposure:
 
 
 def photographed(
-    model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int, how: Exposing | None,
-    told: Told = lambda number, of: None,
+    model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int, how: ExposurePlan | None,
+    told: Progress = lambda number, of: None,
 ) -> Photograph:  # fmt: skip
     """A fine photograph by a camera of the scene, or a plain one; raises as `fine_photograph`."""
     if how is None:
@@ -160,8 +160,8 @@ def photographed(
 
 
 def fine_photograph(
-    model: mujoco.MjModel, data: mujoco.MjData, *, view: str | Near, width: int, height: int, how: Exposing,
-    told: Told = lambda number, of: None,
+    model: mujoco.MjModel, data: mujoco.MjData, *, view: str | Near, width: int, height: int, how: ExposurePlan,
+    told: Progress = lambda number, of: None,
 ) -> Photograph:  # fmt: skip
     """A photograph of many exposures; raises InvalidInput if there is no such camera, size or OpenGL."""
     check_size(width, height)

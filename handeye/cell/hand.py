@@ -26,7 +26,7 @@ class HandState(Record, frozen=True, kw_only=True):
     gap: float
     touch: tuple[bool, bool]
     set_point: float  # of the finger servo, m
-    command: tuple[float, float] | None  # gap (m) and grip (N) that it was told
+    command: tuple[float, float] | None  # commanded gap (m) and grip (N)
 
 
 class SimulatedHand(Mechanism[HandState], HandPort):

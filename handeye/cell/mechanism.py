@@ -24,7 +24,7 @@ class Mechanism(ABC, Generic[S]):
         """Do what is due before time passes (s)."""
 
     def rested(self, seconds: float) -> None:
-        """More time (s) passes at once than `before` was told of, because everything sleeps."""
+        """More time (s) than that of `before` passes at once, because everything sleeps."""
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """Go on in a changed scene, where numbers of bodies, joints and servos may be others."""

@@ -53,7 +53,7 @@ class OpenGlRenderer(SceneRenderer):
             self._scene.flags[getattr(mujoco.mjtRndFlag, f"mjRND_{flag}")] = 0
 
     def __del__(self) -> None:
-        # what is freed must be this context's, and a renderer of somebody else may have made its own current
+        # what is freed must be this context's, and another renderer may have made its own current
         with contextlib.suppress(Exception):  # at exit the display may be gone before us
             if "_context" in self.__dict__:
                 self._gl.make_current()
@@ -80,7 +80,7 @@ class OpenGlRenderer(SceneRenderer):
                 light.diffuse[:] = 0
         context = self._context
         self._gl.make_current()
-        # each time: where somebody else has drawn in between, OpenGL still draws into their picture
+        # each time: where another renderer has drawn in between, OpenGL still draws into its picture
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, context)
         viewport = mujoco.MjrRect(0, 0, _WIDTH, _HEIGHT)
         mujoco.mjr_render(viewport, self._scene, context)

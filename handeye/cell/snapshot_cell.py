@@ -9,7 +9,7 @@ import numpy as np
 
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import CellState, check_noise, noise_state, set_noise
-from handeye.cell.truth import Drawn, Truth
+from handeye.cell.truth import DrawnScene, Truth
 from handeye.core.errors import BadFile, InvalidInput
 from handeye.ports.camera import Renderer
 
@@ -32,7 +32,7 @@ class SnapshotCell:
         Raises ValueError if two mechanisms have one name, by which their states are found.
         """
         self._model, self._data, self._noise = model, data, noise
-        self._drawn = Drawn(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())
+        self._drawn = DrawnScene(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())
         self._mechanisms = tuple(mechanisms)
         names = [part.name for part in self._mechanisms]
         if len({*names}) < len(names):

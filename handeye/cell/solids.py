@@ -110,7 +110,7 @@ def _pose(quat: Array, place: Array) -> Pose:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Weighed:
+class WeighedBody:
     """A body of solid metal, weighed by its volume."""
 
     body: str
@@ -141,12 +141,12 @@ class SolidScene:
         found = (solid for body in self.bodies.values() for solid in body if not solid.shape.is_watertight)
         return tuple(dict.fromkeys(solid.name for solid in found))
 
-    def weighed(self, densities: Mapping[str, float]) -> Iterator[Weighed]:
+    def weighed(self, densities: Mapping[str, float]) -> Iterator[WeighedBody]:
         """The bodies of which every solid has a density, by the names of the solids, kg/m3."""
         for name, body in self.bodies.items():
             if body and all(solid.name in densities for solid in body):
                 mass = float(self.model.body(name).mass[0])
-                yield Weighed(body=name, mass=_mass(body, densities), mass_there=mass)
+                yield WeighedBody(body=name, mass=_mass(body, densities), mass_there=mass)
 
 
 def _mass(body: Sequence[Solid], densities: Mapping[str, float]) -> float:

@@ -14,8 +14,8 @@ from handeye.cell.mechanism import Mechanism
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Drawn:
-    """Drawn state of a scene, before anything happened in it."""
+class DrawnScene:
+    """Looks of a scene before anything happened in it."""
 
     groups: NDArray[np.int32]  # group of each shape
     colours: NDArray[np.float32]  # red, green, blue and alpha of each material, shape (n, 4)
@@ -27,7 +27,7 @@ class Truth:
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    drawn: Drawn
+    drawn: DrawnScene
     states: Mapping[str, msgspec.Struct]
     """States of the cell's mechanisms, by their names, when this truth was asked for."""
     mechanisms: tuple[Mechanism[Any], ...]

@@ -49,7 +49,7 @@ class Halted(Exception):
 
 @dataclass(slots=True, kw_only=True)
 class Servo:
-    """The servo of one arm, and what its cell is told with every torque."""
+    """The servo of one arm, and all that is put out to its cell with every torque."""
 
     cell: Workcell
     arm: ArmModel

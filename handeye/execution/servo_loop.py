@@ -272,7 +272,7 @@ class ServoLoop(Servo):
 
     def _doubted(self, sensors: JointAgreement) -> Outcome | None:
         """Compare the sensors of the joints; the set-point becomes where the arm says it is if they disagree."""
-        change, self.state.crept = self.state.crept, None  # under the brakes; told once
+        change, self.state.crept = self.state.crept, None  # under the brakes; reported once
         rested = None if change is None else crept(self.arm, change)
         found = rested or sensors.step(self.sensed.q, self.sensed.qd)
         if found is None:

@@ -64,7 +64,7 @@ _MET: Final[dict[type[g.Guard], Callable[[Any], str]]] = {
 
 
 def stops(guards: g.Guards) -> str:
-    """What ends a guarded motion, and the error otherwise."""
+    """What ends a guarded motion, and the error if nothing does."""
     return f"stops {' or '.join(_MET[type(guard)](guard) for guard in guards)}, else error {g.unmet(guards)}"
 
 

@@ -24,7 +24,7 @@ PURBRICK: Final = ArmMachine(
         AxisSpec(name="pitch", kind="revolute", lower=-_TURN, upper=_TURN, speed=1.0),
         AxisSpec(name="yaw", kind="revolute", lower=-_TURN, upper=_TURN, speed=1.0),
     ),
-    # told to go at once, fingers strike a block with .8 m/s
+    # given their goal at once, fingers strike a block with .8 m/s
     hand=AxisSpec(name="hand", kind="prismatic", lower=0.0, upper=0.048, speed=0.2, force=30.0),
     force=Channel(name="force", unit="N", width=3),
     force_sensor="strain",

@@ -21,7 +21,7 @@ CLEARANCE: Final = 3.0 * INCH
 LEAST_CLEARANCE: Final = 0.5 * INCH  # minimum, for near places: a motion rises no higher than it goes far
 GUARDED_SPEED: Final = 1.0 * INCH
 """m/s of a straight motion that makes contact; at 1 in/s a 50 oz stop overshoots by a few newtons."""
-FREE_SPEED: Final = 2.0 * INCH  # m/s of a straight motion otherwise
+FREE_SPEED: Final = 2.0 * INCH  # m/s of a straight motion in free air
 TURN_SPEED: Final = 30 * DEGREE  # rad/s on a circle
 
 

@@ -10,7 +10,7 @@ import msgspec
 
 from handeye.cell.gltf import glb
 from handeye.cell.mjcf import MESHES, SCENE, TEXTURES, mjcf_files
-from handeye.cell.solids import SolidScene, Weighed
+from handeye.cell.solids import SolidScene, WeighedBody
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.files import Kind, check_place, write_over
@@ -93,7 +93,7 @@ class ExportedSolids:
     file: bytes  # GLB
     solids: int
     open: tuple[str, ...]  # Names of those whose surface is not closed
-    weighed: tuple[Weighed, ...]
+    weighed: tuple[WeighedBody, ...]
     """Bodies of which the density is known."""
 
 
@@ -127,12 +127,12 @@ def checks(exported: ExportedSolids) -> Iterator[str]:
         yield f"by volume and density {mass} kg, and {there} kg in the model: {_names(bodies)}"
 
 
-def agrees(body: Weighed) -> bool:
+def agrees(body: WeighedBody) -> bool:
     """See whether a body weighs in the model what its volume says."""
     return abs(body.mass - body.mass_there) <= TOLERANCE * body.mass_there
 
 
-def _names(bodies: Iterable[Weighed]) -> str:
+def _names(bodies: Iterable[WeighedBody]) -> str:
     return ", ".join(body.body for body in bodies)
 
 

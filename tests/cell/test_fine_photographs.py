@@ -12,7 +12,7 @@ from conftest import Command
 from numpy.typing import NDArray
 
 from handeye.cell import exposures
-from handeye.cell.exposures import APERTURE, Exposing, Lens, exposing, photographed, polish
+from handeye.cell.exposures import APERTURE, ExposurePlan, Lens, exposing, photographed, polish
 from handeye.cell.film_stock import FILMS
 from handeye.cell.opengl import OpenGlRenderer, context
 from handeye.core.errors import InvalidInput
@@ -51,7 +51,7 @@ def scene(lamp: float = 0.5) -> tuple[mujoco.MjModel, mujoco.MjData]:
     return model, data
 
 
-def photo(how: Exposing | None = None, lamp: float = 0.5) -> NDArray[np.uint8]:
+def photo(how: ExposurePlan | None = None, lamp: float = 0.5) -> NDArray[np.uint8]:
     width, height = SIZE
     return photographed(*scene(lamp), camera="front", width=width, height=height, how=how)
 
@@ -74,27 +74,27 @@ def seen(scene: mujoco.MjvScene, place: tuple[float, float, float]) -> NDArray[n
 
 @pytest.mark.parametrize("film", FILMS)
 def test_a_fine_photograph_is_the_same_each_time(film: str) -> None:
-    how = Exposing(exposures=2, film=film)
+    how = ExposurePlan(exposures=2, film=film)
     assert (photo(how) == photo(how)).all()
 
 
 @pytest.mark.slow
 def test_its_light_is_not_that_of_the_world() -> None:
-    assert (photo(Exposing(exposures=2), lamp=0.2) == photo(Exposing(exposures=2), lamp=0.8)).all()
+    assert (photo(ExposurePlan(exposures=2), lamp=0.2) == photo(ExposurePlan(exposures=2), lamp=0.8)).all()
     assert (photo(lamp=0.2) != photo(lamp=0.8)).any()
 
 
 @pytest.mark.slow
 def test_many_exposures_make_soft_edges() -> None:
     hard, soft = (
-        np.abs(np.diff(photo(Exposing(exposures=number)).astype(int), axis=1)).max() for number in (1, 12)
+        np.abs(np.diff(photo(ExposurePlan(exposures=number)).astype(int), axis=1)).max() for number in (1, 12)
     )
     assert soft < 0.7 * hard
 
 
 @pytest.mark.slow
 def test_more_exposures_are_not_brighter() -> None:
-    few, many = (photo(Exposing(exposures=number)).mean() for number in (2, 12))
+    few, many = (photo(ExposurePlan(exposures=number)).mean() for number in (2, 12))
     assert few == pytest.approx(many, rel=0.05)
 
 
@@ -127,7 +127,7 @@ def test_metal_shines_and_what_nothing_is_told_of_does_not() -> None:
 
 
 def test_the_film_of_1973_is_one_tone_of_grey_paper() -> None:
-    red, green, blue = photo(Exposing(exposures=1, film="1973")).reshape(-1, 3).T.astype(float)
+    red, green, blue = photo(ExposurePlan(exposures=1, film="1973")).reshape(-1, 3).T.astype(float)
     assert np.abs(np.stack([red / 1.0 - green / 0.985, red - blue / 0.945])).max() < 1.1
     assert red.min() > 0
 
@@ -141,7 +141,7 @@ def test_photographing_changes_neither_scene_nor_the_pictures_of_the_television_
         X_WC=pose(np.diag([1.0, -1.0, -1.0]), np.array([0.0, 0.0, 2.0])), focal=(400.0, 300.0)
     )
     taken = camera.render(data, above)
-    photographed(model, data, camera="front", width=64, height=48, how=Exposing(exposures=2))
+    photographed(model, data, camera="front", width=64, height=48, how=ExposurePlan(exposures=2))
     assert (camera.render(data, above) == taken).all()
     assert all((values == old).all() for values, old in zip(tape, before, strict=True))
 
@@ -189,25 +189,27 @@ def test_every_exposure_has_a_point_of_its_own_on_lens_lamp_and_sky() -> None:
     ("asked", "made"),
     [
         ({"fine": False, "film": None, "exposures": None}, None),
-        ({"fine": True, "film": None, "exposures": None}, Exposing(exposures=24, film="colour")),
-        ({"fine": False, "film": "1973", "exposures": None}, Exposing(exposures=24, film="1973")),
-        ({"fine": True, "film": 1973, "exposures": None}, Exposing(exposures=24, film="1973")),
-        ({"fine": False, "film": None, "exposures": 3}, Exposing(exposures=3, film="colour")),
+        ({"fine": True, "film": None, "exposures": None}, ExposurePlan(exposures=24, film="colour")),
+        ({"fine": False, "film": "1973", "exposures": None}, ExposurePlan(exposures=24, film="1973")),
+        ({"fine": True, "film": 1973, "exposures": None}, ExposurePlan(exposures=24, film="1973")),
+        ({"fine": False, "film": None, "exposures": 3}, ExposurePlan(exposures=3, film="colour")),
     ],
 )
-def test_film_and_exposures_are_of_fine_photographs(asked: dict[str, object], made: Exposing | None) -> None:
+def test_film_and_exposures_are_of_fine_photographs(
+    asked: dict[str, object], made: ExposurePlan | None
+) -> None:
     assert exposing(**asked) == made  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("number", [0, 1001, 2.5])
 def test_so_many_exposures_cannot_be(number: object) -> None:
     with pytest.raises(InvalidInput, match=r"^.* exposures cannot be made; there are 1 to 1000$"):
-        Exposing(exposures=number)  # type: ignore[arg-type]
+        ExposurePlan(exposures=number)  # type: ignore[arg-type]
 
 
 def test_there_is_no_such_film() -> None:
     with pytest.raises(InvalidInput, match=r"^there is no film `1974`; there are colour, 1973$"):
-        Exposing(film="1974")
+        ExposurePlan(film="1974")
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from finished import exhibit, finished, finished_cell, put
 
-from handeye.cell.solids import SolidScene, Weighed
+from handeye.cell.solids import SolidScene, WeighedBody
 from handeye.core.errors import InvalidInput
 from handeye.core.pose import Array, planar
 from handeye.results.export import ExportedSolids, agrees, checks, exported_solids
@@ -140,7 +140,7 @@ def test_every_part_of_the_pump_but_the_rotor_weighs_what_its_volume_says(made: 
 
 @pytest.mark.parametrize(("mass", "right"), [(0.991, True), (0.989, False), (1.009, True), (1.011, False)])
 def test_a_mass_agrees_within_one_per_cent(made: ExportedSolids, mass: float, right: bool) -> None:
-    body = Weighed(body="pin1", mass=mass, mass_there=1.0)
+    body = WeighedBody(body="pin1", mass=mass, mass_there=1.0)
     assert agrees(body) is right
     said = list(checks(replace(made, weighed=(body,))))[1]
     assert said.startswith("by volume and density as heavy as in the model, within 1%: pin1") is right
