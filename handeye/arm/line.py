@@ -2,13 +2,13 @@
 
 import math
 from dataclasses import replace
-from typing import Final
 
 import numpy as np
 
 from handeye.arm.ik import IKResult, branches, rates, singular, solve
 from handeye.arm.kinematics import drift, forward, jacobian
 from handeye.arm.model import ArmModel, constants
+from handeye.arm.profiles import PEAK_ACCELERATION, PEAK_SPEED
 from handeye.arm.samples import Samples, check_samples, length
 from handeye.core.pose import Array, Pose, displaced, rotation_z, translated
 from handeye.program.diagnosis.reach import HeldJoint, TooFast
@@ -124,10 +124,6 @@ def _shortest(step: Array, turn: Array) -> Array:
     return np.asarray(step - np.where(whole == 0, 0.0, whole * np.where(np.isinf(turn), 0.0, turn)))
 
 
-_PEAK_SPEED: Final = 1.875  # peak rate of the quintic 10 s3 - 15 s4 + 6 s5, over its mean
-_PEAK_ACCELERATION: Final = 5.774  # over distance / duration2
-
-
 def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Samples | IKResult:
     """Set-points of a smooth motion of one joint, by its index from 0, to a goal (rad or m), or why there are none.
 
@@ -137,8 +133,8 @@ def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Sa
         return IKResult(reason=HeldJoint(joint, arm.held[arm.joints[joint].name]))
     distance, limits, period = goal - q[joint], arm.joints[joint], arm.servo.period
     least = max(
-        _PEAK_SPEED * abs(distance) / (speed * limits.speed),
-        float(np.sqrt(_PEAK_ACCELERATION * abs(distance) / (speed**2 * limits.acceleration))),
+        PEAK_SPEED * abs(distance) / (speed * limits.speed),
+        float(np.sqrt(PEAK_ACCELERATION * abs(distance) / (speed**2 * limits.acceleration))),
     )
     count = max(1, int(np.ceil(least / period)))
     duration, s = count * period, np.arange(1, count + 1) / count

@@ -7,16 +7,16 @@ import numpy as np
 
 from handeye.core.pose import Array
 
-_PEAK_SPEED = 1.875  # of a quintic, over its mean
-_PEAK_ACCELERATION = 5.774  # over distance / duration2
+PEAK_SPEED = 1.875  # of the quintic 10 s3 - 15 s4 + 6 s5, over its mean
+PEAK_ACCELERATION = 5.774  # over distance / duration2
 
 
 def quintic(start: Array, goal: Array, speed: Array, acceleration: Array, period: float) -> Iterator[Array]:
     """Set-points of a fast quintic motion of n axes from rest to rest, one a period (s); all arrive together."""
     distance = np.abs(goal - start)
     longest = max(
-        np.max(_PEAK_SPEED * distance / speed),
-        math.sqrt(np.max(_PEAK_ACCELERATION * distance / acceleration)),
+        np.max(PEAK_SPEED * distance / speed),
+        math.sqrt(np.max(PEAK_ACCELERATION * distance / acceleration)),
     )
     steps = max(1, math.ceil(longest / period))
     for step in range(1, steps + 1):

@@ -10,7 +10,7 @@ from typing import TypeVar
 from handeye.core.entries import entry_named
 from handeye.core.record import Record
 from handeye.core.source import line_name
-from handeye.inspection.alignment import Pair, aligned
+from handeye.inspection.difference import Pair, aligned
 from handeye.program.events import StepStarted, UndoStarted
 from handeye.report.recorded import RecordedRun
 from handeye.runs.system import Listing, StepFacts

@@ -23,12 +23,11 @@ from handeye.program.guards import GuardKind
 from handeye.program.system_state import Natural, SystemState
 from handeye.program.world_model import WorldState
 from handeye.touch.spiral import SearchPattern, line
-from handeye.vision.base import GeneralLocation, SpecificLocation
+from handeye.vision.base import GeneralLocation, PartMatch, SpecificLocation
 from handeye.vision.calibration import Calibration
 from handeye.vision.camera_model import View
 from handeye.vision.gasket import GasketInspection
 from handeye.vision.marks import GraspLine, Mark, marks
-from handeye.vision.part_match import PartMatch
 
 
 class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):

@@ -22,13 +22,12 @@ from handeye.program.events import (
 from handeye.program.operation import Operation
 from handeye.program.program import Part
 from handeye.program.vision_operations import Aim, Comparison, General, Inspect, Lens, Look, Match, Specific
-from handeye.vision.base import Failure, locate_general, locate_specific
+from handeye.vision.base import Failure, PartMatch, locate_general, locate_specific
 from handeye.vision.camera_model import CameraModel, View
 from handeye.vision.gasket import GasketInspection
 from handeye.vision.gasket import inspect as inspect_gasket
 from handeye.vision.live import blank, repeated
 from handeye.vision.marks import Mark, grasp_line
-from handeye.vision.part_match import PartMatch
 
 Found = TypeVar("Found")
 

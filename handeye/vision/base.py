@@ -15,7 +15,7 @@ from handeye.core.errors import BadArgument
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
-from handeye.program.diagnosis.causes import NoHoles, NoOutline, OutsidePicture, SightCause
+from handeye.program.diagnosis.causes import NoHoles, NoOutline, OutsidePicture, PartAstray, SightCause
 from handeye.program.program import Part
 from handeye.vision.blob import BoundingBox, localise
 from handeye.vision.camera_model import View
@@ -233,3 +233,18 @@ def _confirm(
         beams=scan.beams,
         points=scan.points,
     )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PartMatch:
+    """Result for a part in two pictures."""
+
+    cause: PartAstray | None  # None: it stands as it stood
+    outline: tuple[tuple[float, float], ...]  # expected in the second picture, corners (u, v)
+    shift: float  # m against its surroundings, at the height of its face
+    unlike: float  # fraction of its points that have changed, after aligning
+
+    @property
+    def ok(self) -> bool:
+        """True if it stands as it stood."""
+        return self.cause is None

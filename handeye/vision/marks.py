@@ -13,10 +13,9 @@ import numpy as np
 
 from handeye.core.pose import Pose
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.vision.base import GeneralLocation, SpecificLocation
+from handeye.vision.base import GeneralLocation, PartMatch, SpecificLocation
 from handeye.vision.camera_model import View
 from handeye.vision.gasket import GasketInspection
-from handeye.vision.part_match import PartMatch
 
 GraspLine = tuple[tuple[float, float], tuple[float, float]]  # two ends (u, v)
 

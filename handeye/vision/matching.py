@@ -16,9 +16,8 @@ from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.diagnosis.causes import OutsidePicture, PartAstray
 from handeye.program.program import Part
 from handeye.vision.alignment import changed, moved, shift, smooth
-from handeye.vision.base import Failure, silhouettes
+from handeye.vision.base import Failure, PartMatch, silhouettes
 from handeye.vision.camera_model import View, in_picture
-from handeye.vision.part_match import PartMatch
 
 MOVED: Final = 0.03 * INCH
 """m that a part may seem to have moved.

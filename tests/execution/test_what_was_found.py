@@ -10,11 +10,10 @@ from handeye.execution.state import VisionResult
 from handeye.execution.vision_actions import just_found
 from handeye.program.diagnosis.causes import NoGasket, PartAstray
 from handeye.tasks.stanford_cell.dimensions import PARK
-from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
+from handeye.vision.base import GeneralLocation, PartMatch, SeenHole, SpecificLocation
 from handeye.vision.blob import BoundingBox
 from handeye.vision.gasket import GasketInspection
 from handeye.vision.marks import BLUE, BOLD, GREEN, RED, WHITE, YELLOW, Disc, Line, Loop, marks
-from handeye.vision.part_match import PartMatch
 
 SCRIPT = """
         LENS    25

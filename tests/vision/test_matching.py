@@ -6,9 +6,8 @@ from synthetic import Canvas, draw_base, part, view
 
 from handeye.core.units import DEGREE, INCH
 from handeye.program.diagnosis.causes import OutsidePicture, PartAstray
-from handeye.vision.base import Failure
+from handeye.vision.base import Failure, PartMatch
 from handeye.vision.matching import MOVED, match
-from handeye.vision.part_match import PartMatch
 
 PART = part(180 * DEGREE)
 POSE = (PART.at[0], PART.at[1], PART.at[3])
