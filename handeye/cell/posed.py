@@ -26,8 +26,14 @@ def drawn_poses(model: mujoco.MjModel, names: Iterable[str], times: Array) -> di
     A pose is a place (m), then a unit quaternion w, x, y, z. Hands turn clockwise about their z axis, and stand at
     twelve when the clock does at 0.
     """
-    turns = _turns(model)
-    return {name: _turned(model, name, times * turns.get(name, 0.0)) for name in names}
+    turns, found = _turns(model), {}
+    for name in names:
+        body, half = model.body(name), -np.pi * times * turns.get(name, 0.0)
+        w, x, y, z = body.quat
+        c, s = np.cos(half), np.sin(half)
+        turned = [w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s]
+        found[name] = np.column_stack([np.tile(body.pos, (len(times), 1)), *turned])
+    return found
 
 
 def _turns(model: mujoco.MjModel) -> dict[str, float]:
@@ -35,14 +41,6 @@ def _turns(model: mujoco.MjModel) -> dict[str, float]:
     told: list[Any] = [model.numeric(number) for number in range(model.nnumeric)]
     hands = [figure for figure in told if figure.name.startswith(TURNS)]
     return {figure.name.removeprefix(TURNS): 1 / float(figure.data[0]) for figure in hands}
-
-
-def _turned(model: mujoco.MjModel, name: str, turns: Array) -> Array:
-    body, half = model.body(name), -np.pi * turns
-    w, x, y, z = body.quat
-    c, s = np.cos(half), np.sin(half)
-    turned = [w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s]
-    return np.column_stack([np.tile(body.pos, (len(turns), 1)), *turned])
 
 
 Posed = tuple[mujoco.MjModel, mujoco.MjData]  # a scene as it stands

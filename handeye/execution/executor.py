@@ -82,7 +82,11 @@ class Executor:
         run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
         self.state.at = self._perform(step)
         self.state.done.append(noted(run, found, step=here, enters=enters))
-        run.emit(self._finished(here))
+        motion, planned = run.plan.motions.get(here), None
+        if motion is not None:
+            planned = vector(forward(run.arm, np.array(motion.knots[-1]))[:3, 3])
+        hand, gap = vector(run.drive.hand()[:3, 3]), round(run.drive.sensed.gap, 6)
+        run.emit(StepFinished(time=run.time, step=here, hand=hand, planned=planned, gap=gap))
         if step.operation.calls is not None:
             self._stop(message=step.operation.calls)
         elif self.state.unwound.get(here, 0) < step.operation.undoes:
@@ -153,14 +157,6 @@ class Executor:
         """True if a step tests an error."""
         branch = None if number is None else self.run.plan.program.steps[number].operation.branch
         return branch is not None and branch.error is not None
-
-    def _finished(self, number: int) -> StepFinished:
-        """The event of a finished step."""
-        run = self.run
-        motion = run.plan.motions.get(number)
-        planned = None if motion is None else vector(forward(run.arm, np.array(motion.knots[-1]))[:3, 3])
-        hand, gap = vector(run.drive.hand()[:3, 3]), round(run.drive.sensed.gap, 6)
-        return StepFinished(time=run.time, step=number, hand=hand, planned=planned, gap=gap)
 
     def _first(self, stage: int) -> int | None:
         """The first step of a stage, or of a later one; None past the last."""

@@ -8,9 +8,8 @@ from typing import Final, Literal
 
 import msgspec
 
-from handeye.cell.gltf import glb
 from handeye.cell.mjcf import MESHES, SCENE, TEXTURES, mjcf_files
-from handeye.cell.solids import SolidScene, WeighedBody
+from handeye.cell.solids import SolidScene, WeighedBody, glb
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.files import Kind, check_place, write_over

@@ -70,7 +70,11 @@ def localise(
     reach = 0.6 * math.hypot(*(window.max(axis=0) - window.min(axis=0)))
     seen: list[BoundingBox] = []
     for starts, inwards in _coarse_first(sides):
-        for u, v in _bright(scan, starts, inwards, step, reach, threshold):
+        edges = beams(scan, starts, inwards, BRIGHTER, step, reach, wide=True)
+        places = (edges.uv + SPAN * inwards)[edges.met]  # just behind the edges
+        places = places[scan.inside(places)]
+        bright = scan.patches(places, 1).mean(axis=(1, 2)) >= threshold  # more than a speck
+        for u, v in places[bright].tolist():
             if any(box.contains(u, v) for box in seen):
                 continue
             if len(seen) == tries:
@@ -106,17 +110,6 @@ def _coarse_first(sides: list[Rays]) -> Iterator[Rays]:
     for starts, inwards in sides:
         between = np.arange(len(starts)) % COARSE != COARSE // 2
         yield starts[between], inwards[between]
-
-
-def _bright(
-    scan: Scan, starts: Array, inwards: Array, step: float, reach: float, threshold: float
-) -> Iterator[tuple[float, float]]:
-    """Points (u, v) just behind the beams' discontinuities, if larger than a speck."""
-    edges = beams(scan, starts, inwards, BRIGHTER, step, reach, wide=True)
-    places = (edges.uv + SPAN * inwards)[edges.met]
-    places = places[scan.inside(places)]
-    means = scan.patches(places, 1).mean(axis=(1, 2))
-    yield from places[means >= threshold].tolist()
 
 
 def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:

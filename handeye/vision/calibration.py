@@ -77,14 +77,24 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
 
     def residuals(x: Array) -> Array:
         model = moved(drawing, x)
-        return np.concatenate([_miss(model, s) / SIGHT_ERROR for s in sightings] + [x])
+        misses = []  # of the line of sight, along columns and rows, m
+        for s in sightings:
+            view = _view(model, s)
+            distance = float(np.linalg.norm(np.array(s.point_W) - view.X_WC[:3, 3]))
+            misses.append(_miss_px(model, s) / view.focal * distance / SIGHT_ERROR)
+        return np.concatenate([*misses, x])
 
     fit = least_squares(residuals, start, method="trf", xtol=1e-10, ftol=1e-12)
     model = moved(drawing, fit.x)
     return Calibration(
         model=model,
         residual_px={f: _rms([_miss_px(model, s) for s in sightings if np.isclose(s.lens, f)]) for f in used},
-        residual_m=_rms([(_on_table(model, s) - s.point_W)[:2] for s in sightings]),
+        residual_m=_rms(
+            [
+                (_view(model, s).back_project(np.array([s.u, s.v]), s.point_W[2])[0] - s.point_W)[:2]
+                for s in sightings
+            ]
+        ),
     )
 
 
@@ -115,17 +125,6 @@ def _view(model: CameraModel, s: Sighting) -> View:
 
 def _miss_px(model: CameraModel, s: Sighting) -> Array:
     return np.asarray(_view(model, s).project(np.array(s.point_W))[0] - (s.u, s.v))
-
-
-def _miss(model: CameraModel, s: Sighting) -> Array:
-    """Distance of the lamp from the line of sight, along columns and rows, m."""
-    view = _view(model, s)
-    distance = float(np.linalg.norm(np.array(s.point_W) - view.X_WC[:3, 3]))
-    return np.asarray(_miss_px(model, s) / view.focal * distance)
-
-
-def _on_table(model: CameraModel, s: Sighting) -> Array:
-    return np.asarray(_view(model, s).back_project(np.array([s.u, s.v]), s.point_W[2])[0])
 
 
 def _rms(misses: list[Array]) -> float:

@@ -153,7 +153,10 @@ class _Check:
 
 
 def _check(name: LargeHole, new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Check:
-    steps = _levels(new, old, view, place, hole)
+    gasket = float(np.percentile(_around(new, view, place, hole), 25))  # a shadow may lie across
+    base_steps = _base_steps(old, view, place, hole)
+    after = max(STEP[0], STEP[1] * gasket)
+    steps = _Steps(after=after, before=base_steps.before, face=base_steps.face)
     fitted = _centre(old, view, place, hole, steps.before, steps.face)
     if fitted is None:
         return _Check(fault=BaseHoleUnseen(hole=name))
@@ -167,13 +170,6 @@ def _check(name: LargeHole, new: Scan, old: Scan, view: View, place: Array, hole
     fault = GasketHoleOff(hole=name, off=round(max(bulge, off), 6)) if wrong else None
     u, v = view.project(np.array([*moved, place[2]]))[0]
     return _Check(fault=fault, found=(float(u), float(v)), shift=max(bulge, off))
-
-
-def _levels(new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Steps:
-    """Steps for one hole, by the darkest quarter of its surroundings, as a shadow may lie across."""
-    gasket = float(np.percentile(_around(new, view, place, hole), 25))
-    base = _base_steps(old, view, place, hole)
-    return _Steps(after=max(STEP[0], STEP[1] * gasket), before=base.before, face=base.face)
 
 
 def _base_steps(old: Scan, view: View, place: Array, hole: Hole) -> _BaseSteps:

@@ -42,17 +42,16 @@ def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResu
     """
     good = [q for q in found if all(map(_inside, arm.joints, q))]
     if good:
-        speeds = [joint.speed for joint in arm.joints]
-        return IKResult(q=np.array(min(good, key=lambda q: sum(map(_travel_time, q, near, speeds)))))
+
+        def travel_time(q: list[float]) -> float:
+            return sum(abs(x - y) / joint.speed for joint, x, y in zip(arm.joints, q, near, strict=True))
+
+        return IKResult(q=np.array(min(good, key=travel_time)))
     return min((_fault(arm, q) for q in found), key=lambda fault: fault[0])[1]
 
 
 def _inside(joint: Joint, x: float) -> bool:
     return joint.lower - SLACK <= x <= joint.upper + SLACK
-
-
-def _travel_time(a: float, b: float, speed: float) -> float:
-    return abs(a - b) / speed
 
 
 def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:

@@ -102,21 +102,16 @@ def retracing(arm: ArmModel, q: Array, gap: float, way: RecordedPath, *, slowly:
     if slowly:
         went = np.linalg.norm(np.diff(forward(arm, path[:, :-1])[:, :3, 3], axis=0), axis=1)
         periods = np.maximum(1.0, went / (GUARDED_SPEED * period))
-    places = np.interp(_clock(float(periods.sum())), np.append(0.0, np.cumsum(periods)), np.arange(last + 1))
+    whole, rise = float(periods.sum()), (np.arange(RAMP) + 1) / (RAMP + 1)
+    gone = np.cumsum(np.concatenate([rise, np.ones(int(np.ceil(whole))), rise[::-1]]))
+    clock = np.append(0.0, gone * (whole / gone[-1]))  # elapsed time, in periods, with smooth start and end
+    places = np.interp(clock, np.append(0.0, np.cumsum(periods)), np.arange(last + 1))
     points = np.column_stack([np.interp(places, np.arange(last + 1), column) for column in path.T])
     at = points[1:, :-1]
     qd = np.gradient(points[:, :-1], period, axis=0)[1:]
     qd[-1] = 0.0
     left = np.minimum(np.floor(last - places[1:]).astype(int), len(way) - 1)
     return Retracing(samples=Samples(q=at, qd=qd, qdd=np.zeros_like(at)), gap=points[1:, -1], left=left)
-
-
-def _clock(periods: float) -> Array:
-    """Elapsed time, in periods, on a path with smooth start and end."""
-    rise = (np.arange(RAMP) + 1) / (RAMP + 1)
-    rate = np.concatenate([rise, np.ones(int(np.ceil(periods))), rise[::-1]])
-    gone = np.cumsum(rate)
-    return np.append(0.0, gone * (periods / gone[-1]))
 
 
 FALLEN: Final = 0.31 * INCH
