@@ -47,7 +47,11 @@ class PhysicsStepper:
     def step(self, steps: int) -> None:
         """Make as many short steps, or long ones that come to the same time."""
         if self._data.ncon or steps % LONGER or not self._freely(steps):
-            mujoco.mj_step(self._model, self._data, steps)
+            self._closely(steps)
+
+    def _closely(self, steps: int) -> None:
+        """Make short steps, which a cell may want to watch."""
+        mujoco.mj_step(self._model, self._data, steps)
 
     def _freely(self, steps: int) -> bool:
         """Make long steps; False if something came into contact, and none is made."""
