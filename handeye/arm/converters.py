@@ -25,10 +25,7 @@ def torque_step(arm: ArmModel) -> Array:
 
 
 def followed(arm: ArmModel, here: Array, moved: Array, reading: Array) -> Array:
-    """Joint positions, shape (n,), rad or m, finer than the potentiometers' resolution.
-
-    From those before, `here`, tachometers give displacements; potentiometers bound positions to half a step.
-    """
+    """Joint positions, finer than potentiometers show: tachometers move them, `reading` bounds them to half a step."""
     half = position_step(arm) / 2
     return (here + moved).clip(reading - half, reading + half)
 

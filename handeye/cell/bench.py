@@ -66,10 +66,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         self._parts.append(part)
 
     def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
-        """Scene, clock, mechanisms and `others` that do not act as time passes, as a cell whose state can be kept.
-
-        The scene must not change any more.
-        """
+        """Scene, from now on unchanged, clock, mechanisms and `others` that do not act as time passes, as a cell."""
         noise = np.random.Generator(np.random.PCG64(0))
         return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)
 

@@ -179,10 +179,7 @@ def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
 
 
 def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:
-    """A renderer: `gl`, `ray`, or `auto`: OpenGL where it works, rays elsewhere; or one made by the given function.
-
-    Raises InvalidInput if there is no such `kind`, or OpenGL is asked for and does not work here.
-    """
+    """A renderer: `gl`, `ray`, `auto` (`gl` where it works) or one that a function makes; raises InvalidInput."""
     if not isinstance(kind, str):
         return kind(model)
     if kind == "ray":

@@ -76,10 +76,7 @@ class Lens:
         )
 
     def aim(self, scene: mujoco.MjvScene, at: Array, shift: Array) -> None:
-        """Look through the point `at` of the lens (radii of the aperture, right and up, shape (2,)), focused as before.
-
-        The picture is shifted by `shift` points to the right and up, shape (2,).
-        """
+        """Look through a point of the lens, (2,), in radii right and up, focused as before, shifted by points, (2,)."""
         right = np.cross(self.forward, self.up)
         aside = APERTURE * at
         across = -aside / self.focus + 2 * np.array(self.slopes) * shift / np.array(self.size)

@@ -30,10 +30,7 @@ class Lighting:
     cutoff: float = 48.0  # half of the angle of the lamp's cone, degrees
 
     def throw(self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array) -> None:
-        """Light a scene from points of the lamp's disc (radii, right and up) and of the sky, shape (2,) each.
-
-        A point of the sky stands on a half sphere above the given point of the unit disc.
-        """
+        """Light a scene from a point of the lamp, in radii, and one of the sky, as seen from above, shape (2,) each."""
         middle = np.array(model.stat.center)
         scene.nlight = 2
         self._lamp(scene.lights[0], middle, model.stat.extent, lamp)

@@ -50,10 +50,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         noise: np.random.Generator,
         lines: SignalLines = SOUND,
     ) -> None:
-        """A hand at rest; `noise` is that of its sensors.
-
-        Its lines: `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y`, `finger_switch.minus_y`.
-        """
+        """A hand at rest; lines: `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y` and `.minus_y`."""
         self.name = f"{prefix}hand"
         self._model, self._data = model, data
         self._hand, self._errors, self._noise, self._lines = hand, errors, noise, lines
@@ -84,10 +81,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._command = gap, grip
 
     def before(self, seconds: float) -> None:
-        """Move the set-point towards the gap that was asked for: all three are gaps as the potentiometer reads them.
-
-        It never runs far ahead of fingers that are held up, so that they can turn round at once.
-        """
+        """Move the set-point towards the commanded gap (all as read), never far ahead of fingers that are held up."""
         if self._command is None:
             return
         gap, grip = self._command

@@ -37,10 +37,7 @@ class Mechanism(ABC, Generic[S]):
         """Everything its future depends on, besides the simulator."""
 
     def check(self, state: S) -> None:
-        """See that a state can be one of this mechanism.
-
-        Raises InvalidInput, ValueError, KeyError, TypeError if it cannot.
-        """
+        """Raise InvalidInput, ValueError, KeyError or TypeError if a state cannot be one of this mechanism."""
 
     @abstractmethod
     def restore(self, state: S) -> None:

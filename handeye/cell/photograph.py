@@ -40,10 +40,7 @@ class Photographer:
         self, scene: mujoco.MjModel, *, width: int, height: int, shadow: int = FINE_SHADOW,
         samples: int = FINE_SAMPLES,
     ) -> None:  # fmt: skip
-        """Make ready for pictures of a size; raises InvalidInput without OpenGL.
-
-        A map of shadows of `shadow` points along a side takes half the time; a point has `samples`.
-        """
+        """Make ready for pictures; a smaller map of shadows takes half the time; raises InvalidInput without OpenGL."""
         _, self._gl = context()
         self._gl.make_current()
         with replaced(scene.vis.quality, {"shadowsize": shadow, "offsamples": samples}):
@@ -61,10 +58,7 @@ class Photographer:
         return self.exposed()
 
     def aimed(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvScene:
-        """Shapes, camera and lights of a view, which may be changed before it is exposed.
-
-        Raises InvalidInput if there is no such camera.
-        """
+        """Shapes, camera and lights of a view, to be changed before it is exposed; raises InvalidInput without it."""
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
         mujoco.mjv_updateScene(model, data, self._option, None, _eye(model, data, view), every, self._scene)
         return self._scene

@@ -27,10 +27,7 @@ class SnapshotCell:
         mechanisms: Sequence[Mechanism[Any]],
         noise: np.random.Generator,
     ) -> None:
-        """Take a scene that will not change any more, mechanisms in the order of their action, and the sensors' noise.
-
-        Raises ValueError if two mechanisms have one name, by which their states are found.
-        """
+        """Take a scene that will not change, and mechanisms in the order of their action, each of a name of its own."""
         self._model, self._data, self._noise = model, data, noise
         self._drawn = DrawnScene(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())
         self._mechanisms = tuple(mechanisms)

@@ -49,10 +49,7 @@ class Vidicon:
 
 
 def blur_disc(focal_length: float, focused: float, distance: float) -> float:
-    """Diameter, picture points, of the image of a point at `distance` when the lens is focused elsewhere.
-
-    All in m; `focused` may be infinite.
-    """
+    """Diameter (points) of the image of a point at a distance when the lens is focused elsewhere; m, or infinite."""
     spread = 1 / distance if math.isinf(focused) else abs(focused - distance) / (distance * focused)
     lens = 1 if math.isinf(focused) else focused / (focused - focal_length)
     return focal_length**2 / F_NUMBER * spread * lens / PITCH

@@ -85,10 +85,7 @@ def _camera(drive: ArmDrive) -> TvCamera:
 
 
 def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3, ready: float) -> Iterator[Sighting]:
-    """Show the lamp at a place to a camera that is ready at a time (s).
-
-    Yields one sighting, or none where the arm cannot go or the camera does not see it.
-    """
+    """Show the lamp at a place to a camera that is ready at a time (s); nothing where it is not reached or seen."""
     camera = _camera(drive)
     assert drive.arm.hand.lamp is not None
     on_hand = np.array(drive.arm.hand.lamp)

@@ -117,10 +117,7 @@ def _touch(run: ExecutionContext) -> tuple[bool, bool]:
 
 
 def _begin_to_close(run: ExecutionContext) -> Fault | None:
-    """Check that no switch is closed before the fingers close on anything.
-
-    A finger may stand against something: the hand then opens a little first.
-    """
+    """Check that no switch is closed; a finger that stands against something lets the hand open a little first."""
     drive, already = run.drive, run.state.grasping
     run.state.grasping, drive.state.in_air = True, False
     if already or not any(_touch(run)):
@@ -137,10 +134,7 @@ def _driven(start: float, goal: float) -> float:
 
 
 def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
-    """Check that the gap has changed from `start` after driving the fingers together by `driven` (m).
-
-    Without touch, fingers are driven on against what they hold, so nothing can be said.
-    """
+    """Check that the gap has changed after driving the fingers by `driven` (m); without touch nothing is known."""
     if "touch" in run.without or not stood_still(start - run.drive.sensed.gap, driven):
         return None
     return _gap_wrong(GapStill(gap=round(run.drive.sensed.gap, 6), driven=round(driven, 6)))

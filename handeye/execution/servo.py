@@ -159,10 +159,7 @@ class Servo:
         taring: bool = False,
         periods: int = 1,
     ) -> Motion[None]:
-        """One servo period under a torque, or (None) the brakes: several `periods` at once, if it is the brakes.
-
-        `feel` estimates the force on the hand by what is sensed at its end.
-        """
+        """One servo period under a torque, or several under the brakes (None), at whose end `feel` estimates force."""
         halted = self.halt()
         if halted:
             tau, self.state.tool = None, 0.0

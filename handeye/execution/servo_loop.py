@@ -79,10 +79,7 @@ class ServoLoop(Servo):
         self.state.q, self.state.met = self.state.here.copy(), None
 
     def floating(self, seconds: float) -> Motion[None]:
-        """Let go of the arm: gravity and the load are borne, and whoever pushes the hand moves it.
-
-        The set-point becomes where the arm then is.
-        """
+        """Bear gravity and load only, so that a push moves the hand; the set-point becomes where the arm then is."""
         for _ in range(self._periods(seconds)):
             q, qd = self.state.here, self.sensed.qd
             borne = gravity(self.built, q) + jacobian(self.arm, q)[2] * self.state.load

@@ -51,10 +51,7 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """True if an edge to step `old` and one to step `new` lead to the same place.
-
-    An edge to a removed step leads to what followed it, or replaced it; None is the end of the program.
-    """
+    """True if edges to `old` and `new` lead to one place, past removed steps to what follows; None is the end."""
     at = _pair_of(pairs, 0, old)
     if at < len(pairs) and pairs[at][1] is not None:
         return pairs[at][1] == new

@@ -60,12 +60,7 @@ class ArmMachine:
         return mujoco.MjSpec.from_file(str(scenes() / self.scene_file))
 
     def on_bench(self, bench: Bench, bent: Callable[[Array], Array] = np.zeros_like) -> BenchAxes:
-        """The arm in the scene of a bench.
-
-        Args:
-            bent: how far its axes are from where their potentiometers show them to be, by what these show, without
-                the hand.
-        """
+        """The arm in the scene of a bench; its axes (not the hand) are off what potentiometers show by `bent` of it."""
         from handeye.cell.bench_axes import BenchAxes, sensor
 
         def bent_axes(q: Array) -> Array:

@@ -79,17 +79,11 @@ class Axes(ABC):
         """Name where the axes are to go from now on, shape (n,), rad or m."""
 
     def power(self, on: bool) -> None:
-        """Switch its servos on, which hold where they are then, or off.
-
-        Raises Refused if its power cannot be switched.
-        """
+        """Switch its servos on, which hold where they are then, or off; raises Refused if that cannot be done."""
         raise Refused(f"the power of {self.name} cannot be switched")
 
     def clear(self, channel: str) -> None:
-        """Let a latched channel show again what is sensed.
-
-        Raises InvalidInput if it has no such channel, or it is not latched.
-        """
+        """Let a latched channel show again what is sensed; raises InvalidInput if it has none of that name."""
         raise NoSuchName(f"{self.name} has no latched channel {channel}")
 
 
@@ -103,7 +97,4 @@ class Outputs(ABC):
 
     @abstractmethod
     def set(self, name: str, value: float) -> None:
-        """Set an output: a switch to 0 or 1, anything else in SI units.
-
-        Raises InvalidInput if there is no such output, or the value is not a finite number.
-        """
+        """Set an output (a switch: 0 or 1; else SI); raises InvalidInput if unknown or the value is not finite."""

@@ -41,17 +41,11 @@ class TvCamera(ABC):
 
     @abstractmethod
     def lens(self, focal_length: float) -> float:
-        """Turn the turret to the lens of that focal length (m, one of LENSES); seconds it takes (0: already there).
-
-        Raises InvalidInput if there is none.
-        """
+        """Turn to a lens by its focal length (m, of LENSES); seconds it takes; raises InvalidInput if there is none."""
 
     @abstractmethod
     def aim(self, pan: float, tilt: float) -> float:
-        """Slew to these potentiometer readings (rad); seconds it takes.
-
-        Raises InvalidInput if one of them is not a finite number.
-        """
+        """Slew to potentiometer readings (rad); seconds it takes; raises InvalidInput if one is not finite."""
 
     @abstractmethod
     def focus(self, distance: float) -> float:

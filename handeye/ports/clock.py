@@ -36,10 +36,7 @@ class Clock(ABC):
 
 
 def whole_steps(seconds: float, step: float) -> int:
-    """The number of physics steps (s each) in a period (s).
-
-    Raises InvalidInput unless it is a whole number of them, from one to `LONGEST` s.
-    """
+    """Physics steps (s each) in a period (s); raises InvalidInput unless whole, from one to `LONGEST` s."""
     if not (math.isfinite(seconds) and seconds > 0):
         raise BadArgument(f"time cannot pass by {seconds:g} s; the shortest period is {step:{_DIGITS}} s")
     if seconds > LONGEST:

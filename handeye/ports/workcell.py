@@ -26,10 +26,7 @@ class ScrewdriverPort(ABC):
 
     @abstractmethod
     def drive(self, speed: float) -> None:
-        """Set the speed of the spindle, rad/s, positive drives a right-hand screw in; 0 is off.
-
-        Raises InvalidInput if it is not a finite number.
-        """
+        """Set the speed of the spindle, rad/s, positive to drive a screw in; raises InvalidInput unless finite."""
 
     @abstractmethod
     def attract(self, on: bool) -> None:
@@ -62,10 +59,7 @@ class HandPort(ABC):
 
     @abstractmethod
     def drive(self, gap: float, grip: float) -> None:
-        """Set where the fingers are to go (gap, m) and the most force each may press with (grip, N).
-
-        Raises InvalidInput if one of them is not a finite number.
-        """
+        """Set the gap (m) to go to and the most force (N) of each finger; raises InvalidInput unless finite."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,10 +85,7 @@ class ArmPort(ABC):
 
     @abstractmethod
     def drive(self, torque: Array | None) -> None:
-        """Put out joint torques, shape (n,), N m or N, held for a servo period; None: drives off, brakes set.
-
-        Raises InvalidInput if there are more or fewer torques than joints, or one is not a finite number.
-        """
+        """Put out joint torques (N m, N) for a servo period, None: brakes; raises InvalidInput unless n finite ones."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -23,10 +23,7 @@ class CentringStep:
 
 @dataclass(slots=True, kw_only=True)
 class Centring:
-    """One centring: call `step` each servo period until `done`.
-
-    The switches are the state: when a finger loses the object, both close on until one touches again.
-    """
+    """One centring: call `step` each period until `done`; when a finger loses the object, both close on again."""
 
     minimum: float = 0.0  # m; a smaller gap holds nothing, or something too thin; 0: anything
     speed: float  # m/s of the gap; the hand moves at half of it

@@ -35,10 +35,7 @@ class Trip:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ActiveGuard:
-    """A guard that is active in a servo period.
-
-    `axis` is the unit vector of the force or moment it watches, shape (3,), world axes, or None.
-    """
+    """An active guard; `axis`: unit vector of the force or moment it watches, shape (3,), W, or None."""
 
     guard: GuardKind
     limit: float
@@ -91,10 +88,7 @@ class AgainstMonitor:
 
 @dataclass(slots=True, kw_only=True)
 class TorqueMonitor:
-    """Trips when the screwdriver's motor holds a torque (N m), turning either way.
-
-    Starting, or taking up a screw, causes a current peak that is not yet a tight screw.
-    """
+    """Trips when the motor holds a torque (N m) either way: the peak of starting is not yet a tight screw."""
 
     limit: float
     _held: int = field(default=0, init=False)

@@ -58,10 +58,7 @@ def smooth(picture: Picture) -> Levels:
 
 
 def _disagreement(a: Levels, b: Levels, counts: Points, u: int, v: int) -> float:
-    """Mean difference, capped at CHANGED, with the second shifted back by whole points.
-
-    Uses every other point on every other line: the blur has spread each over its neighbours.
-    """
+    """Mean difference, capped, with the second shifted back, at every other point: the blur has spread each."""
     rows, columns = a.shape
     here = a[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]
     there = b[MARGIN + v : rows - MARGIN + v : 2, MARGIN + u : columns - MARGIN + u : 2]

@@ -120,10 +120,7 @@ def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) 
 def _steepest(
     rise: Array, step: float, ahead: Array, beyond: float
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp], NDArray[np.intp]]:
-    """For each line: whether it rises by `step`, where first, and where near there it is steepest.
-
-    Rises that lead to less than `beyond` are skipped.
-    """
+    """For each line: whether it rises by `step`, and to `beyond` there, where first, and where near there most."""
     n, last = np.arange(len(rise)), rise.shape[1] - 1
     strong = rise >= step
     while True:

@@ -50,10 +50,7 @@ def walk(
 
 
 def _first(line: list[float], polarity: Polarity, step: float, beyond: float) -> tuple[int, int | None]:
-    """Where a line first rises by `step`, and where near there it rises most; its end and None if nowhere.
-
-    Rises that lead to less than `beyond` are skipped.
-    """
+    """Where a line first rises by `step` to at least `beyond`, and where near there most; its end, None if never."""
     rise, places = _rise(line, 0), len(line) - 2 * SPAN + 1
     entering = [*line[2 * SPAN :], 0.0]  # none enters behind the last place
     for i, (left, passed, entered) in enumerate(zip(line, line[SPAN:], entering, strict=False)):
@@ -170,10 +167,7 @@ def rims(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Array:
-    """Border points around several centres at once, shape (n, `rays`, 2), faster than one by one.
-
-    Centres have shape (n, 2), `reach` and `inner`, where beams begin, shape (n,).
-    """
+    """Border points around centres (n, 2), shape (n, `rays`, 2), faster than one by one; `reach`, `inner`: (n,)."""
     spokes = _spokes(rays)
     starts = centres[:, None] + inner[:, None, None] * spokes
     directions = np.broadcast_to(spokes, starts.shape).reshape(-1, 2)

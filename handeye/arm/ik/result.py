@@ -36,10 +36,7 @@ SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, rad or m
 
 
 def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResult:
-    """The solution within limits with the least sum of joint travel times from `near`.
-
-    Without one, the failure of the solution least beyond them.
-    """
+    """The solution within limits that is reached soonest from `near`, else the failure of that least beyond them."""
     good = [q for q in found if all(map(_inside, arm.joints, q))]
     if good:
 

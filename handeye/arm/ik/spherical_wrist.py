@@ -38,10 +38,7 @@ def _check(arm: ArmModel) -> None:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Four: (shoulder +, wrist), (+, flipped), (-, wrist), (-, flipped).
-
-    None exists where the wrist is nearer to the axis of joint 1 than d2.
-    """
+    """Four: shoulder +, then -, each with the wrist and flipped; none where the wrist is nearer to axis 1 than d2."""
     _check(arm)
     X_BT = inverse(arm.X_WB) @ np.asarray(X_WT, dtype=np.float64)
     rows = [[X_BT[..., i, j] for j in range(4)] for i in range(3)]
