@@ -62,7 +62,7 @@ def begin(
             number, and again where the run is taken up: it must give the same then. A search ends with error 6 where it
             gives None or raises StopIteration, and after as many places as the `SEARCH` has, 49 if it does not say;
             one `ALONG` a line tries its own. Tries are events `SearchAdvanced`, and `run.state.memory.place` is the
-            number it has come to.
+            number it has reached.
         referee: called with the truth of the cell, gives findings by their names; or limits alone, by the names of the
             findings that the task's referee has, as `{"screws_clamp": 60}`, each in the unit of its finding. A run that
             was kept is judged again by `handeye.begin(folder, referee=...).result`.
@@ -78,7 +78,7 @@ def begin(
 
     Raises:
         ScriptError: the script has errors.
-        InvalidInput: an argument cannot be used, or the run stopped before it came to the stage.
+        InvalidInput: an argument cannot be used, or the run stopped before it reached the stage.
 
     >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", seed=3, camera="ray")
     >>> run
@@ -164,7 +164,7 @@ def assemble(
 
 
 def _rule(on_stop: object) -> Operator:
-    """The operator that a word stands for. Raises InvalidInput if it needs somebody to ask, or is none."""
+    """The operator that a word stands for; raises InvalidInput if it is unknown or would have to ask a person."""
     operator = None
     with suppress(InvalidInput):  # whose sentence speaks of the command line
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None

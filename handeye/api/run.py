@@ -58,7 +58,7 @@ class RunEnding:
 
 
 class Run:
-    """A run of a plan in a world, which pauses wherever it is told to; `handeye.begin` begins one.
+    """A run of a plan in a world, which pauses where it is asked to; `handeye.begin` begins one.
 
     What moves it returns the `State` in which it pauses, which says why. As a context manager it closes itself.
 
@@ -99,7 +99,7 @@ class Run:
                 that begins with it); a line (58, `"pins.al:3"`); or `"error:23"`: after the step that raises it.
 
         Raises:
-            InvalidInput: the run cannot go on, there is no such place, or the run never comes to it from here.
+            InvalidInput: the run cannot go on, there is no such place, or the run never reaches it from here.
         """
         stops: list[AnyStop] = []
         if place is not None:
@@ -141,7 +141,7 @@ class Run:
             steps: how many executed steps to undo; or a stage, by its name or a part of it: to where it last began.
 
         Raises:
-            InvalidInput: so much was not executed, or the run cannot go on.
+            InvalidInput: fewer steps were executed, or the run cannot go on.
 
         >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
         >>> run.until().why
@@ -172,7 +172,7 @@ class Run:
         return self._stand(reason(pause))
 
     def break_at(self, place: Place) -> Break:
-        """Pause at a place whenever the run comes to it; places are those of `until`.
+        """Pause at a place whenever the run reaches it; places are those of `until`.
 
         Returns:
             the breakpoint and its `number`, by which `run.say("delete 1")` takes it away.
@@ -216,7 +216,7 @@ class Run:
         """Go on until a stage, given by its index, is about to begin; a run that is there already stays.
 
         Raises:
-            InvalidInput: the run never comes to it, or stopped before it; it is closed.
+            InvalidInput: the run never reaches it, or stopped before it; the run is then closed.
         """
         name = self._runner.listing.stages[stage]
         begins = AtStage(stage=stage, name=name)
@@ -234,7 +234,7 @@ class Run:
         return state
 
     def attend(self, operator: Operator) -> State:
-        """Go on to the end, with somebody or a rule to answer when the operator is called."""
+        """Go on to the end, with a person or a rule to answer calls of the operator."""
         self._check_open()
         try:
             pause = attend(self._runner, operator, [], self._session.kept)
@@ -298,7 +298,7 @@ class Run:
 
     @property
     def result(self) -> Result:
-        """What has come of the run so far; the referee judges one that has come to the end of its program."""
+        """The result of the run so far; the referee judges it only if the program has ended."""
         if self._closed is not None:
             return self._closed
         happened = len(self._runner.events)
@@ -308,7 +308,7 @@ class Run:
 
     @property
     def completed(self) -> bool:
-        """The program has come to its end, or the arm to the end of what it was to undo."""
+        """True if the program ended, or the arm finished undoing what it was asked to."""
         return self.result.completed
 
     @property

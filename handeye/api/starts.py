@@ -146,7 +146,7 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
 
 
 def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
-    """The same with parts of the caller's from here on: what is told of its beginning says so."""
+    """The checkpoint with the caller's parts from here on, which its setup and first event name."""
     if not wanted.replaced and not wanted.judged and wanted.limits is None:
         return start
     setup = start.setup

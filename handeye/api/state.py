@@ -1,4 +1,4 @@
-"""The state of a run that pauses, as a caller from Python sees it: SI units, arrays that nobody can change."""
+"""The state of a run that pauses, as a caller from Python sees it: SI units, read-only arrays."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
@@ -113,7 +113,7 @@ def _same(one: object, other: object) -> bool:
 
 
 def _kept(values: Array) -> Array:
-    """A copy that nobody can change."""
+    """A read-only copy."""
     copy = np.array(values)
     copy.flags.writeable = False
     return copy

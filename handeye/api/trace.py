@@ -58,7 +58,7 @@ class Trace(recorded.Trace):
 
         Args:
             camera: `orbit` sways round the cell, `follow` goes near to where the hand works; or one of the scene's.
-            seconds: how long it is, 14 where nobody says; short stages are slowed down so that each can be seen.
+            seconds: its length, 14 by default; short stages are slowed down so that each can be seen.
             speed: how many times as fast as the run all of it is, in the place of a length.
             first: the stage to begin with: its number, its name, or a piece of its name.
             last: the stage to end with.

@@ -57,7 +57,7 @@ class World:
             task: name of the task whose cell it is.
 
         Raises:
-            InvalidInput: there is no such seed, level, quantity, fault, unit or value; the nearest name is told.
+            InvalidInput: there is no such seed, level, quantity, fault, unit or value; the message names the nearest.
         """
         number = checked_seed(seed)
         if not isinstance(level, str) or level not in SPREADS:
@@ -107,7 +107,7 @@ class World:
         """The value of a quantity, in its unit.
 
         Raises:
-            InvalidInput: there is no such quantity; the nearest name is told.
+            InvalidInput: there is no such quantity; the message names the nearest.
         """
         return self.values[self._quantity(name)]
 
@@ -115,7 +115,7 @@ class World:
         """The unit of a quantity; empty for a plain number.
 
         Raises:
-            InvalidInput: there is no such quantity; the nearest name is told.
+            InvalidInput: there is no such quantity; the message names the nearest.
         """
         return self._table.quantities[self._quantity(name)].unit
 

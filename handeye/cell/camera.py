@@ -59,7 +59,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
     ) -> None:
         """A camera that looks at the state `data`, as it is when a picture is taken, and never changes it.
 
-        `rng`: noise of the tube and of the mount; `lines`: `picture`; `turret`, the lens that it is told (m);
+        `rng`: noise of the tube and of the mount; `lines`: `picture`; `turret`, the focal length commanded (m);
         `camera.pan` and `camera.tilt`, where the mount really stands (rad).
         """
         self._data = data

@@ -5,8 +5,7 @@ ones it has the same speeds, and is early by 1.6 ms, half of what a long step is
 of a joint are constraints, too: a joint that friction holds creeps at up to 9e-6 rad/s instead of 4e-6.
 
 MuJoCo puts a tree of bodies to sleep once it, and all that it touches, has hardly moved for ten steps, and wakes it
-when something awake comes into contact with it. It does not see that a motor is told something new: whoever drives one
-wakes its tree.
+when something awake touches it. It does not notice a new command to a motor: whoever drives one wakes its tree.
 """
 
 from typing import Final
@@ -45,7 +44,7 @@ class PhysicsStepper:
         self._kept = [values.copy() for values in self._moves]
 
     def step(self, steps: int) -> None:
-        """Make as many short steps, or long ones that come to the same time."""
+        """Make `steps` short steps, or long ones over the same time."""
         if self._data.ncon or steps % LONGER or not self._freely(steps):
             self._closely(steps)
 

@@ -1,4 +1,4 @@
-"""Commands for those who write scripts: tidy a text, explain a code, serve an editor."""
+"""Commands for writing scripts: tidy a text, explain a code, serve an editor."""
 
 import sys
 from pathlib import Path

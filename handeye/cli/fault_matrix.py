@@ -1,4 +1,4 @@
-"""The command that tries faults, one a run: what each comes to, and whether it is noticed."""
+"""The command that tries faults, one a run: the outcome of each, and whether it is noticed."""
 
 from typing import TYPE_CHECKING, Annotated
 

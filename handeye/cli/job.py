@@ -235,7 +235,7 @@ class _Work:
             return drive(stepper, server.link, self.panic.aside)
 
     def _lines(self, words: list[str]) -> tuple[Iterator[str], Live | None]:
-        """Lines to be carried out, and the way to those who look on while the run goes, if there is one."""
+        """Lines to carry out, and the live display of the run, if there is one."""
         put = partial(screen.print, end="", markup=False, soft_wrap=True)
         if sys.stdin.isatty():
             lines = typed_lines("handeye> ", self._waiting, lambda: words)
@@ -264,7 +264,7 @@ class _Work:
         return CheckpointStore(self.job.checkpoints).at_or_before(min(position, begun))
 
     def _keep(self, checkpoint: Checkpoint) -> Path | None:
-        """Save a state where the command line says; None if it says nowhere: nobody expects a file then."""
+        """Save a state to the path on the command line; None if it gives none."""
         if self.folder is not None:
             self.folder.check_traced()
             return self.folder.kept.save(checkpoint)

@@ -50,7 +50,7 @@ def typed_lines(
 
 
 def typed_already() -> str | None:
-    """A line that somebody has typed at the terminal while nobody asked; None: there is none, or no way to tell."""
+    """A line typed at the terminal before it was asked for; None if there is none, or no way to tell."""
     if sys.platform == "win32":
         return None
     if not select.select([sys.stdin], [], [], 0)[0]:
@@ -67,7 +67,7 @@ class PipedLines:
         Thread(target=self._read, args=(file,), daemon=True).start()
 
     def wait(self, aside: Callable[[], AbstractContextManager[None]]) -> Iterator[str]:
-        """All lines that nobody has taken; `aside` is entered while one is waited for."""
+        """Lines not yet taken; `aside` is entered while waiting for one."""
         while True:
             with aside():
                 line = self._lines.get()

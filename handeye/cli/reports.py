@@ -70,7 +70,7 @@ def report(
 
 
 def _beside(run: Path) -> Path:
-    """Where the report of a run is left if nobody says: in its folder, or beside its trace."""
+    """Default path of the report of a run: in its folder, or beside its trace."""
     from handeye.runs.folder import REPORT
 
     return run / REPORT if run.is_dir() else run.with_name(REPORT)
@@ -216,7 +216,7 @@ def _way_on(folder: Path, result: "Result") -> str:
 
 
 def shown(folder: Path, *, json: bool) -> "KeptRun":
-    """Print what is known of the run in a folder; raises InvalidInput if there is no run that could be shown."""
+    """Print the result or progress of the run in a folder; raises InvalidInput if there is none to show."""
     from handeye.results.kept_run import kept_run
     from handeye.results.page import page
     from handeye.results.result import to_json

@@ -286,7 +286,7 @@ def resume(
 
 
 def _check_live(live: bool, step: bool) -> None:
-    """Raises InvalidInput if nobody is there to look on."""
+    """Raises InvalidInput if the run would have no live display."""
     if live and not step:
         raise BadArgument("--live goes with --step: it tells a run that is stepped as it goes")
 

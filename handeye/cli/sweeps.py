@@ -1,4 +1,4 @@
-"""What commands that carry out a sweep have in common: options, progress, the folder, and what is told at the end."""
+"""The parts that sweep commands share: options, progress, the folder, and the closing summary."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

@@ -49,7 +49,7 @@ class Tally:
         self._bar.stop()
 
     def counting(self, trials: Iterable[T], tell: Callable[[T], None] | None = None) -> Iterator[T]:
-        """Trials as they end; each is told, if `tell` tells it, and counted when it has been kept."""
+        """Trials as they end; each is passed to `tell`, if given, and counted once it has been kept."""
         with self:
             for trial in trials:
                 yield trial

@@ -191,7 +191,7 @@ def teacher_of(
 
 
 def left_unsaved(teacher: "Teacher") -> bool:
-    """Whether something was named that the file does not have; if so, it is told."""
+    """True if taught names are missing from the file; prints them."""
     if teacher.unsaved:
         note(f"not saved: {', '.join(teacher.unsaved)}")
     return bool(teacher.unsaved)
@@ -242,7 +242,7 @@ def _given(file: Path | None) -> Taught | None:
 
 
 def _kept(file: Path | None) -> str:
-    """Advice when the operator was called and nobody is there to ask."""
+    """Advice when the operator was called and there is no one to ask."""
     if file is None:
         return "--keep FILE would save the cell as it is now, and --from FILE would continue from there"
     return f"`handeye do --from {file}` continues from there"

@@ -254,7 +254,7 @@ def chaos_trials(
 
 @contextmanager
 def _folder(named: Path | None) -> Iterator[Path]:
-    """The folder of the sound runs; one for now, if nobody names any."""
+    """The folder of the sound runs; a temporary one by default."""
     if named is not None:
         yield named
         return

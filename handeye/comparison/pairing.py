@@ -30,7 +30,7 @@ class Place(Record, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """Its line, as people are told: `12`, or `pins.al:12`."""
+        """Its line, as messages give it: `12`, or `pins.al:12`."""
         return line_name(self.line, self.file)
 
 

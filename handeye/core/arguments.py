@@ -1,4 +1,4 @@
-"""Arguments that people give: checked where they come in, so that a wrong one is told in one sentence."""
+"""Arguments from users: checked where they come in, so that a wrong one gives a message of one sentence."""
 
 import os
 from collections.abc import Iterable

@@ -1,6 +1,6 @@
 """Entries of systems: what one says of itself before anything of it is loaded, and what it cannot do.
 
-A system is a folder of `handeye/systems`, or a package of somebody else's that names its entry in the entry-point group
+A system is a folder of `handeye/systems`, or another package that names its entry in the entry-point group
 `handeye.systems`. An entry is data: names, sentences, and where the rest is found, as `module:NAME`.
 """
 

@@ -117,8 +117,8 @@ ERRORS: Final[dict[int, str]] = {
     CURRENT_WRONG: "the screwdriver runs, and its motor current shows nothing",
     PICTURE_WRONG: "the camera gives a picture that is not a live one",
 }
-"""Error numbers a script can test, with what the operator is told. 2 and 23 are the period's. From 50 on it is a
-sense that is not to be believed."""
+"""Error numbers a script can test, with the operator's message. 2 and 23 are from the period; from 50 on, a
+sensor is faulty."""
 
 
 class MissingExtra(Refused):

@@ -43,12 +43,12 @@ def bar(share: float) -> Markup:
 
 
 def picture(webp: bytes, what: str) -> Markup:
-    """A picture with words for those who cannot see it."""
+    """A picture with alternative text."""
     return element("img", alt=what, src=data_address("image/webp", webp), style="max-width:480px")
 
 
 def svg(drawing: str, what: str) -> Markup:
-    """A drawing with words for those who cannot see it; its style reaches nothing else on the page."""
+    """A drawing with alternative text; its style reaches nothing else on the page."""
     address = data_address("image/svg+xml", drawing.encode())
     return element("img", alt=what, src=address, style="max-width:100%")
 

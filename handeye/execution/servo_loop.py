@@ -227,7 +227,7 @@ class ServoLoop(Servo):
 
     @property
     def height(self) -> float:
-        """Height in W (m) at which the hand has come to a stop, by its set-point.
+        """Height in W (m) at which the hand has stopped, by its set-point.
 
         A converter's steps are read as up to .05 in at the hand. A set-point has none; and an arm on its way goes by
         many readings, whose steps even out, so that two motions that end on the same force end as high on average.

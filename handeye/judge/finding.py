@@ -44,7 +44,7 @@ Findings = Mapping[str, Finding]  # by the names of the points
 
 
 def at_most(value: float, limit: float, unit: str, subject: str, *, caution: bool = False) -> Finding:
-    """A finding that is right up to `limit`; beyond it, a `caution` is told and refuses nothing.
+    """A finding that is right up to `limit`; beyond it, a `caution` warns and refuses nothing.
 
     >>> handeye.at_most(0.1, 0.2, "mm", "gap under the head").ok
     True

@@ -107,7 +107,7 @@ def sense_axes(machines: Sequence[Axes], before: Sensed | None = None) -> Sensed
     """Readings of machines under one clock, their axes one after another; of several, channels are called `left.force`.
 
     Args:
-        before: the last readings, by which rates are told; without them all axes stand.
+        before: the last readings, from which rates are derived; without them all axes stand.
     """
     readings = [machine.read() for machine in machines]
     time, q = readings[0].time, np.concatenate([reading.q for reading in readings])

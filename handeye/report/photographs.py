@@ -73,7 +73,7 @@ def album(run: RecordedRun) -> Album:
 
 
 def no_album(run: RecordedRun, why: str) -> Album:
-    """An album without a photograph, where somebody wants none: it says why, once."""
+    """An album without photographs, which says why once."""
     leading = _none(_PhotographRequest(time=outcome(run).time, view=_room(run), shows="The run"), LARGE, why)
     return Album(leading=leading, stages=())
 

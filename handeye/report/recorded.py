@@ -21,7 +21,7 @@ class RecordedRun:
 
     trace: Trace
     whole: bool = True  # The trace was read to its end; False: its file was cut short
-    result: Result | None = None  # What the run came to; None: nobody told
+    result: Result | None = None  # The result of the run; None if it left none
     end: bytes | None = None
     """The picture of its end that it has left, a PNG or WebP file; None: it left none."""
     remarks: tuple[str, ...] = ()

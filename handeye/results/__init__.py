@@ -1,1 +1,1 @@
-"""Reports: what a run came to, for people and for programs."""
+"""Results of runs, for people and for programs."""

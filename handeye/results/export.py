@@ -1,4 +1,4 @@
-"""What is handed to other programs, written where somebody says, and told as a record."""
+"""Exports for other programs: files written to a given place, with a record that describes them."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -153,7 +153,7 @@ class Export(Record, frozen=True, kw_only=True):
     path: str
     format: Literal["mjcf", "glb"]
     moment: MomentKind
-    """`drawn`: before anything happened; `final`: the program has come to its end; `unfinished`."""
+    """`drawn` before the first step, `final` after the end of the program, `unfinished` in between."""
     shows: str
     """What it shows, for people."""
     world: WorldSpec

@@ -20,7 +20,7 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
     size: Size | None  # None: it has no value
     from_start: bool  # It can be there only from the beginning
     usual_stage: int | None
-    """Number of the stage with which it sets in where nobody names one; None: it is there from the beginning then."""
+    """Number of the stage at which it sets in by default; None: it is present from the start."""
     expected: Expected
     must: str  # What must happen with it, a sentence
     matrix: bool
@@ -43,7 +43,7 @@ def faults_json(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> bytes:
 
 
 def faults_page(catalogue: Catalogue, kinds: Sequence[FaultKind], columns: int) -> RenderableType:
-    """Some faults of a catalogue, for a terminal of so many columns."""
+    """Faults of a catalogue, for a terminal `columns` wide."""
     found = report(catalogue, kinds).faults
     parts: list[RenderableType] = []
     for device, faults in groupby(found, lambda fault: fault.name.split(".")[0]):

@@ -44,7 +44,7 @@ def checked_findings(referee: str, findings: object) -> Findings:
 
 
 def checked_limits(limits: Limits) -> dict[str, float]:
-    """Limits that somebody gave; raises InvalidInput if a name is none, or a limit is no number."""
+    """The given limits as floats; raises InvalidInput for an unknown name or a limit that is not a number."""
     checked: dict[str, float] = {}
     for name, limit in limits.items():
         if not isinstance(name, str):

@@ -1,4 +1,4 @@
-"""What is known of a run from its folder, which stays as it is: its result, or how far it has come."""
+"""The result of a run, or its progress so far, read from its folder, which is not changed."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -78,7 +78,7 @@ def _belongs(result: Result, events: Sequence[AnyEvent]) -> bool:
 
 
 def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
-    """See whether the run in a folder has come to its end, its result is there, and (`judged`) the referee's word.
+    """True if the run in a folder has ended and left a result, with the referee's verdict if `judged`.
 
     Args:
         newest: its newest checkpoint.

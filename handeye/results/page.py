@@ -14,7 +14,7 @@ from handeye.tasks import known, known_any
 from handeye.tasks.interface import HistoricalTiming, Words
 
 TimingRow = tuple[str, float, float | None]
-"""Name, seconds here, and seconds of its day; None: nobody told."""
+"""Name, seconds here, and seconds in the period; None: not reported."""
 _NEUTRAL = Words(done="The referee found everything right.", product="the work")
 """Words for a task that only the program that began the run knew."""
 _MARK = {

@@ -58,7 +58,7 @@ class Progress(Observer):
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """While somebody is asked: a bar that is there is out of the way."""
+        """Hide the bar while the operator is asked."""
         shown = self._bar.live.is_started
         self._bar.stop()
         try:
@@ -68,7 +68,7 @@ class Progress(Observer):
                 self._bar.start()
 
     def viewed(self, number: int, views: int) -> None:
-        """Begin the view of a number, of so many, in which the camera is calibrated."""
+        """Begin view `number` of the `views` in which the camera is calibrated."""
         said = _CALIBRATING.format(number, views)
         self._bar.update(self._task, description=said, completed=number - 1, total=views)
         if number == 1:
@@ -108,7 +108,7 @@ class Progress(Observer):
 
 
 def _columns(width: int, longest: int) -> Iterator[ProgressColumn]:
-    """What a line of so many columns has room for: time and stage always, then a bar, then the statement."""
+    """Columns that fit on a line of `width` characters: time and stage always, then a bar, then the statement."""
 
     def text(form: str, columns: int, style: str = "none") -> TextColumn:
         column = Column(no_wrap=True, overflow="ellipsis", min_width=columns, max_width=columns)

@@ -24,7 +24,7 @@ def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> RecordedRun:
 
 
 def _result(run: Path) -> tuple[Result | None, tuple[str, ...]]:
-    """What the folder of a run says that it came to, if it says so, and what is wrong with that."""
+    """The result in the folder of a run, if there is one, and what is wrong with it."""
     if not (run / RESULT).is_file():
         return None, ()
     try:

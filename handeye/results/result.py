@@ -71,7 +71,7 @@ class Check(Record, frozen=True, kw_only=True):
     sentence: str
     """All of it for people, but the value."""
     caution: bool = False
-    """If it is not `ok`, that is told, and the work may be right all the same."""
+    """If not `ok`, only a warning: the work may still be right."""
 
     @classmethod
     def of(cls, found: Finding) -> "Check":
@@ -110,7 +110,7 @@ class CameraReport(Record, frozen=True, kw_only=True):
     sightings_rms_px: dict[str, float]
     """Residual for each lens."""
     residual_in: float | None
-    """On the table, inches; None where the program takes no picture and nobody calibrated."""
+    """On the table, inches; None if the program takes no picture and did not calibrate."""
 
     @property
     def used(self) -> bool:
@@ -125,9 +125,9 @@ class Result(Record, frozen=True, kw_only=True):
     """
 
     assembled: bool | None
-    """The referee's word; None if nobody was asked."""
+    """The referee's verdict; None if the referee was not asked."""
     completed: bool
-    """The program came to its end, or the arm to the end of what it was to undo."""
+    """The program ended, or the arm finished undoing what it was asked to."""
     paused: bool
     """The run stands before its end: that was asked for, or it was interrupted, or is under way."""
     stopped_at: str | None
@@ -138,7 +138,7 @@ class Result(Record, frozen=True, kw_only=True):
     stages: tuple[Stage, ...]
     timing: Timing
     referee: dict[str, Check]
-    """Findings by their names; none if nobody was asked, or if the program did not come to its end: see `message`."""
+    """Findings by name; empty if the referee was not asked or the program did not end: see `message`."""
     task: str
     program: str
     seed: int
@@ -148,7 +148,7 @@ class Result(Record, frozen=True, kw_only=True):
     warnings: tuple[str, ...] = ()
     """What in the run may be other than it looks, a sentence each."""
     limits: dict[str, float] | UnsetType = UNSET
-    """Limits that somebody put in the place of the referee's own, by the names of its findings."""
+    """Limits given in place of the referee's own, by the names of its findings."""
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts that code of whoever began the run took the place of, with the names of that code."""
     without: tuple[Sense, ...] | UnsetType = UNSET
@@ -161,7 +161,7 @@ class Result(Record, frozen=True, kw_only=True):
 
     @property
     def judged(self) -> bool | None:
-        """The referee's word on what was built, on what was taken apart, or on both; None: nobody was asked."""
+        """The referee's verdict on what was built, taken apart, or both; None if the referee was not asked."""
         words = [word for word in (self.assembled, self.apart) if isinstance(word, bool)]
         return all(words) if words else None
 

@@ -67,7 +67,7 @@ def summary(
 
 
 def _assembled(runner: Runner, findings: Findings | None, built: Findings, *, completed: bool) -> bool | None:
-    """The referee's word on what was built; None: nobody was asked, or it had been undone."""
+    """The referee's verdict on what was built; None if it was not asked, or the work has been undone."""
     if runner.undone:
         return all_right(built) if built else None
     return None if findings is None else completed and all_right(findings)
@@ -78,7 +78,7 @@ def _checks(findings: Findings) -> dict[str, Check]:
 
 
 def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
-    """Tell what somebody did to the run, a sentence each."""
+    """One sentence for each intervention in the run."""
     begun = beginning(events)
     for event in events:
         when = f"at {event.time - begun:.1f} s"
@@ -160,7 +160,7 @@ def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
 
 
 def camera_report(renderer: Renderer, calibration: Calibration | None) -> CameraReport:
-    """Report on a camera, which nobody may have calibrated."""
+    """Report on a camera, with its calibration if it has one."""
     residuals = {} if calibration is None else calibration.residual_px
     return CameraReport(
         renderer=renderer_name(renderer),

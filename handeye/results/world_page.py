@@ -46,7 +46,7 @@ def world_json(table: Variation, world: World) -> bytes:
 
 
 def world_page(table: Variation, world: World, columns: int) -> RenderableType:
-    """The quantities of a world, for a terminal of so many columns; those of one source stand below it."""
+    """The quantities of a world, grouped by source, for a terminal `columns` wide."""
     found = report(table, world).quantities
     parts: list[RenderableType] = [Text(fill(f"The world of {world.spec}", columns), "bold")]
     if not found:

@@ -247,7 +247,7 @@ class Runner:
         self._settle()
 
     def finish(self) -> bool:
-        """Close the account of the run; True when the program came to its end."""
+        """Close the account of the run; True if the program ended."""
         return self.system.finish() and self.trouble is None
 
     def repeat(self, events: Sequence[AnyEvent]) -> None:

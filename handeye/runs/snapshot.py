@@ -36,7 +36,7 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
     @property
     def ended(self) -> bool:
-        """The plan has come to its end: no step is left, and no call of the operator stands."""
+        """The plan has ended: no step is left, and no call of the operator is open."""
         state = None if self.snapshot is None else self.snapshot.state
         return state is not None and state.at is None and state.stopped is None
 

@@ -74,7 +74,7 @@ class StepFacts(Protocol):
 
     @property
     def place(self) -> str:
-        """Its line, as people are told: `12`, or `pins.al:12`."""
+        """Its line, as messages give it: `12`, or `pins.al:12`."""
 
     @property
     def examines(self) -> str | None:
@@ -202,7 +202,7 @@ class RunningSystem(Protocol):
         """From now on each step undoes one that was executed, the last first; raises InvalidInput without any."""
 
     def finish(self) -> bool:
-        """Close the account of the run; True when the program came to its end."""
+        """Close the account of the run; True if the program ended."""
 
     @property
     def context(self) -> ExecutionContext | None:
@@ -229,7 +229,7 @@ class RunningSystem(Protocol):
         return "", ()
 
     def built(self) -> Findings:
-        """The referee's findings on finished work that was undone since; none if none was, or nobody looked."""
+        """The referee's findings on finished work since undone; empty if there was none or it was not judged."""
         return {}
 
     def remembered(self) -> Findings:
@@ -330,7 +330,7 @@ class System(ABC):
             raise BadFile(f"this is no plan of {self.entry.title}")
 
     def own_plan(self, task: str) -> Any:
-        """The plan that does one of its tasks where nobody gives another; raises InvalidInput if there is none."""
+        """The system's default plan for a task; raises InvalidInput if there is none."""
         raise refusal(self.name, "plans")
 
     def executed(self, plan: Any, state: Any) -> Sequence[ExecutedStep]:

@@ -126,7 +126,7 @@ def known(name: str) -> Task | None:
 
 
 def of_plans(kind: Kind) -> Iterator[Task]:
-    """The tasks of a kind that planned programs do; each is imported when it is come to."""
+    """The tasks of a kind that planned programs do; each is imported when it is reached."""
     for name in _NAMES[kind]():
         try:
             found = known(name)

@@ -48,7 +48,7 @@ class HistoricalTiming(Record, frozen=True, kw_only=True):
 
 
 class ExportedScene(Record, frozen=True, kw_only=True):
-    """A scene for other programs, with what they are told about it."""
+    """A scene for other programs, with its description."""
 
     spec: mujoco.MjSpec
     about: str  # Markdown: its names, and how it differs from the cell

@@ -181,7 +181,7 @@ class Trace:
             exposures: of a fine photograph: how many, 24 by default. With this or `film` it is a fine one.
 
         Raises:
-            InvalidInput: as `at`; the size or so many exposures cannot be; there is no such camera or film; there is
+            InvalidInput: as `at`; the size or number of exposures is out of range; there is no such camera or film, or
                 no OpenGL here.
         """
         from handeye.cell.exposures import exposing, photographed

@@ -77,7 +77,7 @@ def run_plan(
 
 
 def brakes_hold(cell: SimulatedCell) -> bool:
-    """True if the brakes were on in the last moment and are told to stay, and no motor of the arm has a torque."""
+    """True if the brakes are on and commanded to stay on, and no motor of the arm has a torque."""
     state = cell.truth.states[cell.arm.name]
     assert isinstance(state, ArmState)
     return state.braked and state.command is None and not cell.truth.data.ctrl[cell.arm.motors].any()

@@ -57,7 +57,7 @@ _NAMES: Final = {
 
 
 class Head(Record, frozen=True, kw_only=True):
-    """First line of a batch's file: all that decides what its trials come to."""
+    """First line of a batch's file: everything that determines the outcomes of its trials."""
 
     format: Literal["handeye batch"] = "handeye batch"
     version: Literal[2] = 2

@@ -196,7 +196,7 @@ def trials_in_world(condition: Condition, last: InsertionTrial) -> list[Insertio
 
 
 def fetched(plan: Plan, seed: int) -> Runner:
-    """A run in the world of a seed that has come to where its second stage begins, or has stopped before."""
+    """A run in the world of a seed, at the start of its second stage unless it stopped before."""
     world = WorldSpec(seed=seed, overrides=Overrides(set=Condition().hole))
     setup = Setup(plan=plan, world=world, camera="ray")
     runner = Runner(Checkpoint(setup=setup))

@@ -63,7 +63,7 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def broken_off(self) -> bool:
-        """It did not come to an end of its own."""
+        """True if it did not end by itself."""
         return self.ended not in _CAME_TO_AN_END
 
     @property

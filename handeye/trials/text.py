@@ -164,5 +164,5 @@ def told_so_far(sweep: Sweep[R], rows: Sequence[R]) -> str:
 
 
 def kept(rows: int, out: object) -> str:
-    """What is told where a batch is broken off."""
+    """The sentence on a batch that is broken off."""
     return f"{counted(rows, 'trial')} kept in {out}; the same command goes on from there"

@@ -112,7 +112,7 @@ class Newest(Observer):
         self.follow(runner)
 
     def follow(self, runner: Runner) -> None:
-        """Look on at a runner from now on; one that goes on in the cell of another goes on with its time, too."""
+        """Follow a runner from now on; one that goes on in the cell of another also goes on with its time."""
         cell = runner.system.cell
         self.frames = NoFrames() if cell is None else Frames(cell.truth, runner.system.joints)
         self._runner = runner

@@ -114,7 +114,7 @@ class Watch:
         self._ear = LineInput(link.come, lambda line: link.tell(_refused(line)))
 
     def __call__(self, runner: Runner) -> list[Observer]:
-        """Look on at a runner, the first or that which takes the place of the last."""
+        """Observers of a runner, the first or the successor of the last."""
         if self.newest is None:
             self.newest = Newest(runner)
         else:

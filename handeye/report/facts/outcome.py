@@ -38,12 +38,12 @@ class Outcome:
 
     @property
     def failed(self) -> bool:
-        """Something went wrong, or somebody thought so."""
+        """True if something went wrong, or the run was stopped."""
         return self.kind in ("wrong", "stopped", "panic")
 
     @property
     def ended(self) -> bool:
-        """The program came to its end."""
+        """True if the program ended."""
         return self.kind in ("right", "wrong", "ended")
 
 
@@ -64,7 +64,7 @@ def outcome(run: RecordedRun) -> Outcome:
 
 
 def _ended(run: RecordedRun) -> Outcome:
-    """The outcome of a run whose program came to its end."""
+    """The outcome of a run whose program ended."""
     judged = None if run.result is None else run.result.judged
     if run.result is None or judged is None:
         return Outcome(kind="ended", time=run.ends)
@@ -78,7 +78,7 @@ def _ended(run: RecordedRun) -> Outcome:
 
 
 def _standing(run: RecordedRun) -> tuple[str | None, StepStarted | None, OperatorCalled | None]:
-    """The stage and the step that a run stands in, and the call of the operator that nobody has answered."""
+    """The stage and step that a run is in, and the operator call that is still unanswered."""
     stages = run.trace.stages
     step: StepStarted | None = None
     call: OperatorCalled | None = None

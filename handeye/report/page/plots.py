@@ -15,7 +15,7 @@ TOLERANCE: Final = 0.4  # In units of the figure: a line may be that far off its
 
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """A straight scale: from what is told to where it is drawn."""
+    """A linear scale from values to positions on a drawing."""
 
     low: float
     high: float
@@ -28,12 +28,12 @@ class Scale:
 
 
 def drawing(*children: Content, wide: float = WIDE, high: float = HIGH, label: str) -> Markup:
-    """A drawing, which its label tells to those who cannot see it."""
+    """A drawing whose label stands in for it in a screen reader."""
     return element("svg", *children, viewBox=f"0 0 {wide:g} {high:g}", role="img", aria_label=label)
 
 
 def curve(xs: Array, ys: Array, **attributes: str) -> Markup:
-    """A line through points, without those that nobody would miss."""
+    """A line through points, less those that make no visible difference."""
     kept = kept_points(np.column_stack([xs, ys]), TOLERANCE)
     way = "M" + "L".join(f"{x:.1f},{y:.1f}" for x, y in kept.tolist())
     return element("path", d=way, **attributes)

@@ -69,7 +69,7 @@ def facts(run: RecordedRun) -> Markup:
 
 
 def _overrides(run: RecordedRun) -> Iterator[tuple[str, Content]]:
-    """What in the world is not as it was drawn."""
+    """The faults and overrides of the run's world."""
     world = run.trace.head.world
     for name, meaning in told_faults(run):
         yield "broken", joined([element("code", name), f" {meaning}"])

@@ -1,4 +1,4 @@
-"""The head of the page: what the run came to, and, if it failed, why, at which line, and what the senses said."""
+"""The head of the page: the outcome of the run, and, if it failed, why, at which line, and the readings there."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -37,7 +37,7 @@ _NEUTRAL: Final = Words(done="The referee found everything right.", product="the
 
 
 def title(run: RecordedRun, outcome: Outcome) -> str:
-    """What a run came to, in one sentence."""
+    """The outcome of a run in one sentence."""
     task = known(run.trace.head.task)
     words = _NEUTRAL if task is None else task.words
     apart = None if run.result is None else run.result.apart

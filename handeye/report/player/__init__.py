@@ -81,6 +81,6 @@ def script() -> str:
 
 
 def _plain(module: str) -> str:
-    """A module as a page carries it: all of them share one scope, and nobody reads their comments there."""
+    """A module as a page carries it, without comments: all modules share one scope there."""
     lines = (line.strip().removeprefix("export ") for line in module.splitlines())
     return "".join(f"{line}\n" for line in lines if line and not line.startswith(("import ", "//")))

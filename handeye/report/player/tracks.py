@@ -47,7 +47,7 @@ class Track:
         )
 
     def still(self, count: int) -> bool:
-        """It is there in all of so many servo periods, and nothing moves it."""
+        """True if it is present in all `count` servo periods and never moves."""
         return self.spans == ((0, count, 1),)
 
 

@@ -15,7 +15,7 @@ _WIDE: Final = 100  # characters of a line of the displays
 
 
 class TrigSession:
-    """Somebody at the editor of TRIG, with a teach box: what is typed happens, and the program grows.
+    """A session at TRIG's editor, with a teach box: each line typed is carried out, and the program grows.
 
     It shows itself as its steps; in notebooks in miniature, too.
 
@@ -44,13 +44,13 @@ class TrigSession:
         self._session = new_session(arm)
 
     def type(self, text: str) -> tuple[str, ...]:
-        """Type lines, as a script has them: commands, the teach box, answers, and what somebody does with the table.
+        """Type lines, as a script has them: commands, the teach box, answers, and what the user does with the table.
 
-        Returns:
-            What was told, a sentence each.
+                Returns:
+        The messages, a sentence each.
 
-        Raises:
-            InvalidInput: a line cannot be carried out; those before it have been.
+                Raises:
+                    InvalidInput: a line cannot be carried out; those before it have been.
         """
         told: list[str] = []
         script = Script(text.splitlines(), told.append)
@@ -65,7 +65,7 @@ class TrigSession:
         return x, y, z
 
     def photograph(self, *, width: int = 640, height: int = 480) -> Photograph:
-        """Arm and table as somebody sees them who stands before them, shape (height, width, 3), red, green and blue.
+        """Arm and table as seen by a person in front of them, shape (height, width, 3), red, green and blue.
 
         Raises:
             InvalidInput: the arm is imagined, there is no OpenGL on this machine, or the size is none of a picture.

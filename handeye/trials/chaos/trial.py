@@ -158,10 +158,10 @@ def _sound(carried: ScheduleRun) -> Iterator[Violation]:
 
 
 def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
-    """Failed findings on work that the program takes for right.
+    """Failed findings on work that the program considers right.
 
-    A stage that the program has done is judged by those findings that must hold from its end on. If one does not, the
-    program goes on, for a later check may notice that: it is silent only if it comes to its end with a wrong pump.
+    A stage that the program has done is judged by the findings that must hold from its end on. If one does not, the
+    program goes on, for a later check may notice: it is silent only if the program ends with a wrong pump.
     """
     happened = carried.runner.events[len(start.events) :]
     overruled = any(isinstance(event, OperatorAnswered) and event.choice != "retry" for event in happened)

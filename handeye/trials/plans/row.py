@@ -26,13 +26,13 @@ class SearchEnd(Record, frozen=True, kw_only=True):
 
     at: str  # The position that it is around
     places: int  # tried, the first included
-    found: bool  # It did not come to its last place in vain
+    found: bool  # True if the last place was the right one
 
 
 def contacts(
     program: Program, events: Sequence[AnyEvent], where: Mapping[str, tuple[str, ...]], *, completed: bool
 ) -> Iterator[Contact]:
-    """The contact operations that were begun, in their order; `where`: their positions by their names."""
+    """The contact operations begun, in order; `where`: their positions by their names."""
     names = {position: name for name, positions in where.items() for position in positions}
     here = ""
     for goal in _goals(program, events):

@@ -43,7 +43,7 @@ class Trial:
     camera: str = "auto"
     without: tuple[Sense, ...] = ()
     on_stop: str = "abort"
-    """How calls of the operator are answered: a policy, as `parse_policy` knows it, that asks nobody."""
+    """The policy that answers calls of the operator, as `parse_policy` reads it; it must not ask a person."""
     simulated_limit_s: float = SIMULATED_LIMIT_S
     wall_limit_s: float = WALL_LIMIT_S
 
@@ -120,7 +120,7 @@ class Watch:
     clock: Callable[[], float] = lambda: 0.0
 
     def looking_on(self, runner: Runner) -> tuple[Observer, ...]:
-        """Read the clock of a run from now on; nobody looks on."""
+        """Read the clock of a run from now on; adds no observers."""
         self.clock = lambda: runner.time
         return ()
 
@@ -160,7 +160,7 @@ ASSEMBLY: Final = Sweep(
 class DismantlingTrial(Trial):
     """Builds by a plan, has the arm undo all of it, and asks the referee whether everything is where it was."""
 
-    to: str = ""  # The stage behind which it begins to undo; empty: the program comes to its end
+    to: str = ""  # The stage after which it begins to undo; empty: after the last
 
     @property
     def settings(self) -> dict[str, str]:
