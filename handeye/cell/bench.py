@@ -10,12 +10,13 @@ import numpy as np
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.physics_stepper import asleep, check_physics
 from handeye.cell.snapshot_cell import SnapshotCell
-from handeye.core.errors import BadFile, NoSuchName
+from handeye.core.errors import BadArgument, BadFile, HandeyeError, NoSuchName
 from handeye.core.record import Record
 from handeye.ports.clock import Clock, whole_steps
 
 MICROSECONDS: Final = 1_000_000
 _LATEST: Final = 10**15
+_MOST_AT_ONCE: Final = 100_000  # events between two physics steps
 _FINEST: Final = 10**6
 """Physics steps in a second, at most, for the step to be known as a fraction of one: 1/960, 1/1200, .001."""
 FASTEST: Final = 1000.0
@@ -59,6 +60,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         self._parts: list[Mechanism[Any]] = []
         self._steps, self._stretch = 0, max(1, int(_STRETCH / self._tick))
         self._due: list[Due] = []
+        self._passing = False
         mujoco.mj_forward(self.model, self.data)
 
     def add(self, part: Mechanism[Any]) -> None:
@@ -89,24 +91,44 @@ class Bench(Clock, Mechanism[BenchTime]):
         return float(self._steps * self.tick)
 
     def advance(self, seconds: float) -> None:
+        if self._passing:
+            raise BadArgument("time passes on the bench already: no hook and no event can let it pass")
         end = self._steps + whole_steps(seconds, float(self.tick))
-        while True:
-            while self._due and self._begins(self._due[0]) <= self._steps:
-                self.handlers[self._due.pop(0).name]()
-            if self._steps == end:
-                return
-            self._pass(min([end, *(self._begins(due) for due in self._due[:1])]) - self._steps)
+        self._passing = True
+        try:
+            self._handle_due()
+            while self._steps < end:
+                self._pass(min(end - self._steps, self._before_event()))
+                self._handle_due()
+        finally:
+            self._passing = False
 
     def call_at(self, microseconds: int, name: str) -> None:
         """Have an event handled at the first physics step that begins at a time or after it, by its name."""
         if name not in self.handlers:
             raise NoSuchName(f"nothing on the bench is called {name}; there are {', '.join(self.handlers)}")
+        if microseconds >= _LATEST:
+            raise BadArgument(f"an event cannot happen as late as at {microseconds / MICROSECONDS:g} s")
         self._due.append(Due(microseconds=microseconds, name=name))
         self._due.sort(key=lambda due: due.microseconds)
 
-    def _begins(self, due: Due) -> int:
-        """The number of the physics step before which an event is handled."""
-        return -int(-Fraction(due.microseconds, MICROSECONDS) // self.tick)
+    @property
+    def next_event(self) -> Fraction | None:
+        return max(self._before_event(), 1) * self.tick if self._due else None
+
+    def _before_event(self) -> int:
+        """Physics steps before the next event is handled; more than ever pass if there is none."""
+        if not self._due:
+            return _LATEST
+        p, q = self._tick.as_integer_ratio()
+        return -(-self._due[0].microseconds * q // (MICROSECONDS * p)) - self._steps
+
+    def _handle_due(self) -> None:
+        for _ in range(_MOST_AT_ONCE):
+            if self._before_event() > 0:
+                return
+            self.handlers[(due := self._due.pop(0)).name]()
+        raise HandeyeError(f"events follow each other without end at {self.now:g} s; the last is {due.name}")
 
     def _pass(self, most: int) -> None:
         """Let at most `most` physics steps pass: a stretch of them, or all of them if everything sleeps."""
@@ -116,8 +138,9 @@ class Bench(Clock, Mechanism[BenchTime]):
         for act in self.before_period:
             act()
         if asleep(self.data):
+            most = min(most, max(self._before_event(), 1))  # what was just called may have asked for one
             for part in self._parts:
-                part.rested(float((most - steps) * self.tick))
+                part.rested(float(max(most - steps, 0) * self.tick))
             self._steps += most
         else:
             self._make(steps)
@@ -135,6 +158,8 @@ class Bench(Clock, Mechanism[BenchTime]):
             self._steps += 1
             for act in self.after_step:
                 act()
+            if self._before_event() <= 0:
+                break
         check_physics(self.data, fastest=FASTEST)
 
     # -- state ----------------------------------------------------------------------------------------

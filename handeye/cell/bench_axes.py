@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.bench import Bench
-from handeye.cell.mechanism import Mechanism
+from handeye.cell.mechanism import Mechanism, scene_for
 from handeye.cell.physics_stepper import allow, wake
 from handeye.core.errors import BadArgument, BadFile, NoSuchName, Refused
 from handeye.core.pose import Array
@@ -67,6 +67,9 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         """
         self.name, self._bench, self._specs, self._period = name, bench, tuple(specs), period
         self._senses, self._bent = channels or {}, bent
+        parts = [part for channel in self._senses for part in channel.parts]
+        if len({*parts}) < len(parts):
+            raise BadArgument(f"values of {name} have names of their own; these are {', '.join(parts)}")
         self._holds = np.array([spec.holds for spec in specs])
         self._gradual = np.array([spec.name not in at_once for spec in specs])
         self._powered, self._latched = True, dict[str, tuple[float, ...]]()
@@ -74,12 +77,13 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         self._way = np.zeros(len(specs))
         self.bind(bench.model, bench.data)
         q = self.read().q
-        self._goal = q + self._bent(q)
+        bench.data.ctrl[self._servos] = self._goal = q + self._bent(q)
         bench.add(self)
         bench.before_step.append(self._interpolate)
         if any(channel.latched for channel in self._senses):
             bench.after_step.append(self._latch)
 
+    @scene_for("a machine")
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """Find its joints and servos in a scene."""
         self._servos = np.array([model.actuator(spec.name).id for spec in self._specs], dtype=int)
@@ -122,7 +126,10 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         return AxesReading(time=self._bench.now, q=told, channels=felt)
 
     def _sensed(self, channel: Channel) -> tuple[float, ...]:
-        return tuple(map(float, self._senses[channel](self._bench.model, self._bench.data)))
+        values = tuple(map(float, self._senses[channel](self._bench.model, self._bench.data)))
+        if len(values) != channel.width:
+            raise BadArgument(f"{channel.name} of {self.name} has {channel.width} values, not {len(values)}")
+        return values
 
     def _true(self) -> Array:
         """Where its axes are, shape (n,)."""
@@ -132,6 +139,8 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         return np.asarray(q)
 
     def put(self, goal: Array) -> None:
+        if np.shape(goal) != (count := len(self._specs),):
+            raise BadArgument(f"a goal of {self.name} is {count} numbers, one for each axis")
         if not np.isfinite(goal).all():
             raise BadArgument("a goal of an axis is not a finite number")
         if not self._powered:
@@ -145,10 +154,19 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         if on == self._powered:
             return
         self._powered = on
-        self._goal, self._way, self._left = self._true(), np.zeros(len(self._specs)), 0
+        q, (gain, bias) = self._true(), self._gains
+        ahead = (
+            self._set_point - q + bias[:, 2] / gain[:, 0] * self._bench.data.actuator_velocity[self._servos]
+        )
+        most = [np.inf if spec.force is None else spec.force for spec in self._specs] / gain[:, 0]
+        self._goal = q + np.where(
+            self._holds, np.clip(ahead, -most, most), 0.0
+        )  # what holds presses as it did
+        self._way, self._left = np.zeros(len(self._specs)), 0
         self._switch(on=on)
         self._bench.data.ctrl[self._servos] = self._goal
         self._allow_sleep(allowed=False)
+        self._allow_sleep(allowed=True)
 
     def clear(self, channel: str) -> None:
         if not any(each.name == channel and each.latched for each in self._senses):
@@ -172,6 +190,9 @@ class BenchAxes(Axes, Mechanism[AxesState]):
     def _set_point(self) -> Array:
         """Set-points of the servos now, shape (n,)."""
         return self._goal - self._left * self._way
+
+    def after(self) -> None:
+        self._latch()  # a channel may change while all sleeps
 
     def _latch(self) -> None:
         for channel in self._senses:

@@ -1,12 +1,25 @@
 """A part of a simulated cell that does something as time passes: every device, and what a task adds to physics."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import ClassVar, Generic, TypeVar
 
 import msgspec
 import mujoco
 
+from handeye.core.errors import BadArgument
+
 S = TypeVar("S", bound=msgspec.Struct)
+
+
+@contextmanager
+def scene_for(what: str) -> Iterator[None]:
+    """Raise BadArgument, with a sentence, where a scene lacks a name that something in it needs."""
+    try:
+        yield
+    except KeyError as error:
+        raise BadArgument(f"{what} cannot work in this scene: {error.args[0]}") from None
 
 
 class Mechanism(ABC, Generic[S]):

@@ -4,15 +4,16 @@ Time is counted exactly, in rational seconds or whole microseconds: periods of 1
 """
 
 from collections.abc import Callable, Generator, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from math import ceil
+from math import ceil, isfinite
 from typing import Final, Generic, TypeVar
 
 import msgspec
 
-from handeye.core.errors import HandeyeError
+from handeye.core.errors import BadArgument, HandeyeError
 from handeye.core.mutable_records import MutableRecord
 from handeye.ports.clock import Clock
 
@@ -20,11 +21,13 @@ Time = TypeVar("Time", int, Fraction)
 T = TypeVar("T")
 _FINEST: Final = 1_000_000  # largest denominator of a duration, s, that is given in floating point
 _ROUNDING_S: Final = 1e-12
+_MOST_AT_ONCE: Final = 1_000_000  # turns of a task at one moment
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Until:
-    """Wait for a condition, which is looked at whenever another task has done something or time has passed."""
+    """Wait for a condition, which is looked at whenever another task has done something, time has passed, or an
+    event of the clock was handled."""
 
     met: Callable[[], bool]
     name: str  # the condition in words, for a deadlock: `flag 2`
@@ -59,11 +62,16 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         """Let another task begin now, behind those there are."""
         self.due[task] = self.now, 0
 
-    def turn(self, met: Callable[[str], bool], pass_until: Callable[[Time], Time]) -> str | None:
+    def turn(
+        self,
+        met: Callable[[str], bool],
+        pass_until: Callable[[Time], Time],
+        next_event: Callable[[], Time | None] = lambda: None,
+    ) -> str | None:
         """The task whose turn it is: call `sleep`, `wait` or `end` for it then. None: all have ended.
 
         `met` says whether what a task waits for has come about; `pass_until` lets time pass at least until a time, and
-        returns when it then is.
+        returns when it then is; `next_event` says when something happens by itself that tasks may wait for.
         """
         while self.due:
             ready = [
@@ -77,6 +85,8 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
                 self.waits.pop(task, None)
                 return task
             times = [time for task, (time, _) in self.due.items() if task not in self.waits]
+            if self.waits and (event := next_event()) is not None:
+                times.append(event)
             if not times:
                 raise Deadlock(dict(self.waits))
             self.now = pass_until(min(times))
@@ -85,6 +95,10 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
     def sleep(self, task: str, duration: Time) -> None:
         """Let a task go on so long after it was due, however late it was served."""
         time, again = self.due[task]
+        if duration < 0:
+            raise BadArgument(f"{task} cannot wait for less than no time")
+        if again == _MOST_AT_ONCE:
+            raise Deadlock({task: "nothing, again and again, and lets no time pass"})
         self.due[task] = (time + duration, 0) if duration else (time, again + 1)
 
     def wait(self, task: str, name: str) -> None:
@@ -108,7 +122,10 @@ def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> li
     An arm whose motion has ended is no longer driven while others move on, so that its watchdog sets its brakes.
     A deadlock calls the tasks by `names`, by default `task 1`, `task 2` and so on.
     """
-    running = dict(zip(names or [f"task {number + 1}" for number in range(len(tasks))], tasks, strict=True))
+    names = names or [f"task {number + 1}" for number in range(len(tasks))]
+    running = dict(zip(names, tasks, strict=True))
+    if len(running) < len(tasks):
+        raise BadArgument(f"tasks have names of their own; these are {', '.join(names)}")
     agenda: Agenda[Fraction] = Agenda(now=Fraction(0))
     until: dict[str, Until] = {}
     ended: dict[str, T] = {}
@@ -120,20 +137,26 @@ def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> li
         clock.advance(float(passed))
         return agenda.now + passed
 
-    for name in running:
-        agenda.add(name)
-    while (turn := agenda.turn(lambda task: until[task].met(), pass_until)) is not None:
-        try:
-            wait = next(running[turn])
-        except StopIteration as end:
-            ended[turn] = end.value
-            agenda.end(turn)
-            continue
-        if isinstance(wait, Until):
-            until[turn] = wait
-            agenda.wait(turn, wait.name)
-        else:
-            agenda.sleep(turn, _exact(wait))
+    def next_event() -> Fraction | None:
+        event = clock.next_event
+        return None if event is None else agenda.now + event
+
+    with ExitStack() as stack:  # an error in one task ends all
+        for name, task in running.items():
+            stack.callback(task.close)
+            agenda.add(name)
+        while (turn := agenda.turn(lambda task: until[task].met(), pass_until, next_event)) is not None:
+            try:
+                wait = next(running[turn])
+            except StopIteration as end:
+                ended[turn] = end.value
+                agenda.end(turn)
+                continue
+            if isinstance(wait, Until):
+                until[turn] = wait
+                agenda.wait(turn, wait.name)
+            else:
+                agenda.sleep(turn, _exact(wait))
     return [ended[name] for name in running]
 
 
@@ -142,6 +165,8 @@ def _exact(seconds: float | Fraction) -> Fraction:
     """The rational duration that a number stands for: 1/60 s for 0.016666666666666666."""
     if isinstance(seconds, Fraction):
         return seconds
+    if not isfinite(seconds):
+        raise BadArgument(f"a task cannot wait for {seconds:g} s")
     exact = Fraction(seconds)
     near = exact.limit_denominator(_FINEST)
     return near if abs(float(near) - seconds) < _ROUNDING_S else exact

@@ -28,7 +28,9 @@ class ToolAxes(Axes):
 
     The arm is driven a servo period for each goal that is put, towards it with at most the speed of each axis, and no
     path is planned: whoever names goals does so every period, or the watchdog sets the brakes. Force is felt well
-    where the drive knows its joints' friction (`measure_joints`), and counts from where `tare` was called last.
+    where the drive knows its joints' friction (`measure_joints`), and counts from where `tare` was called last. It is
+    felt a period late: a descent on the table that is to stop at 6 N does so at 6.1 to 7.5 N with .01 m/s, but at 17 N
+    with .025 and at 34 N with .05.
     """
 
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
@@ -70,6 +72,8 @@ class ToolAxes(Axes):
 
     def put(self, goal: Array) -> None:
         """Drive the arm for a period towards a goal; raises Refused where it cannot go there."""
+        if np.shape(goal) != (count := len(self._specs),):
+            raise BadArgument(f"a goal of {self.name} is {count} numbers, one for each axis")
         if not np.isfinite(goal).all():
             raise BadArgument("a goal of an axis is not a finite number")
         self._finish()

@@ -30,6 +30,11 @@ class Clock(ABC):
         are refused."""
         return None
 
+    @property
+    def next_event(self) -> Fraction | None:
+        """s until something happens by itself that tasks may wait for; None: nothing does."""
+        return None
+
     @abstractmethod
     def advance(self, seconds: float) -> None:
         """Let time pass; raises InvalidInput unless it is a whole number of physics steps, one at least."""

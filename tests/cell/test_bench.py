@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 from handeye.cell.bench import Bench
-from handeye.cell.bench_axes import BenchAxes, BenchOutputs, switch
-from handeye.core.errors import BadArgument, BadFile, NoSuchName, PhysicsFailed, Refused
+from handeye.cell.bench_axes import BenchAxes, BenchOutputs, sensor, switch
+from handeye.core.errors import BadArgument, BadFile, HandeyeError, NoSuchName, PhysicsFailed, Refused
+from handeye.execution.scheduler import Task, Until, run
 from handeye.ports.axes import AxisSpec, Channel
 
 SCENE = """<mujoco><option timestep=".00083333333333" gravity="0 0 0"><flag sleep="enable"/></option><worldbody>
@@ -58,6 +59,57 @@ def test_an_event_happens_before_the_first_step_at_its_time_and_belongs_to_the_s
         bench.cell().restore(kept)
 
 
+@pytest.mark.parametrize("hook", ["before_period", "before_step", "after_step"])
+def test_an_event_that_a_hook_asks_for_is_not_late_even_while_all_sleeps(bench: Bench, hook: str) -> None:
+    machine(bench)
+    asked: list[float] = []
+    heard: list[float] = []
+    bench.handlers["bell"] = lambda: heard.append(bench.now)
+
+    def ask() -> None:
+        if not asked:
+            asked.append(bench.now)
+            bench.call_at(round(bench.now * 1e6) + 5000, "bell")
+
+    getattr(bench, hook).append(ask)
+    bench.advance(1 / 60)
+    assert heard == pytest.approx([asked[0] + 0.005])
+    bench.advance(1.0)
+    asked.clear()
+    bench.advance(100.0)
+    assert not asked or heard[1] == pytest.approx(asked[0] + 0.005, abs=1e-3)
+
+
+def test_events_that_never_end_or_let_time_pass_are_told(bench: Bench) -> None:
+    bench.handlers["again"] = lambda: bench.call_at(0, "again")
+    bench.handlers["wait"] = lambda: bench.advance(0.01)
+    bench.call_at(5000, "wait")
+    with pytest.raises(BadArgument, match=r"^time passes on the bench already: "):
+        bench.advance(0.01)
+    bench.call_at(0, "again")
+    with pytest.raises(HandeyeError, match=r"^events follow each other without end at 0.005 s; .* is again$"):
+        bench.advance(0.01)
+    with pytest.raises(BadArgument, match=r"^an event cannot happen as late as at 1e\+10 s$"):
+        bench.call_at(10**16, "again")
+
+
+def test_a_task_waits_for_an_event_and_goes_on_when_it_happens(bench: Bench) -> None:
+    ready: list[float] = []
+    seen: list[float] = []
+    bench.handlers["ready"] = lambda: ready.append(bench.now)
+    bench.call_at(5000, "ready")
+
+    def waiting() -> Task[None]:
+        yield Until(met=lambda: bool(ready), name="a part")
+        seen.append(bench.now)
+
+    def resting() -> Task[None]:
+        yield 0.1
+
+    run(bench, [waiting(), resting()])
+    assert (ready, seen) == ([0.005], [0.005])
+
+
 def test_hooks_are_called_around_steps_and_periods_of_a_sixtieth(bench: Bench) -> None:
     called: list[str] = []
     for name in ("before_period", "before_step", "after_step", "after_period"):
@@ -83,6 +135,52 @@ def test_power_that_is_off_lets_go_of_what_does_not_hold_by_itself(bench: Bench)
     axes.power(True)
     bench.advance(1.0)
     assert axes.read().q[0] == pytest.approx(slack, abs=0.05)
+
+
+def test_a_machine_without_power_sleeps_and_one_that_holds_keeps_its_grip() -> None:
+    bench = Bench(mujoco.MjModel.from_xml_string(SCENE.replace('"1 0 0"/>', '"1 0 0" ref=".1"/>')))
+    axes = machine(bench)
+    bench.advance(1.0)
+    assert axes.read().q == pytest.approx([0.1, 0.1])  # it stays where it was switched on
+    bench.data.qfrc_applied[1] = -5.0
+    axes.put(np.array([0.1, 0.11]))
+    bench.advance(1.0)
+    before = axes.read().q
+    axes.power(False)
+    bench.advance(1.0)
+    assert axes.read().q == pytest.approx(before, abs=1e-4)
+    bench.data.qfrc_applied[1] = 0.0
+    made: list[None] = []
+    bench.after_step.append(lambda: made.append(None))
+    bench.advance(10.0)
+    assert len(made) < 2 * 1200
+
+
+@pytest.mark.parametrize("goal", [[0.1], [0.1, 0.1, 0.1], 0.1])
+def test_a_goal_has_a_number_for_each_axis(bench: Bench, goal: object) -> None:
+    with pytest.raises(BadArgument, match=r"^a goal of both is 2 numbers, one for each axis$"):
+        machine(bench).put(np.array(goal))
+
+
+def test_what_a_machine_lacks_in_the_scene_or_senses_wrongly_is_told(bench: Bench) -> None:
+    wide, narrow = Channel(name="a", width=2), Channel(name="a_1")
+    with pytest.raises(BadArgument, match=r"^a machine cannot work in this scene: Invalid name 'c'"):
+        BenchAxes(bench, [axis("c")], period=0.01)
+    with pytest.raises(BadArgument, match=r"^a of axes has 2 values, not 1$"):
+        BenchAxes(bench, [axis("a")], period=0.01, channels={wide: sensor("a")})
+    with pytest.raises(BadArgument, match=r"names of their own; these are a_1, a_2, a_1$"):
+        BenchAxes(bench, [axis("a")], period=0.01, channels={wide: sensor("a"), narrow: sensor("a")})
+
+
+def test_a_channel_that_changes_while_all_sleeps_is_latched(bench: Bench) -> None:
+    lamp = [0.0]
+    outputs = BenchOutputs(bench, "lamps", {"lamp": lambda value: lamp.__setitem__(0, value)})
+    light = Channel(name="light", latched=True)
+    axes = BenchAxes(bench, [axis("a"), axis("b")], period=0.01, channels={light: lambda *_: lamp})
+    for value in (0.0, 1.0, 0.0):
+        outputs.set("lamp", value)
+        bench.advance(1.0)
+    assert axes.read().channels == {"light": 1.0}
 
 
 def test_a_latched_channel_stays_until_it_is_cleared(bench: Bench) -> None:

@@ -8,7 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from handeye.core.errors import HandeyeError
 from handeye.core.units import JIFFY
+from handeye.execution import scheduler
 from handeye.execution.scheduler import Agenda, Deadlock, Task, Until, Wait, microseconds, run
 from handeye.ports.clock import Clock
 
@@ -132,6 +134,38 @@ def test_a_deadlock_names_who_waits_for_what() -> None:
 
     with pytest.raises(Deadlock, match=r"^no task can go on: LEFT waits for flag 2, RIGHT waits for flag 1$"):
         run(Watch(), [waiting(2), waiting(1)], ["LEFT", "RIGHT"])
+
+
+@pytest.mark.parametrize(
+    ("wait", "told"),
+    [
+        (-1.0, "^A cannot wait for less than no time$"),
+        (float("nan"), "^a task cannot wait for nan s$"),
+        (float("inf"), "^a task cannot wait for inf s$"),
+        (0.0, "^no task can go on: A waits for nothing, again and again, and lets no time pass$"),
+        (Until(met=lambda: True, name="it"), "^no task can go on: A waits for nothing, "),
+    ],
+)
+def test_a_wait_without_end_or_sense_is_told_and_ends_all_tasks(
+    monkeypatch: pytest.MonkeyPatch, wait: Wait, told: str
+) -> None:
+    monkeypatch.setattr(scheduler, "_MOST_AT_ONCE", 100)
+    ended: list[bool] = []
+
+    def other() -> Task[None]:
+        try:
+            yield 1.0
+        finally:
+            ended.append(True)
+
+    with pytest.raises(HandeyeError, match=told):
+        run(Watch(), [other(), periodic(wait, 10**9)], ["B", "A"])
+    assert ended == [True]
+
+
+def test_tasks_have_names_of_their_own() -> None:
+    with pytest.raises(HandeyeError, match=r"^tasks have names of their own; these are A, A$"):
+        run(Watch(), [periodic(1.0, 1), periodic(1.0, 1)], ["A", "A"])
 
 
 def test_an_agenda_that_was_kept_goes_on_as_it_would_have() -> None:
