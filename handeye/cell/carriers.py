@@ -13,6 +13,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.looks import LATENT, SEEN
+from handeye.core.errors import BadArgument
 from handeye.core.pose import Array, Pose, inverse, pose
 
 STRAIGHTENING: Final = (
@@ -34,7 +35,10 @@ class Carriers:
         """How many there are."""
         holes = range(self.count)
         self._body = np.array([model.body(f"carrier{k}").id for k in holes])
-        self.base = int(model.body_parentid[self._body[0]])  # the body that has the holes
+        bases = {int(model.body_parentid[body]) for body in self._body}
+        if len(bases) != 1:
+            raise BadArgument(f"screw threads are holes of one body in a scene, not of {len(bases)}")
+        (self.base,) = bases  # the body that has the holes
         self._slide = [model.joint(f"thread_slide{k}").id for k in holes]
         self._turn = [model.joint(f"thread_turn{k}").id for k in holes]
         self.head = np.array([model.geom(f"head{k}").id for k in holes])  # their heads, geoms
@@ -127,4 +131,4 @@ def _helix(model: mujoco.MjModel, slide: int, turn: int) -> int:
     for e in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_JOINT):
         if (model.eq_obj1id[e], model.eq_obj2id[e]) == (slide, turn):
             return int(e)
-    raise AssertionError("the scene binds no slide to its turn")
+    raise BadArgument(f"the scene does not bind {model.joint(slide).name} to {model.joint(turn).name}")

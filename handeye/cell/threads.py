@@ -10,8 +10,8 @@ that is turned back to where its thread began is loose again. Limits of the mode
 
 A scene with screws names them by number from 0: free bodies `screw0` (the origin is the point) with geoms
 `screw_head0`, and sites `park0` out of sight; carriers `carrier0` in the tapped body with site `thread0`, joints
-`thread_slide0` and `thread_turn0`, geoms `head0` and `shank0`; of the driver the geom `bit`, joint and actuator
-`spindle`, and the actuators `drive`, from the site of a thread to the driver's body, and `magnet`.
+`thread_slide0` and `thread_turn0`, geoms `head0` and `shank0`; of the driver, of which there is one, the geom `bit`,
+joint and actuator `spindle`, and the actuators `drive`, from the site of a thread to the driver's body, and `magnet`.
 """
 
 from collections.abc import Set
@@ -24,11 +24,12 @@ import mujoco
 import numpy as np
 
 from handeye.cell.carriers import Carriers
-from handeye.cell.mechanism import Mechanism
+from handeye.cell.mechanism import Mechanism, scene_for
 from handeye.cell.physics_stepper import wake
 from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.state import finite
 from handeye.cell.truth import Truth
+from handeye.core.errors import BadArgument
 from handeye.core.pose import Array, Pose, pose, translated
 from handeye.core.record import Record
 
@@ -104,6 +105,7 @@ class Threads(Mechanism[ThreadsState]):
     kind = ThreadsState
     changes = ("dof_frictionloss", "actuator_gainprm", "actuator_biasprm", *Carriers.changes)
 
+    @scene_for("screw threads")
     def __init__(
         self,
         model: mujoco.MjModel,
@@ -115,6 +117,8 @@ class Threads(Mechanism[ThreadsState]):
         """Empty holes; `lines`: `magnet`, the force of the bit's."""
         self._model, self._data, self._driver, self._lines = model, data, driver, lines
         self._carriers, self._figures = Carriers(model, data), figures
+        if len(figures.phases) != self._carriers.count:
+            raise BadArgument(f"the scene has {self._carriers.count} tapped holes, not {len(figures.phases)}")
         holes = range(self._carriers.count)
         self.holes: tuple[Thread, ...] = tuple(Thread(scarred=k in figures.scarred) for k in holes)
         self._base = self._carriers.base

@@ -49,6 +49,7 @@ class Entry(Record, frozen=True, kw_only=True):
     reasons: dict[Capability, str] = field(default_factory=dict)  # why it cannot, where that helps
     commands: str = ""  # a line each: `NAME = MODULE:FUNCTION: SENTENCE`, as in `handeye/cli/commands.py`
     tasks: dict[str, str] = field(default_factory=dict)  # `module:NAME` of each of its tasks
+    machines: dict[str, str] = field(default_factory=dict)  # `module:NAME` of an `ArmMachine`, by name
     sweeps: dict[str, str] = field(default_factory=dict)  # `module:NAME` of a `Sweep`, by kind
     events: str = ""  # `module:NAME` of a tuple of the kinds of events that it adds to those of all systems
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending

@@ -1,21 +1,23 @@
 """Machines by name: arms with axes, as values that tell what they are and how they are put on a bench.
 
-A machine is added by a module that defines an `ArmMachine`, and a place in `MACHINES`.
+A machine is a value of the type `ArmMachine`, which a system may use as it is. Those that others are to find by name
+stand here, or in `Entry.machines` of a system.
 """
 
-from collections.abc import Mapping
 from typing import Final
 
 from handeye.core.diagnostics import quoted
+from handeye.core.entries import entries, loaded
 from handeye.core.errors import NoSuchName
 from handeye.machines.arm_machine import ArmMachine
-from handeye.machines.purbrick import PURBRICK
 
-MACHINES: Final[Mapping[str, ArmMachine]] = {machine.name: machine for machine in (PURBRICK,)}
+_OWN: Final = {"purbrick": "handeye.machines.purbrick:PURBRICK"}
 
 
 def find_machine(name: str) -> ArmMachine:
     """The machine of a name; raises NoSuchName if there is none."""
-    if name not in MACHINES:
-        raise NoSuchName(f"there is no machine {quoted(name)}; there are {', '.join(MACHINES)}")
-    return MACHINES[name]
+    places = {key: place for entry in entries().values() for key, place in entry.machines.items()} | _OWN
+    if name not in places:
+        raise NoSuchName(f"there is no machine {quoted(name)}; there are {', '.join(places)}")
+    machine: ArmMachine = loaded(places[name])
+    return machine

@@ -40,7 +40,7 @@ class ArmMachine:
     """An arm with axes, a hand, and a finger that feels force."""
 
     name: str
-    scene_file: str  # below the folder of scenes
+    scene_file: str  # below the folder of scenes, or an absolute path
     period: float  # s between two goals that its controller takes
     axes: tuple[AxisSpec, ...]
     hand: AxisSpec

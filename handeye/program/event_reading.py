@@ -23,12 +23,15 @@ def own_kinds(system: str) -> tuple[type[SystemEvent], ...]:
 
 @cache
 def _at(place: str) -> tuple[type[SystemEvent], ...]:
-    """The kinds at `module:NAME`; raises BadArgument if they cannot be loaded, or all systems have one of that name."""
+    """The kinds at `module:NAME`; raises BadArgument if they cannot be loaded, written as JSON and read back."""
     try:
-        own: tuple[type[SystemEvent], ...] = loaded(place)
+        own: tuple[type[SystemEvent], ...] = tuple(loaded(place))
+        taken = _COMMON & {kind.__name__ for kind in own}
+        if not taken:
+            _decoder(own)
+            msgspec.json.schema(_union(own))
     except Exception as error:
         raise BadArgument(f"{place} cannot be loaded: {type(error).__name__}: {error}") from error
-    taken = _COMMON & {kind.__name__ for kind in own}
     if taken:
         raise BadArgument(f"{place} calls a kind of event {min(taken)}, which all systems have")
     return own

@@ -13,6 +13,7 @@ from handeye.cell.bench import Bench
 from handeye.cell.bench_axes import BenchAxes, BenchOutputs
 from handeye.cell.hand import SimulatedScrewdriver
 from handeye.cell.threads import ThreadFigures, Threads
+from handeye.core.errors import BadArgument
 from handeye.core.units import JIFFY
 from handeye.ports.axes import AxisSpec, Channel
 
@@ -103,6 +104,34 @@ def test_the_motor_turns_no_screw_beside_or_over_which_the_bit_stands() -> None:
 @pytest.mark.slow
 def test_a_screw_seats_the_same_to_the_last_bit_every_time() -> None:
     assert drive_screw(tilt=0.02) == drive_screw(tilt=0.02)
+
+
+@pytest.mark.parametrize(
+    ("was", "instead", "told"),
+    [
+        (
+            'geom name="bit"',
+            'geom name="tip"',
+            "^screw threads cannot work in this scene: Invalid name 'bit'",
+        ),
+        ("carrier0", "carrying", "^screw threads are holes of one body in a scene, not of 0$"),
+        (
+            'joint2="thread_turn0"',
+            'joint2="spindle"',
+            "^the scene does not bind thread_slide0 to thread_turn0$",
+        ),
+    ],
+)
+def test_what_threads_lack_in_a_scene_is_told(was: str, instead: str, told: str) -> None:
+    model = mujoco.MjModel.from_xml_string(scene(0.0, 0.0).replace(was, instead))
+    with pytest.raises(BadArgument, match=told):
+        Threads(model, mujoco.MjData(model), ThreadBench().driver, ThreadFigures(phases=(1.0,)))
+
+
+def test_every_hole_has_a_phase() -> None:
+    bench = ThreadBench()
+    with pytest.raises(BadArgument, match=r"^the scene has 1 tapped holes, not 2$"):
+        Threads(bench.model, bench.data, bench.driver, ThreadFigures(phases=(1.0, 2.0)))
 
 
 class ScrewingMachine:

@@ -7,6 +7,7 @@ import pytest
 
 from handeye.core import entries
 from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
 from handeye.core.units import MILLIMETRES, Measures
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
@@ -45,7 +46,14 @@ class Saved(SystemEvent, frozen=True, kw_only=True):
     """A kind of a name that all systems have."""
 
 
-WRONG = (Saved,)
+class Sighting(SystemEvent, frozen=True, kw_only=True):
+    """A kind with a field that JSON does not have."""
+
+    picture: Array
+
+
+WRONG, NONE, ARRAYS = (Saved,), (3,), (Sighting,)
+TWICE = (LimitCrossed, type("LimitCrossed", (LimitCrossed,), {}))
 
 
 def entry(kinds: str) -> entries.Entry:
@@ -111,11 +119,17 @@ def test_no_system_can_give_another_meaning_to_a_common_kind(monkeypatch: pytest
         own_kinds("machine")
 
 
-def test_kinds_that_cannot_be_loaded_are_told_in_a_sentence(
-    written: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("kinds", "error"),
+    [
+        ("MISSING", "AttributeError"), ("NONE", "AttributeError"), ("ARRAYS", "TypeError"), ("TWICE", "TypeError"),
+    ],
+)  # fmt: skip
+def test_kinds_that_cannot_be_loaded_written_or_read_are_told_in_a_sentence(
+    written: Path, monkeypatch: pytest.MonkeyPatch, kinds: str, error: str
 ) -> None:
-    monkeypatch.setattr(entries, "_registered", {"machine": entry("MISSING")})
-    with pytest.raises(InvalidInput, match=r"MISSING cannot be loaded: AttributeError: "):
+    monkeypatch.setattr(entries, "_registered", {"machine": entry(kinds)})
+    with pytest.raises(InvalidInput, match=rf"{kinds} cannot be loaded: {error}: "):
         read_events(written)
 
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from handeye.cell.bench import Bench
+from handeye.core.entries import Entry, _registered, register
 from handeye.core.errors import InvalidInput
 from handeye.machines import find_machine
 from handeye.machines.purbrick import PURBRICK
@@ -17,6 +18,17 @@ from handeye.systems.trig.language.place import Place
 @pytest.fixture
 def bench() -> Bench:
     return Bench(PURBRICK.scene().compile())
+
+
+def test_a_system_offers_a_machine_by_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    place = "handeye.machines.purbrick:PURBRICK"
+    with pytest.raises(InvalidInput, match=r"^there is no machine `crane`; there are "):
+        find_machine("crane")
+    monkeypatch.setitem(_registered, "yard", None)
+    register(
+        Entry(name="yard", title="the yard", help="Lifts.", system="yard:YARD", machines={"crane": place})
+    )
+    assert find_machine("crane") is find_machine("purbrick") is PURBRICK
 
 
 @pytest.mark.parametrize("spec", PURBRICK.axes, ids=lambda spec: spec.name)
