@@ -64,7 +64,8 @@ class ScriptError(InvalidInput):
     1 position `NOWHERE` is neither taught nor defined by `TRANS`
     """
 
-    diagnostics: tuple[Diagnostic, ...]  # errors and warnings, in the order of the text
+    diagnostics: tuple[Diagnostic, ...]
+    """Errors and warnings, in the order of the text."""
 
     def __init__(self, found: Iterable[Diagnostic]) -> None:
         self.diagnostics = tuple(found)
