@@ -160,10 +160,6 @@ def _search(operands: Operands) -> Search:
     return Search(step=operands.number("step"), limit=width**2 if along is None else width, along=along)
 
 
-def _place(_: Operands, how: _Modifiers) -> Change:
-    return Change(displacement=(0.0, 0.0, -PLACE_DEPTH), guards=(g.Force(force=(0.0, 0.0, -PLACE_FORCE)),))
-
-
 _MODIFIERS: Final[dict[str, Callable[[_Modifiers, Operands], _Modifiers]]] = {
     "FORCE": lambda how, o: replace(how, press=o.vector3_or("force"), moment=o.vector3_or("moment")),
     "FREE": lambda how, o: replace(how, free=o.vector3("[x y z]")),
@@ -180,7 +176,9 @@ _MOTIONS: Final[dict[str, Callable[[Operands, _Modifiers], AnyOperation]]] = {
     "PARK": lambda _, how: Move(goal="PARK", guards=how.guards, via=how.via),
     "TURN": lambda o, how: Turn(centre=o.name("position"), angle=o.number("angle"), guards=how.guards),
     "CHANGE": _change,
-    "PLACE": _place,
+    "PLACE": lambda _, __: Change(
+        displacement=(0.0, 0.0, -PLACE_DEPTH), guards=(g.Force(force=(0.0, 0.0, -PLACE_FORCE)),)
+    ),
 }
 _STEPS: Final[dict[str, Callable[[Operands], AnyOperation]]] = {
     "OPEN": lambda o: Open(gap=o.number("gap")),

@@ -35,9 +35,8 @@ def origin(definition: Instruction, operand: Operand) -> str:
 def part(definition: Instruction) -> str:
     """The role of an instruction, and its origin."""
     said = f"A {definition.role.value}, {'ours' if definition.ours else 'of the period'}."
-    return (
-        f"{said} Modifies {', '.join(f'`{word}`' for word in definition.fits)}." if definition.fits else said
-    )
+    modified = ", ".join(f"`{word}`" for word in definition.fits)
+    return f"{said} Modifies {modified}." if modified else said
 
 
 def _units(operand: Operand) -> str:

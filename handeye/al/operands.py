@@ -151,7 +151,7 @@ class _Reader(msgspec.Struct, gc=False):
             return self.string(token)
         for word in rest:
             if is_unterminated(word):
-                raise self.unterminated_string(word)
+                raise _unterminated_string(word)
         self.at = len(self.tokens)
         return Text(token.start, rest[-1].end, free_text(rest))
 
@@ -190,7 +190,7 @@ class _Reader(msgspec.Struct, gc=False):
 
     def string(self, token: Token) -> Text:
         if is_unterminated(token):
-            raise self.unterminated_string(token)
+            raise _unterminated_string(token)
         self.at += 1
         return Text(token.start, token.end, token.text[1:-1])
 
@@ -286,7 +286,7 @@ class _Reader(msgspec.Struct, gc=False):
         if first.kind in (JUNK, MARK) and first.text != "[":
             raise _unexpected(first)
         if is_unterminated(last):
-            raise self.unterminated_string(last)
+            raise _unterminated_string(last)
         span = Span(start=first.start, end=last.end)
         count = len(self.definition.operands)
         message = f"`{self.definition.op}` takes no {'more ' if count else ''}operands"
@@ -300,18 +300,17 @@ class _Reader(msgspec.Struct, gc=False):
 
     def is_too_early(self, token: Token) -> bool:
         """True if a keyword was read as a name one operand too early."""
-        words = {
-            o.word for o, v in zip(self.definition.operands, self.values, strict=True) if o.word and v is None
-        }
-        return token.kind is NAME and token.text.upper() in words - {NIL}
-
-    def unterminated_string(self, token: Token) -> Mistake:
-        start = Span(start=token.start, end=token.start + 1)
-        return Mistake("unterminated-string", "the string has no closing quote", start, "it begins here")
+        read = zip(self.definition.operands, self.values, strict=True)
+        return token.kind is NAME and token.text.upper() in {o.word for o, v in read if v is None} - {"", NIL}
 
     def usage(self) -> str:
         counted = f" or `{self.definition.op} 2 X Y`" if self.definition.axes else ""
         return f"usage: `{self.definition.usage}`{counted}"
+
+
+def _unterminated_string(token: Token) -> Mistake:
+    start = Span(start=token.start, end=token.start + 1)
+    return Mistake("unterminated-string", "the string has no closing quote", start, "it begins here")
 
 
 def _begins_a_line(instruction: str) -> str:

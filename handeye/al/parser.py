@@ -100,7 +100,7 @@ class _Parser:
         assert isinstance(file, Text)
         if self.opened is not None:
             message, help = "a macro cannot require a file", "require it before the macro"
-            self.report("require-in-macro", message, word.span, help=help)
+            self.tell(problem("require-in-macro", message, word.span, help=help))
             return
         found = None if self.requirements is None else self.requirements.find(file)
         if isinstance(found, Diagnostic):
@@ -113,7 +113,7 @@ class _Parser:
     def too_long(self, line: Line) -> None:
         span = Span(start=line.start + LONGEST_LINE, end=line.end)
         message = f"the line has {line.end - line.start} characters"
-        self.report("line-too-long", message, span, help=f"a line has at most {LONGEST_LINE}")
+        self.tell(problem("line-too-long", message, span, help=f"a line has at most {LONGEST_LINE}"))
         broken = Statement(span.start, span.end, (), None, line.number, broken=True)
         (self.statements if self.opened is None else self.body).append(broken)
 
@@ -136,16 +136,16 @@ class _Parser:
         if len(tokens) < 2 or tokens[1].kind is not NAME:
             at = tokens[1].span if len(tokens) > 1 else Span(start=tokens[0].end, end=tokens[0].end)
             message = "`DEFINE` needs the name of the macro"
-            self.report("missing-operand", message, at, "the name is expected here")
+            self.tell(problem("missing-operand", message, at, text="the name is expected here"))
             self.opened = Name(tokens[0].start, tokens[0].end, "")
             return
         name = Name(tokens[1].start, tokens[1].end, tokens[1].text.upper())
         if name.text in INSTRUCTIONS or name.text == "DEFINE":
-            self.report("macro-name-taken", f"{quoted(name.text)} is an instruction", name.span)
+            self.tell(problem("macro-name-taken", f"{quoted(name.text)} is an instruction", name.span))
         elif name.text in self.macros:
-            first = (Label(span=self.macros[name.text].name.span, text="first defined here"),)
+            first = Label(span=self.macros[name.text].name.span, text="first defined here")
             message = f"macro {quoted(name.text)} is defined twice"
-            self.report("macro-twice", message, name.span, secondary=first)
+            self.tell(problem("macro-twice", message, name.span, first))
         self.opened = name
         try:
             for token in separated(tokens[1:])[1:]:
@@ -168,14 +168,14 @@ class _Parser:
         first = self.parameters.setdefault(name.text, name)
         if first is not name:
             message = f"parameter {quoted(name.text)} is named twice"
-            there = (Label(span=first.span, text="first here"),)
-            self.report("parameter-twice", message, name.span, secondary=there)
+            there = Label(span=first.span, text="first here")
+            self.tell(problem("parameter-twice", message, name.span, there))
 
     def unterminated(self, why: str) -> None:
         if self.opened is None or not self.opened.text:
             return
         message, help = f"macro {quoted(self.opened.text)} has no end", "end a macro with a blank line"
-        self.report("unterminated-macro", message, self.opened.span, why, help=help)
+        self.tell(problem("unterminated-macro", message, self.opened.span, text=why, help=help))
 
     def statement(
         self, line: Line, labels: tuple[Name, ...], op: str, tokens: tuple[Token, ...]
@@ -219,8 +219,8 @@ class _Parser:
         there = self.parameters.get(label.text)
         if there is not None:
             message = f"label {quoted(label.text)} has the name of a parameter"
-            secondary = (Label(span=there.span, text="the parameter"),)
-            self.report("parameter-name-taken", message, label.span, secondary=secondary)
+            parameter = Label(span=there.span, text="the parameter")
+            self.tell(problem("parameter-name-taken", message, label.span, parameter))
 
     def unknown(self, word: Name, line: Line, rest: tuple[Token, ...]) -> None:
         """Report an unknown word, unless it is a macro with a wrong head."""
@@ -231,12 +231,12 @@ class _Parser:
             if rest and rest[0].text.upper() in INSTRUCTIONS:
                 alone += f"; write the instruction alone: {quoted(free_text(rest))}"
             message = f"`{word.text}` is a console command, not an instruction of a script"
-            self.report("typed-word", message, word.span, help=alone)
+            self.tell(problem("typed-word", message, word.span, help=alone))
             return
         written = line.split()[1][0].text
         message = f"there is no instruction {quoted(written)}"
         help, meant = self.meant(written, line, rest)
-        self.report("unknown-instruction", message, word.span, help=help, meant=meant)
+        self.tell(problem("unknown-instruction", message, word.span, help=help, meant=meant))
 
     def meant(self, written: str, line: Line, rest: tuple[Token, ...]) -> tuple[str | None, Meant | None]:
         """Help for an unknown first word, and what it may mean."""
@@ -260,20 +260,7 @@ class _Parser:
     def unreadable(self, token: Token) -> None:
         message = f"a line starts with a label or an instruction, not with {quoted(token.text)}"
         code = "unexpected-character" if token.kind in (JUNK, MARK) else "unknown-instruction"
-        self.report(code, message, token.span, help=strange(token.text))
-
-    def report(
-        self,
-        code: str,
-        message: str,
-        span: Span,
-        text: str = "",
-        *,
-        help: str | None = None,
-        secondary: tuple[Label, ...] = (),
-        meant: Meant | None = None,
-    ) -> None:
-        self.tell(problem(code, message, span, *secondary, text=text, help=help, meant=meant))
+        self.tell(problem(code, message, token.span, help=strange(token.text)))
 
     def tell(self, diagnostic: Diagnostic) -> None:
         self.errors += diagnostic.severity == "error"

@@ -2,7 +2,6 @@
 
 import asyncio
 from collections.abc import Callable
-from functools import wraps
 from typing import Any, Final
 
 from lsprotocol import types as lsp
@@ -123,7 +122,6 @@ def make_server() -> ArmServer:
 def _of_scripts(answer: Callable[[EditedScript, Any], Any]) -> Callable[..., Any]:
     """An answer about scripts for planned programs; of a text in a system's own language nothing is known here."""
 
-    @wraps(answer)
     def answered(server: ArmServer, params: Any) -> Any:
         if own_language(params.text_document.uri) is not None:
             return None

@@ -53,8 +53,7 @@ def planned(
 
 
 def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
-    """Find what is wrong with a line of a text that is still being typed, or with what it requires, as far as the next
-    line cannot put it right."""
+    """What is wrong with a line of a text, or with what it requires, that no further line can put right."""
     found = []
     for diagnostic in checked.diagnostics:
         text, offset = checked.source.find(diagnostic.primary.span.start)

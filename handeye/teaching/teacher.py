@@ -125,8 +125,7 @@ class Teacher:
     # -- naming ---------------------------------------------------------------------------------------
 
     def name(self, name: str, part: str | None, *, again: bool = False) -> Position:
-        """Name where the hand is, in table coordinates or on a part. Raises InvalidInput if the name is taken, there is
-        no such part, or the file cannot be edited so."""
+        """Name where the hand is, on the table or a part; raises InvalidInput if name, part or file do not allow it."""
         taught = self.workplace.taught
         if part is not None and part not in taught.parts:
             known = ", ".join(taught.parts) or "none"

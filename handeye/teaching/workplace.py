@@ -77,8 +77,7 @@ class Workplace:
         halt: Callable[[], bool],
         observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> "Workplace":
-        """The cell as a run has left it, with what that run knew; `taught` instead of what its plan was made with.
-        Raises InvalidInput if the checkpoint does not fit this scene."""
+        """The cell as a run has left it, with what it knew; `taught`: instead of what its plan was made with."""
         program = plan_of(checkpoint.setup).program
         made = cls.__new__(cls)
         made.taught = taught or Taught(

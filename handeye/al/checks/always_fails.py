@@ -17,7 +17,7 @@ _TIME: Final = re.compile(r"[\d.]+ *(?:m?s|secs?|seconds?)?", re.ASCII | re.IGNO
 TOLERANCE_M: Final = 1e-6
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class AlwaysFails:
     """A step that never does its job; `cause` is the step that makes it so."""
 
@@ -45,12 +45,9 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
             continue
         (x, y, z), (f, g, h) = change.displacement, guard.force
         if x * f + y * g + z * h < 0:
-            yield AlwaysFails(
-                code="stop-away-from-motion",
-                step=number,
-                message="the hand moves away from what its `STOP` should press on",
-                help="the vector of `STOP` is the force of the hand: point it where the hand goes",
-            )
+            message = "the hand moves away from what its `STOP` should press on"
+            help = "the vector of `STOP` is the force of the hand: point it where the hand goes"
+            yield AlwaysFails("stop-away-from-motion", number, message, help)
 
 
 def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
@@ -63,14 +60,12 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
         before = graph.last(number, Open, Close, Center)
         opened = _gaps(graph, before)
         if before and len(opened) == len(before) and max(opened) < grasp.minimum - TOLERANCE_M:
-            yield AlwaysFails(
-                code="opened-too-little",
-                step=number,
-                message=f"the grasp asks for at least {grasp.minimum / INCH:g} in, and the hand is open by "
-                f"{max(opened) / INCH:g} in",
-                help="it would always raise error 2",
-                cause=max(before),
+            message = (
+                f"the grasp asks for at least {grasp.minimum / INCH:g} in, and the hand is open by "
+                f"{max(opened) / INCH:g} in"
             )
+            help = "it would always raise error 2"
+            yield AlwaysFails("opened-too-little", number, message, help, max(before))
 
 
 def _gaps(graph: Graph, numbers: Iterable[int]) -> list[float]:
@@ -85,14 +80,12 @@ def _travels(graph: Graph) -> Iterator[AlwaysFails]:
         changes = (graph.at(n, Change) for n in before)
         lengths = [math.hypot(*change.displacement) for change in changes if change is not None]
         if lengths and max(lengths) < travel.minimum - TOLERANCE_M:
-            yield AlwaysFails(
-                code="travel-too-long",
-                step=number,
-                message=f"`TRAVEL` asks for at least {travel.minimum / INCH:g} in, and the motion goes at most "
-                f"{max(lengths) / INCH:g} in",
-                help="it would always raise error 8",
-                cause=max(before),
+            message = (
+                f"`TRAVEL` asks for at least {travel.minimum / INCH:g} in, and the motion goes at most "
+                f"{max(lengths) / INCH:g} in"
             )
+            help = "it would always raise error 8"
+            yield AlwaysFails("travel-too-long", number, message, help, max(before))
 
 
 def _torques(graph: Graph) -> Iterator[AlwaysFails]:
@@ -104,13 +97,9 @@ def _torques(graph: Graph) -> Iterator[AlwaysFails]:
         started = graph.after(running) if started is None else started
         last = graph.last(number, Tool)
         if number not in started or (last and running.isdisjoint(last)):
-            yield AlwaysFails(
-                code="torque-without-tool",
-                step=number,
-                message="a torque should end this motion, but the screwdriver does not turn",
-                help="`TOOL` runs the screwdriver; without it this always raises error 24",
-                cause=max(last, default=None),
-            )
+            message = "a torque should end this motion, but the screwdriver does not turn"
+            help = "`TOOL` runs the screwdriver; without it this always raises error 24"
+            yield AlwaysFails("torque-without-tool", number, message, help, max(last, default=None))
 
 
 def _touches(graph: Graph) -> Iterator[AlwaysFails]:
@@ -118,13 +107,11 @@ def _touches(graph: Graph) -> Iterator[AlwaysFails]:
     for number in _guarded(graph, GuardKind.TOUCH):
         last = graph.last(number, Open, Close, Center)
         if last and not any(graph.at(n, Open) for n in last):
-            yield AlwaysFails(
-                code="touch-while-closed",
-                step=number,
-                message="a touch should end this motion, but the fingers are closed: what they hold ends it at once",
-                help="`STOP` feels what the held thing meets; `TOUCH` needs open fingers",
-                cause=max(last),
+            message = (
+                "a touch should end this motion, but the fingers are closed: what they hold ends it at once"
             )
+            help = "`STOP` feels what the held thing meets; `TOUCH` needs open fingers"
+            yield AlwaysFails("touch-while-closed", number, message, help, max(last))
 
 
 def _guarded(graph: Graph, kind: GuardKind) -> Iterator[int]:
@@ -138,12 +125,9 @@ def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
     """WAITs that were meant as a delay."""
     for number, wait in graph.each(Wait):
         if _TIME.fullmatch(wait.message):
-            yield AlwaysFails(
-                code="wait-for-time",
-                step=number,
-                message="`WAIT` stops the run and calls the operator: it does not wait for a time",
-                help="leave it out: the arm is at rest when a motion ends",
-            )
+            message = "`WAIT` stops the run and calls the operator: it does not wait for a time"
+            help = "leave it out: the arm is at rest when a motion ends"
+            yield AlwaysFails("wait-for-time", number, message, help)
 
 
 def _undoes(graph: Graph) -> Iterator[AlwaysFails]:
@@ -157,9 +141,6 @@ def _undoes(graph: Graph) -> Iterator[AlwaysFails]:
             seen.add(here)
             here = steps[here].next
         if here == number:
-            yield AlwaysFails(
-                code="always-undone",
-                step=number,
-                message="the stage is undone whatever happens in it",
-                help="test an error before it, with `SKIPE` or `SKIPN`",
-            )
+            message = "the stage is undone whatever happens in it"
+            help = "test an error before it, with `SKIPE` or `SKIPN`"
+            yield AlwaysFails("always-undone", number, message, help)

@@ -158,13 +158,12 @@ class _Flow:
             for target in self.graph.onward[number]
             if target is not None and target <= number
         )
-        code, message = "endless-loop", "this loop has no exit"
-        notes: tuple[str, ...] = ("only an untested error ends it",)
+        code, message, note = "endless-loop", "this loop has no exit", "only an untested error ends it"
         if not any(self.graph.steps[n].operation.takes_time for n in loop):
             code, message = "idle-loop", "this loop has no exit, and nothing moves in it"
-            notes = ("the run would stop here and call the operator",)
+            note = "the run would stop here and call the operator"
         head = () if number == target else (Label(span=self.word(target).span, text="the loop begins here"),)
-        return self.problem(code, number, message, *head, notes=notes)
+        return problem(code, message, self.word(number).span, *head, notes=(note,))
 
     def tests(self) -> Iterator[Finding]:
         """Tests of errors that cannot be pending where they stand."""
@@ -275,15 +274,9 @@ class _Flow:
         return word
 
     def problem(
-        self,
-        code: str,
-        number: int,
-        message: str,
-        *secondary: Label,
-        help: str | None = None,
-        notes: tuple[str, ...] = (),
+        self, code: str, number: int, message: str, *secondary: Label, help: str | None = None
     ) -> Diagnostic:
-        return problem(code, message, self.word(number).span, *secondary, notes=notes, help=help)
+        return problem(code, message, self.word(number).span, *secondary, help=help)
 
 
 StaleRound = tuple[int, int | None]  # the step that jumps back, and what restarts its search or count

@@ -70,14 +70,12 @@ def _swapped(statements: Sequence[Statement], known: dict[Refers, set[str]]) -> 
                 continue
             assert statement.word is not None
             op = statement.word.text
-            yield problem(
-                "wrong-operand",
+            message = (
                 f"{quoted(a.text)} is a {second.value} and {quoted(b.text)} a {first.value}: "
-                f"`{op}` takes them the other way round",
-                across(a, b),
-                *uses(a),
-                help=f"usage: `{INSTRUCTIONS[op].usage}`",
+                f"`{op}` takes them the other way round"
             )
+            help = f"usage: `{INSTRUCTIONS[op].usage}`"
+            yield problem("wrong-operand", message, across(a, b), *uses(a), help=help)
 
 
 def _known(declared: dict[str, list[Name]], taught: Taught) -> dict[Refers, set[str]]:

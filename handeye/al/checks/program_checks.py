@@ -57,7 +57,12 @@ def _unused(whole: CompiledScript, found: Sequence[Diagnostic]) -> list[Diagnost
         *unused_parameters(whole.script),
         *check_unused(whole.script, whole.statements, whole.words, whole.used, whole.source),
     ]
-    return [d for d in unused if _line(whole.source, d) not in lost and _is_ours(whole.source, d)]
+    # Other scripts may use the definitions of a required file; its labels are its own.
+    return [
+        d
+        for d in unused
+        if (line := _line(whole.source, d)) not in lost and (d.code == "unused-label" or not line[0])
+    ]
 
 
 def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:
@@ -66,18 +71,11 @@ def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:
     return text.key, text.position(offset)[0]
 
 
-def _is_ours(source: Source, unused: Diagnostic) -> bool:
-    """False for an unused definition of a required file, which other scripts may use; its labels are its own."""
-    return unused.code == "unused-label" or not _line(source, unused)[0]
-
-
 _POSITION_KINDS: Final = (Refers.POSITION, Refers.TARGET)
 
 
 def check_here(placed: Sequence[Placed], known: Container[str]) -> Iterator[Diagnostic]:
-    """An error for each use that comes before the `HERE` it needs, in text order; `known` are positions taught or
-    written.
-    """
+    """An error for each use before the `HERE` it needs, in text order; `known`: positions taught or written."""
     defined: dict[str, int] = {}
     for number, item in enumerate(placed):
         word, operands = item.statement.word, item.statement.operands
@@ -192,12 +190,9 @@ def _not_described(
     if lacking:
         others = [quoted(other) for other, part in parts.items() if all(has(part) for _, has in needs)]
         known = f"; taught in full: {', '.join(others)}" if others else ""
-        yield problem(
-            "part-not-described",
-            f"`{op}` cannot find {quoted(name.text)} without its {' and '.join(lacking)}",
-            name.span,
-            help=f"add it under `[parts.{name.text}]` in the taught file{known}",
-        )
+        message = f"`{op}` cannot find {quoted(name.text)} without its {' and '.join(lacking)}"
+        help = f"add it under `[parts.{name.text}]` in the taught file{known}"
+        yield problem("part-not-described", message, name.span, help=help)
 
 
 def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
@@ -215,12 +210,9 @@ def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
         if not taken or any(held for _, held in taken):
             continue
         if any(held for _, held in looks.get(before.text, [])):
-            yield problem(
-                "compared-without-hold",
-                f"{quoted(before.text)} is taken with `HOLD`, after {quoted(after.text)}",
-                across(before, after),
-                help="the earlier picture comes first",
-            )
+            message = f"{quoted(before.text)} is taken with `HOLD`, after {quoted(after.text)}"
+            help = "the earlier picture comes first"
+            yield problem("compared-without-hold", message, across(before, after), help=help)
         else:
             yield problem(
                 "compared-without-hold",
@@ -238,9 +230,8 @@ def check_parameters(script: Script) -> Iterator[Diagnostic]:
         for name, span in (found for s in macro.body if known for found in braced_in(s)):
             if name not in known:
                 meant = alternatives(name, known)
-                message = (
-                    f"{quoted(macro.name.text)} has no parameter {quoted(name)}: the text keeps its braces"
-                )
+                lacks = f"{quoted(macro.name.text)} has no parameter {quoted(name)}"
+                message = f"{lacks}: the text keeps its braces"
                 yield problem("unknown-parameter", message, span, help=names_sentence(meant))
 
 

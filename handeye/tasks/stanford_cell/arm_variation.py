@@ -1,6 +1,7 @@
 """Variation of the Stanford arm and its hand: how they differ from what is believed of them; joints count from 1."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Final
 
 import numpy as np
@@ -60,111 +61,65 @@ def numbered(kind: type[Normal | Uniform | Noise | Fixed | Step], *spreads: floa
 
 
 def arm() -> Iterator[Quantity]:
-    yield from group(
-        "arm.offset", numbered(Normal, 0.060, 0.055, 0.027, 0.13, 0.13, 0.27), JOINT_UNITS, _READING
-    )
-    yield from group(
-        "arm.scale", numbered(Normal, 0.11, 0.22, 0.11, 0.11, 0.22, 0.22), "%",
-        f"Scale of the reading, about the mid-work posture. {_READING}",
-    )  # fmt: skip
-    yield from group(
-        "arm.wave", numbered(Fixed, 0.027, 0.027, 0.011, 0.044, 0.044, 0.09), JOINT_UNITS,
-        f"Amplitude of the waviness of the reading. {_READING} The waviness decides how far a saved correction "
-        "carries; its amplitude is a placeholder.",
-    )  # fmt: skip
     phases: dict[str, Distribution] = {str(n): Phase() for n in range(1, 7)}
-    yield from group("arm.wave_phase", phases, "deg", "Where the waviness of the reading begins.")
-    yield from _sensors()
-    yield from _drives()
-    yield from _links()
-
-
-def _sensors() -> Iterator[Quantity]:
     size = [UNITS[unit].size for unit in JOINT_UNITS]
-    yield from group(
-        "arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
-        "Reading-to-reading noise of the potentiometers, before the converter. Placeholder: far inside a step.",
-    )  # fmt: skip
-    yield from group(
-        "arm.pot_step", numbered(Step, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
-        f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of 1974.",
-    )  # fmt: skip
-    yield from group(
-        "arm.tachometer_noise", numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5), _RATES,
-        "Noise of the tachometers, before the converter. Placeholder: far inside a step.",
-    )  # fmt: skip
-    yield from group(
-        "arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
-        f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both directions. "
-        "Data sheet of 1974; that it reaches just the greatest speed is inferred.",
-    )  # fmt: skip
-
-
-def _drives() -> Iterator[Quantity]:
-    yield from group(
-        "arm.torque_step", numbered(Step, *torque_step(STANFORD).tolist()), _TORQUES,
-        f"One step of the converter that a drive gets its torque from: {TORQUE_BITS} bits over its torques in both "
-        'directions. Data sheet of 1974: "8 bits or more".',
-    )  # fmt: skip
-    yield from group(
-        "arm.drive_gain", numbered(Normal, *[1.0] * 6), "%",
-        "True torque of a drive over the torque put out. Placeholder: a linear current amplifier with 1 % resistors.",
-        least=-90.0,
-    )  # fmt: skip
-    friction = STANFORD.compliance.friction
-    yield from group(
-        "arm.friction", numbered(Uniform, *(mean / 4 for mean in friction)), _TORQUES,
-        "Coulomb friction of the joints, varied by a quarter. Switched off, it is the mean; set to 0, there is none. "
-        "Inferred from the paper, by which the released arm stays where it is: joints 2 and 3 bear half a step of "
-        "their torques and what is left of gravity when the arm has weighed its links (at the parked posture, in the "
-        "worst of 200 worlds, .25 N m and .7 N); the wrist bears half a step. Of joint 1: placeholder.",
-        nominal=friction, least=0.0,
-    )  # fmt: skip
-    yield from group(
-        "arm.damping", numbered(Uniform, *[30.0] * 6), "%",
-        "True viscous friction of a joint over the controller's. Placeholder.", least=-90.0,
-    )  # fmt: skip
-    yield from group(
-        "arm.armature", numbered(Uniform, *[5.0] * 6), "%",
-        "True inertia of a drive over the controller's. Placeholder.", least=-90.0,
-    )  # fmt: skip
-
-
-def _links() -> Iterator[Quantity]:
-    yield from group(
-        "arm.link_mass", numbered(Normal, *[3.0] * 6), "%",
-        "True mass of each link over the controller's. Placeholder.", least=-90.0,
-    )  # fmt: skip
-    yield from group(
-        "arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
-        "True distance of each link's mass centre from its joint over the controller's. Placeholder.", least=-90.0,
-    )  # fmt: skip
-    yield from group(
-        "arm", {"hand_length": Uniform(0.02)}, "in",
-        "By how much the hand is longer than the controller believes. Placeholder.",
+    return chain(
+        group("arm.offset", numbered(Normal, 0.060, 0.055, 0.027, 0.13, 0.13, 0.27), JOINT_UNITS, _READING),
+        group("arm.scale", numbered(Normal, 0.11, 0.22, 0.11, 0.11, 0.22, 0.22), "%",
+            f"Scale of the reading, about the mid-work posture. {_READING}"),
+        group("arm.wave", numbered(Fixed, 0.027, 0.027, 0.011, 0.044, 0.044, 0.09), JOINT_UNITS,
+            f"Amplitude of the waviness of the reading. {_READING} The waviness decides how far a saved correction "
+            "carries; its amplitude is a placeholder."),
+        group("arm.wave_phase", phases, "deg", "Where the waviness of the reading begins."),
+        group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
+            "Reading-to-reading noise of the potentiometers, before the converter. Placeholder: far inside a step."),
+        group("arm.pot_step", numbered(Step, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
+            f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of "
+            "1974."),
+        group("arm.tachometer_noise", numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5), _RATES,
+            "Noise of the tachometers, before the converter. Placeholder: far inside a step."),
+        group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
+            f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both directions. "
+            "Data sheet of 1974; that it reaches just the greatest speed is inferred."),
+        group("arm.torque_step", numbered(Step, *torque_step(STANFORD).tolist()), _TORQUES,
+            f"One step of the converter that a drive gets its torque from: {TORQUE_BITS} bits over its torques in both "
+            'directions. Data sheet of 1974: "8 bits or more".'),
+        group("arm.drive_gain", numbered(Normal, *[1.0] * 6), "%",
+            "True torque of a drive over the torque put out. Placeholder: a linear current amplifier with 1 % "
+            "resistors.", least=-90.0),
+        group("arm.friction", numbered(Uniform, *(mean / 4 for mean in STANFORD.compliance.friction)), _TORQUES,
+            "Coulomb friction of the joints, varied by a quarter. Switched off, it is the mean; set to 0, there is "
+            "none. Inferred from the paper, by which the released arm stays where it is: joints 2 and 3 bear half a "
+            "step of their torques and what is left of gravity when the arm has weighed its links (at the parked "
+            "posture, in the worst of 200 worlds, .25 N m and .7 N); the wrist bears half a step. Of joint 1: "
+            "placeholder.", nominal=STANFORD.compliance.friction, least=0.0),
+        group("arm.damping", numbered(Uniform, *[30.0] * 6), "%",
+            "True viscous friction of a joint over the controller's. Placeholder.", least=-90.0),
+        group("arm.armature", numbered(Uniform, *[5.0] * 6), "%",
+            "True inertia of a drive over the controller's. Placeholder.", least=-90.0),
+        group("arm.link_mass", numbered(Normal, *[3.0] * 6), "%",
+            "True mass of each link over the controller's. Placeholder.", least=-90.0),
+        group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
+            "True distance of each link's mass centre from its joint over the controller's. Placeholder.", least=-90.0),
+        group("arm", {"hand_length": Uniform(0.02)}, "in",
+            "By how much the hand is longer than the controller believes. Placeholder."),
     )  # fmt: skip
 
 
 def hand() -> Iterator[Quantity]:
-    yield from group("hand", {"gap_offset": Normal(0.01)}, "in", "Error of the gap as read. Placeholder.")
-    yield from group("hand", {"gap_scale": Normal(0.5)}, "%", "Error of the gap as read. Placeholder.")
-    yield from group(
-        "hand", {"gap_noise": Noise(0.0003)}, "in",
-        "Noise of the gap as read, before the converter. Placeholder: a third of a step.",
-    )  # fmt: skip
-    yield from group(
-        "hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
-        f"One step of the converter of the gap: {SENSE_BITS} bits over the opening. Data sheet of 1974.",
-    )  # fmt: skip
-    yield from group(
-        "hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",
-        'Force at which a finger\'s switch fires. Reference 6.3: "a few oz; simulate about 2 oz".',
-        nominal=2.0, least=0.0,
-    )  # fmt: skip
-    yield from group(
-        "hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
-        "Where the lamp is on the hand, against the drawing that the program calibrates its camera with, in the hand's "
-        "frame. Placeholder: screwed on by hand.",
+    return chain(
+        group("hand", {"gap_offset": Normal(0.01)}, "in", "Error of the gap as read. Placeholder."),
+        group("hand", {"gap_scale": Normal(0.5)}, "%", "Error of the gap as read. Placeholder."),
+        group("hand", {"gap_noise": Noise(0.0003)}, "in",
+            "Noise of the gap as read, before the converter. Placeholder: a third of a step."),
+        group("hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
+            f"One step of the converter of the gap: {SENSE_BITS} bits over the opening. Data sheet of 1974."),
+        group("hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",
+            'Force at which a finger\'s switch fires. Reference 6.3: "a few oz; simulate about 2 oz".',
+            nominal=2.0, least=0.0),
+        group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
+            "Where the lamp is on the hand, against the drawing that the program calibrates its camera with, in the "
+            "hand's frame. Placeholder: screwed on by hand."),
     )  # fmt: skip
 
 

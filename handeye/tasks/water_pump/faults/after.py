@@ -5,6 +5,7 @@ meets it; what is moved is elsewhere, at rest; what is glued is welded. A hand t
 """
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Final
 
 import mujoco
@@ -43,21 +44,15 @@ def _tighten(cell: SimulatedCell) -> None:
     scene.data.qfrc_applied[dof] = 0.0
 
 
-def _moved(way: tuple[float, float]) -> Make:
-    def make(cell: SimulatedCell) -> None:
-        scene = _scene(cell)
-        for part in scene.stack():
-            scene.shift(part, np.array([*way, 0.0]))
-
-    return make
+def _moved(way: tuple[float, float], cell: SimulatedCell) -> None:
+    scene = _scene(cell)
+    for part in scene.stack():
+        scene.shift(part, np.array([*way, 0.0]))
 
 
-def _removed(part: str) -> Make:
-    def make(cell: SimulatedCell) -> None:
-        scene = _scene(cell)
-        scene.shift(part, scene.to_tray(part))
-
-    return make
+def _removed(part: str, cell: SimulatedCell) -> None:
+    scene = _scene(cell)
+    scene.shift(part, scene.to_tray(part))
 
 
 def _demagnetize(cell: SimulatedCell) -> None:
@@ -65,27 +60,21 @@ def _demagnetize(cell: SimulatedCell) -> None:
     model.actuator_gainprm[model.actuator("magnet").id] = 0.0
 
 
-def _thinned(pin: str) -> Make:
-    def make(cell: SimulatedCell) -> None:
-        model = cell.truth.model
-        for geom in np.flatnonzero(model.geom_bodyid == model.body(pin).id):
-            thick, _, high = model.geom_size[geom]  # of a mesh: half of what encloses it
-            model.geom_type[geom] = mujoco.mjtGeom.mjGEOM_CYLINDER
-            model.geom_size[geom] = (THIN_RATIO * thick, high, 0.0)
-
-    return make
+def _thinned(pin: str, cell: SimulatedCell) -> None:
+    model = cell.truth.model
+    for geom in np.flatnonzero(model.geom_bodyid == model.body(pin).id):
+        thick, _, high = model.geom_size[geom]  # of a mesh: half of what encloses it
+        model.geom_type[geom] = mujoco.mjtGeom.mjGEOM_CYLINDER
+        model.geom_size[geom] = (THIN_RATIO * thick, high, 0.0)
 
 
-def _glued(layer: str) -> Make:
-    def make(cell: SimulatedCell) -> None:
-        model, data = cell.truth.model, cell.truth.data
-        weld, X_WB, X_WL = model.equality(f"merge_{layer}").id, _pose(data, "base"), _pose(data, layer)
-        X_BL = inverse(X_WB) @ X_WL
-        model.eq_data[weld, :3], model.eq_data[weld, 3:6] = 0.0, X_BL[:3, 3]
-        mujoco.mju_mat2Quat(model.eq_data[weld, 6:10], X_BL[:3, :3].ravel())
-        data.eq_active[weld] = 1
-
-    return make
+def _glued(layer: str, cell: SimulatedCell) -> None:
+    model, data = cell.truth.model, cell.truth.data
+    weld, X_WB, X_WL = model.equality(f"merge_{layer}").id, _pose(data, "base"), _pose(data, layer)
+    X_BL = inverse(X_WB) @ X_WL
+    model.eq_data[weld, :3], model.eq_data[weld, 3:6] = 0.0, X_BL[:3, 3]
+    mujoco.mju_mat2Quat(model.eq_data[weld, 6:10], X_BL[:3, :3].ravel())
+    data.eq_active[weld] = 1
 
 
 def _pose(data: mujoco.MjData, body: str) -> Array:
@@ -94,22 +83,28 @@ def _pose(data: mujoco.MjData, body: str) -> Array:
 
 _OF_A_PUMP: Final[Mapping[str, tuple[str, Make]]] = {
     "screw.tightened": ("A screw is tightened by hand, with 1.5 N m.", _tighten),
-    "pump.moved.x": ("The pump is moved by 5 mm along table x, away from its block.", _moved((MOVED_M, 0.0))),
+    "pump.moved.x": (
+        "The pump is moved by 5 mm along table x, away from its block.",
+        partial(_moved, (MOVED_M, 0.0)),
+    ),
     "pump.moved.y": (
         "The pump is moved by 5 mm along table y, away from its block.",
-        _moved((0.0, -MOVED_M)),
+        partial(_moved, (0.0, -MOVED_M)),
     ),
-    "driver.removed": ("The screwdriver is taken out of its rack.", _removed("driver")),
+    "driver.removed": ("The screwdriver is taken out of its rack.", partial(_removed, "driver")),
     "magnet.dead": ("The magnet of the screwdriver is dead.", _demagnetize),
-    "pin.removed": ("A pin is taken out of its holder.", _removed("pin0")),
-    "pin.swapped": ("A pin is swapped for one of .6 of its thickness.", _thinned("pin1")),
+    "pin.removed": ("A pin is taken out of its holder.", partial(_removed, "pin0")),
+    "pin.swapped": ("A pin is swapped for one of .6 of its thickness.", partial(_thinned, "pin1")),
 }
 _OF_A_STACK: Final[Mapping[str, tuple[str, Make]]] = {
-    "gasket.glued": ("The gasket is glued to the base.", _glued("gasket")),
-    "top.glued": ("The top is glued to the base.", _glued("top")),
-    "top.removed": ("The top is taken away.", _removed("top")),
-    "gasket.removed": ("The gasket is taken out from under the top.", _removed("gasket")),
-    "stack.moved": ("The base is moved by 5 mm along table x, with gasket and top.", _moved((MOVED_M, 0.0))),
+    "gasket.glued": ("The gasket is glued to the base.", partial(_glued, "gasket")),
+    "top.glued": ("The top is glued to the base.", partial(_glued, "top")),
+    "top.removed": ("The top is taken away.", partial(_removed, "top")),
+    "gasket.removed": ("The gasket is taken out from under the top.", partial(_removed, "gasket")),
+    "stack.moved": (
+        "The base is moved by 5 mm along table x, with gasket and top.",
+        partial(_moved, (MOVED_M, 0.0)),
+    ),
 }
 
 

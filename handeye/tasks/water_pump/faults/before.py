@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
@@ -81,7 +81,7 @@ def _fault(
 
 def _base() -> Iterator[PartFault]:
     yield _fault(
-        "base.missing", "Nothing lies on the belt.", _missing("base"),
+        "base.missing", "Nothing lies on the belt.", partial(_missing, "base"),
         Expected(errors=(PART_NOT_SEEN,), calls=detect.UNSEEN),
     )  # fmt: skip
     yield _fault(
@@ -95,7 +95,7 @@ def _base() -> Iterator[PartFault]:
     )  # fmt: skip
     yield _fault(
         "base.far", "The belt has carried the base so much too far: out of the arm's reach, or out of sight.",
-        _shift("base", (0.0, 1.0)),
+        partial(_shift, "base", (0.0, 1.0)),
         Expected(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=detect.UNSEEN),
         Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
     )  # fmt: skip
@@ -110,7 +110,7 @@ def _gasket() -> Iterator[PartFault]:
     thin = dimensions()("gasket.thickness")
     wrong = Expected(errors=(WRONG_HEIGHT,), calls=(detect.THICKNESS,))
     yield _fault(
-        "gasket.missing", "No gasket lies on its stand.", _missing(part),
+        "gasket.missing", "No gasket lies on its stand.", partial(_missing, part),
         Expected(errors=(NOTHING_HELD,), stages=(detect.PUT_ON_GASKET,)),
     )  # fmt: skip
     yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0), wrong)
@@ -145,7 +145,7 @@ def _gasket() -> Iterator[PartFault]:
 
 def _top() -> Iterator[PartFault]:
     yield _fault(
-        "top.missing", "No top lies on its stand.", _missing("top"),
+        "top.missing", "No top lies on its stand.", partial(_missing, "top"),
         Expected(calls=("NO TOP IS ON ITS STAND", detect.TOP_LOST), stages=(detect.PUT_ON_TOP,)),
     )  # fmt: skip
     off = Expected(
@@ -180,17 +180,17 @@ def _top() -> Iterator[PartFault]:
 def _moved(part: str, article: str, expected: Mapping[str, Expected]) -> Iterator[PartFault]:
     for axis, direction in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
         meaning = f"On its stand {article} lies so far along table {axis} from its place."
-        yield _fault(f"{part}.off.{axis}", meaning, _shift(part, direction), expected[axis], _AWAY)
+        yield _fault(f"{part}.off.{axis}", meaning, partial(_shift, part, direction), expected[axis], _AWAY)
 
 
 def _pins() -> Iterator[PartFault]:
     for number in (1, 2):
         pin = f"pin{number - 1}"
         meaning = f"Aligning pin {number} is not in its holder."
-        yield _fault(f"pin.{number}.missing", meaning, _missing(pin), detect.NO_PIN)
+        yield _fault(f"pin.{number}.missing", meaning, partial(_missing, pin), detect.NO_PIN)
         yield _fault(
             f"pin.{number}.thick", f"The nose of aligning pin {number} is so much thicker, in radius.",
-            _thick_nose(pin), detect.NO_HOLE_FOR_PIN, Size(unit="mm", usual=0.2, limits=(-1.0, 0.25)),
+            partial(_thick_nose, pin), detect.NO_HOLE_FOR_PIN, Size(unit="mm", usual=0.2, limits=(-1.0, 0.25)),
         )  # fmt: skip
 
 
@@ -202,17 +202,17 @@ def _screws(count: int) -> Iterator[PartFault]:
             return detect.if_used(number, Expected(calls=texts))
 
         yield _fault(
-            f"screw.{number}.missing", f"Screw {number} is not in the dispenser.", _missing(screw),
+            f"screw.{number}.missing", f"Screw {number} is not in the dispenser.", partial(_missing, screw),
             calls(f"NO SCREW AT S{number}"),
         )  # fmt: skip
         yield _fault(
             f"screw.{number}.burred", f"A burr makes the point of screw {number} so much thicker, in radius: from .35 "
-            "mm on it enters no tapped hole.", _thick_point(screw), calls(detect.misfit_screw(number), loose),
+            "mm on it enters no tapped hole.", partial(_thick_point, screw), calls(detect.misfit_screw(number), loose),
             Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip
         yield _fault(
             f"screw.{number}.slotless", f"The head of screw {number} has no slot: the bit slips on it, and no "
-            "thread takes it.", _slippery(f"screw_head{number - 1}"), calls(loose),
+            "thread takes it.", partial(_slippery, f"screw_head{number - 1}"), calls(loose),
         )  # fmt: skip
 
 
@@ -230,7 +230,7 @@ def _holes(count: int) -> Iterator[PartFault]:
             blocked = full = detect.NO_HOLE_FOR_PIN
         for name, meaning, breaks, expected, size in (
             (f"hole.{number}.blocked", f"Tapped hole {number} of the base is open only so far below its mouth.",
-             _block(hole), blocked, Size(unit="mm", usual=2.0, limits=(0.0, 20.0))),
+             partial(_block, hole, "plug"), blocked, Size(unit="mm", usual=2.0, limits=(0.0, 20.0))),
             (f"thread.{number}.scarred",
              f"A screw was crossed in tapped hole {number} before: another crosses there more easily.", _as_drawn,
              Expected(
@@ -240,22 +240,22 @@ def _holes(count: int) -> Iterator[PartFault]:
              f"Whatever screw comes into tapped hole {number} crosses, however straight it stands.", _as_drawn,
              Expected(calls=(high,)), None),
             (f"thread.{number}.stripped",
-             f"The thread of tapped hole {number} is worn away: a screw slides in and holds nothing.", _strip(hole),
-             Expected(calls=(loose, detect.lost_screw(screw))), None),
+             f"The thread of tapped hole {number} is worn away: a screw slides in and holds nothing.",
+             partial(_strip, hole), Expected(calls=(loose, detect.lost_screw(screw))), None),
             (f"thread.{number}.full",
              f"The shank of a broken screw fills tapped hole {number} up to its mouth.",
-             _block(hole, "stub"), full, None),
+             partial(_block, hole, "stub"), full, None),
         ):  # fmt: skip
             yield _fault(name, meaning, breaks, detect.if_used(number, expected), size)
 
 
 def _screwdriver_and_light() -> Iterator[PartFault]:
     yield _fault(
-        "screwdriver.missing", "The screwdriver is not in its rack.", _missing("driver"),
+        "screwdriver.missing", "The screwdriver is not in its rack.", partial(_missing, "driver"),
         Expected(errors=(NOTHING_HELD,), stages=(detect.DRIVE_FIRST,)),
     )  # fmt: skip
     yield _fault(
-        _SMOOTH, "The bit does not rub on what it turns, and no thread takes it.", _slippery("bit"),
+        _SMOOTH, "The bit does not rub on what it turns, and no thread takes it.", partial(_slippery, "bit"),
         Expected(calls=(detect.loose_screw(1),)),
     )  # fmt: skip
     yield _fault(
@@ -291,19 +291,13 @@ def _as_drawn(spec: mujoco.MjSpec, _: float) -> None:
     """Change nothing: threads are no shapes, see `bad_threads`."""
 
 
-def _missing(part: str) -> Change:
-    def change(spec: mujoco.MjSpec, _: float) -> None:
-        x, y = GONE[part]
-        spec.body(part).pos[:] = (x, y, spec.geom("tray").pos[2] + OVER_TRAY_M)
-
-    return change
+def _missing(part: str, spec: mujoco.MjSpec, _: float) -> None:
+    x, y = GONE[part]
+    spec.body(part).pos[:] = (x, y, spec.geom("tray").pos[2] + OVER_TRAY_M)
 
 
-def _shift(part: str, direction: Point) -> Change:
-    def change(spec: mujoco.MjSpec, away: float) -> None:
-        spec.body(part).pos[:2] += np.multiply(direction, away)
-
-    return change
+def _shift(part: str, direction: Point, spec: mujoco.MjSpec, away: float) -> None:
+    spec.body(part).pos[:2] += np.multiply(direction, away)
 
 
 def _plate_centre() -> Point:
@@ -351,21 +345,15 @@ def _jam(spec: mujoco.MjSpec, _: float) -> None:
     spec.joint("rotor").frictionloss = _JAM_FRICTION_NM
 
 
-def _slippery(shape: str) -> Change:
-    def change(spec: mujoco.MjSpec, _: float) -> None:
-        """Let nothing rub on a shape: its friction counts in every contact, and not the greater one of the two."""
-        geom = spec.geom(shape)
-        geom.friction[:], geom.priority = 0.0, _FOREMOST
-
-    return change
+def _slippery(shape: str, spec: mujoco.MjSpec, _: float) -> None:
+    """Let nothing rub on a shape: its friction counts in every contact, and not the greater one of the two."""
+    geom = spec.geom(shape)
+    geom.friction[:], geom.priority = 0.0, _FOREMOST
 
 
-def _strip(hole: int) -> Change:
-    def change(spec: mujoco.MjSpec, _: float) -> None:
-        """Let a screw slide and turn in a hole as it will."""
-        spec.equality(f"thread{hole}").active = False
-
-    return change
+def _strip(hole: int, spec: mujoco.MjSpec, _: float) -> None:
+    """Let a screw slide and turn in a hole as it will."""
+    spec.equality(f"thread{hole}").active = False
 
 
 def _chip(spec: mujoco.MjSpec, high: float) -> None:
@@ -389,37 +377,28 @@ def _shade(spec: mujoco.MjSpec, _: float) -> None:
     card.size[:] = _CARD_HALF_M, _CARD_HALF_M, 0.0005
 
 
-def _thick_nose(pin: str) -> Change:
-    def change(spec: mujoco.MjSpec, more: float) -> None:
-        wide = 1 + more / dimensions()("pin.nose_radius")
-        drawn = spec.mesh("pin_nose")  # which the other pin keeps
-        spec.add_mesh(name=f"{pin}_nose", uservert=list(drawn.uservert), scale=[wide, wide, 1.0])
-        for geom in spec.body(pin).geoms:
-            if geom.meshname == "pin_nose":
-                geom.meshname = f"{pin}_nose"
-
-    return change
+def _thick_nose(pin: str, spec: mujoco.MjSpec, more: float) -> None:
+    wide = 1 + more / dimensions()("pin.nose_radius")
+    drawn = spec.mesh("pin_nose")  # which the other pin keeps
+    spec.add_mesh(name=f"{pin}_nose", uservert=list(drawn.uservert), scale=[wide, wide, 1.0])
+    for geom in spec.body(pin).geoms:
+        if geom.meshname == "pin_nose":
+            geom.meshname = f"{pin}_nose"
 
 
-def _thick_point(screw: str) -> Change:
-    def change(spec: mujoco.MjSpec, more: float) -> None:
-        point = next(geom for geom in spec.body(screw).geoms if geom.fromto[2] == 0.0)
-        point.size[0] += more
-
-    return change
+def _thick_point(screw: str, spec: mujoco.MjSpec, more: float) -> None:
+    point = next(geom for geom in spec.body(screw).geoms if geom.fromto[2] == 0.0)
+    point.size[0] += more
 
 
-def _block(hole: int, plug_name: str = "plug") -> Change:
-    def change(spec: mujoco.MjSpec, depth: float) -> None:
-        """Fill the hole with metal up to a depth below its mouth, and let no screw in its thread go deeper."""
-        x, y, mouth = spec.site(f"base_hole{hole}").pos
-        floor = base_top() - dimensions()("base.screw_holes.depth")
-        plug = spec.body("base").add_geom(
-            spec.find_default("face"), name=f"{plug_name}{hole}", type=spec.geom("bit").type
-        )
-        plug.fromto[:] = x, y, floor, x, y, mouth - depth
-        plug.size[0] = dimensions()("base.screw_holes.radius")
-        slide = spec.joint(f"thread_slide{hole}")
-        slide.range[0], slide.solref_limit[:], slide.solimp_limit[:] = -depth, *METAL
-
-    return change
+def _block(hole: int, plug_name: str, spec: mujoco.MjSpec, depth: float) -> None:
+    """Fill the hole with metal up to a depth below its mouth, and let no screw in its thread go deeper."""
+    x, y, mouth = spec.site(f"base_hole{hole}").pos
+    floor = base_top() - dimensions()("base.screw_holes.depth")
+    plug = spec.body("base").add_geom(
+        spec.find_default("face"), name=f"{plug_name}{hole}", type=spec.geom("bit").type
+    )
+    plug.fromto[:] = x, y, floor, x, y, mouth - depth
+    plug.size[0] = dimensions()("base.screw_holes.radius")
+    slide = spec.joint(f"thread_slide{hole}")
+    slide.range[0], slide.solref_limit[:], slide.solimp_limit[:] = -depth, *METAL

@@ -5,7 +5,6 @@ the floor, where nothing meets it: the hand that takes it is not simulated. A pu
 the base, a spring to a point that goes at a constant speed, and friction drags along what stands on the base.
 """
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
@@ -89,51 +88,34 @@ class Scene:
         return np.array([x, y, self.data.geom_xpos[tray][2] + OVER_TRAY_M]) - self.place(part)
 
 
-class Mishap(ABC):
-    """An event that happens once."""
-
-    __slots__ = ()
-
-    @property
-    def watched(self) -> str | None:
-        """The part whose place at the beginning it needs, if any."""
-        return None
-
-    @abstractmethod
-    def act(self, scene: Scene, state: MishapState) -> bool:
-        """Act for one physics tick; true when it is over."""
-
-
 @dataclass(frozen=True, slots=True)
-class Pushed(Mishap):
-    """The hand of the arm is pushed."""
+class Mishap:
+    """An event that happens once: `act` acts for one physics tick, and is true when it is over."""
 
-    axis: int  # of the table: 0 is x
-    force_N: float
+    act: Callable[[Scene, MishapState], bool]
+    watched: str | None = None  # the part whose place at the beginning it needs, if any
 
-    def act(self, scene: Scene, state: MishapState) -> bool:
+
+def _pushed(axis: int, force_N: float) -> Mishap:
+    """The hand of the arm is pushed along an axis of the table."""
+
+    def act(scene: Scene, state: MishapState) -> bool:
         over = (state.seconds or 0.0) >= PUSH_S
         body = scene.model.body(f"{ARM}link6").id
-        scene.data.xfrc_applied[body, self.axis] = 0.0 if over else self.force_N
+        scene.data.xfrc_applied[body, axis] = 0.0 if over else force_N
         return over
 
+    return Mishap(act)
 
-@dataclass(frozen=True, slots=True)
-class Moved(Mishap):
-    """The base is moved along the table."""
 
-    axis: int  # of the table: 0 is x
-    way_m: float
+def _moved(axis: int, way_m: float) -> Mishap:
+    """The base is moved along an axis of the table."""
 
-    @property
-    def watched(self) -> str:
-        return "base"
-
-    def act(self, scene: Scene, state: MishapState) -> bool:
+    def act(scene: Scene, state: MishapState) -> bool:
         assert state.place is not None
         seconds, (spring, damper, most) = state.seconds or 0.0, HAND
         way = np.zeros(2)
-        way[self.axis] = self.way_m
+        way[axis] = way_m
         goal = np.add(state.place[:2], way * (seconds / MOVE_S))
         away = goal - scene.place("base")[:2]
         late = way / MOVE_S - scene.data.qvel[scene.dofs("base")][:2]
@@ -143,43 +125,30 @@ class Moved(Mishap):
         scene.data.xfrc_applied[scene.model.body("base").id, :2] = 0.0 if over else force
         return over
 
+    return Mishap(act, "base")
 
-@dataclass(frozen=True, slots=True)
-class TakenAway(Mishap):
+
+def _take_away(scene: Scene, _: MishapState) -> bool:
     """The base is taken away, with all that stands on it."""
-
-    def act(self, scene: Scene, state: MishapState) -> bool:
-        way = scene.to_tray("base")
-        for part in scene.stack():
-            scene.shift(part, way)
-        return True
+    way = scene.to_tray("base")
+    for part in scene.stack():
+        scene.shift(part, way)
+    return True
 
 
-@dataclass(frozen=True, slots=True)
-class Dropped(Mishap):
+def _lose(part: str, scene: Scene, state: MishapState) -> bool:
     """A part is lost from the hand as soon as it has been lifted."""
-
-    part: str
-
-    @property
-    def watched(self) -> str:
-        return self.part
-
-    def act(self, scene: Scene, state: MishapState) -> bool:
-        assert state.place is not None
-        if scene.place(self.part)[2] < state.place[2] + LIFTED_M:
-            return False
-        scene.shift(self.part, scene.to_tray(self.part))
-        return True
+    assert state.place is not None
+    if scene.place(part)[2] < state.place[2] + LIFTED_M:
+        return False
+    scene.shift(part, scene.to_tray(part))
+    return True
 
 
-@dataclass(frozen=True, slots=True)
-class LightOut(Mishap):
+def _put_out(scene: Scene, _: MishapState) -> bool:
     """The lamp of the cell goes out; what light the room has stays."""
-
-    def act(self, scene: Scene, state: MishapState) -> bool:
-        scene.model.light_diffuse[:] = 0.0
-        return True
+    scene.model.light_diffuse[:] = 0.0
+    return True
 
 
 MishapFault = PumpFault[Callable[[float], Mishap]]
@@ -197,7 +166,7 @@ def _always(mishap: Mishap) -> Callable[[float], Mishap]:
 
 def _light_and_pushes() -> Iterator[MishapFault]:
     meaning = "The lamp of the cell goes out; what light the room has stays."
-    yield declared("light.off", meaning, _always(LightOut()), detect.POOR_LIGHT, stage=6)
+    yield declared("light.off", meaning, _always(Mishap(_put_out)), detect.POOR_LIGHT, stage=6)
     size = Size(unit="N", usual=40.0, limits=(-300.0, 300.0))
     expected = Expected(
         errors=(FORCE_WRONG, SERVO_LAG),
@@ -206,7 +175,7 @@ def _light_and_pushes() -> Iterator[MishapFault]:
     )
     for number, axis in enumerate("xyz"):
         meaning = f"Somebody pushes the hand along table {axis} for {PUSH_S:g} s."
-        yield declared(f"arm.pushed.{axis}", meaning, partial(Pushed, number), expected, size, stage=3)
+        yield declared(f"arm.pushed.{axis}", meaning, partial(_pushed, number), expected, size, stage=3)
 
 
 def _base() -> Iterator[MishapFault]:
@@ -219,9 +188,9 @@ def _base() -> Iterator[MishapFault]:
     )
     for number, axis in enumerate("xy"):
         meaning = f"Somebody moves the base along table {axis} within {MOVE_S:g} s, with what stands on it."
-        yield declared(f"base.moved.{axis}", meaning, partial(Moved, number), expected, size, stage=2)
+        yield declared(f"base.moved.{axis}", meaning, partial(_moved, number), expected, size, stage=2)
     meaning = "Somebody takes the base away, and all that stands on it."
-    yield declared("base.removed", meaning, _always(TakenAway()), detect.NO_HOLE_FOR_PIN, stage=4)
+    yield declared("base.removed", meaning, _always(Mishap(_take_away)), detect.NO_HOLE_FOR_PIN, stage=4)
 
 
 def _losses() -> Iterator[MishapFault]:
@@ -242,7 +211,7 @@ def _losses() -> Iterator[MishapFault]:
         ("top", "top", "the top", top),
     ):
         meaning = f"The hand loses {told} as soon as it has lifted it by {LIFTED_M / INCH:.1f} in."
-        yield declared(f"{name}.dropped", meaning, _always(Dropped(part)), expected)
+        yield declared(f"{name}.dropped", meaning, _always(Mishap(partial(_lose, part), part)), expected)
 
 
 def due(faults: Sequence[Fault]) -> list[tuple[Fault, Mishap]]:

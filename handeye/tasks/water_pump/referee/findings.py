@@ -15,7 +15,7 @@ from handeye.judge.measured import Measured, tilt
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.referee import limits, measure
-from handeye.tasks.water_pump.referee.measure import Overlap, deepest
+from handeye.tasks.water_pump.referee.measure import deepest
 
 _PINS: Final = ("pin0", "pin1")
 _PARTS: Final = {"base": limits.APART, "gasket": limits.APART_GASKET, "top": limits.APART}
@@ -30,11 +30,17 @@ def judge(truth: Truth) -> Findings:
     left, settled = _as_left_and_settled(truth)
     holes = holes_of(truth)
     forces = [measure.head_force(settled, k) for k, thread in enumerate(holes) if thread.screw is not None]
-    clamp = min(forces, default=0.0)
+    clamp, torque = min(forces, default=0.0), measure.rotor_torque(settled)
+    value = torque if isfinite(torque) else 2 * limits.ROTOR_TORQUE  # did not turn all the way
     return {
         **worse(_places(left, holes), _places(settled, holes)),
         "screws_clamp": at_least(clamp, limits.SCREW_CLAMP, "N", "weakest clamp of a screw"),
-        "rotor": _rotor(settled),
+        "rotor": at_most(
+            value,
+            limits.ROTOR_TORQUE,
+            "N m",
+            f"torque that turns the rotor {limits.ROTOR_SWING:.0f} degrees and back",
+        ),
     }
 
 
@@ -43,13 +49,17 @@ def _as_left_and_settled(truth: Truth) -> tuple[Measured, Measured]:
 
 
 def _places(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
+    bores, others = deepest(measured)
     return {
         **_base(measured),
         **_layer(measured, "gasket", holes),
         **_layer(measured, "top", holes),
         **_screws(measured, holes),
         **_cell(measured, holes),
-        **_overlap(*deepest(measured)),
+        "overlap_bores": _mm(
+            bores.depth, limits.SOFT, f"deepest cut of a shank or pin into a bore, of {bores.between}"
+        ),
+        "overlap": _mm(others.depth, limits.PENETRATION, f"deepest overlap, of {others.between}"),
     }
 
 
@@ -155,21 +165,6 @@ def _hand(measured: Measured, parts: Iterable[str]) -> Finding:
         np.flatnonzero(arm & solid), np.flatnonzero(mine & solid), 2 * limits.HAND_CLEAR / 1e3
     )
     return at_least(nearest * 1e3, limits.HAND_CLEAR, "mm", "hand from the nearest part")
-
-
-def _rotor(measured: Measured) -> Finding:
-    torque = measure.rotor_torque(measured)
-    value = torque if isfinite(torque) else 2 * limits.ROTOR_TORQUE  # did not turn all the way
-    subject = f"torque that turns the rotor {limits.ROTOR_SWING:.0f} degrees and back"
-    return at_most(value, limits.ROTOR_TORQUE, "N m", subject)
-
-
-def _overlap(bores: Overlap, others: Overlap) -> Findings:
-    cut = f"deepest cut of a shank or pin into a bore, of {bores.between}"
-    return {
-        "overlap_bores": _mm(bores.depth, limits.SOFT, cut),
-        "overlap": _mm(others.depth, limits.PENETRATION, f"deepest overlap, of {others.between}"),
-    }  # fmt: skip
 
 
 def judge_apart(truth: Truth) -> Findings:

@@ -12,8 +12,14 @@ from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
 from handeye.program.diagnosis.cause_text import cause_sentence
 from handeye.tasks.trial import Attempt, Count, Known, Trial
-from handeye.tasks.water_pump.trials.known_camera import known_camera
-from handeye.tasks.water_pump.trials.still_pump import StillPump, base_poses, locate, pump_base, put_base
+from handeye.tasks.water_pump.trials.still_pump import (
+    StillPump,
+    base_poses,
+    known_camera,
+    locate,
+    pump_base,
+    put_base,
+)  # fmt: skip
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.vision.base import Failure
 from handeye.vision.hole_search import hole_places

@@ -14,8 +14,14 @@ from handeye.ports.camera import CLOSE_UP
 from handeye.program.program import Part
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, standard
 from handeye.tasks.trial import Attempt, Count, Known, Trial
-from handeye.tasks.water_pump.trials.known_camera import known_camera
-from handeye.tasks.water_pump.trials.still_pump import Place, StillPump, look, pump_base, put_base
+from handeye.tasks.water_pump.trials.still_pump import (
+    Place,
+    StillPump,
+    known_camera,
+    look,
+    pump_base,
+    put_base,
+)  # fmt: skip
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.vision.camera_model import View
 from handeye.vision.gasket import inspect

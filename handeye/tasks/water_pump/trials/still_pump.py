@@ -1,27 +1,38 @@
-"""The pump's cell before it has moved, with parts placed at will, and the eye in it."""
+"""The pump's cell before it has moved, with parts placed at will, the eye in it, and what a program knows of that."""
 
 import math
 from collections.abc import Iterator
+from typing import Final
 
 import mujoco
 import numpy as np
 
-from handeye.cell.camera import SimulatedCamera, make_renderer, true_camera
+from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.camera import CameraState, SimulatedCamera, make_renderer, true_camera
 from handeye.cell.keyframe import body_pose
 from handeye.core.pose import Array, Pose, planar
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
-from handeye.ports.camera import CLOSE_UP, WIDE, Picture, TvCamera
+from handeye.execution.camera_calibration import calibrate_camera
+from handeye.execution.friction_measurement import measure_joints
+from handeye.execution.state import DriveState
+from handeye.ports.camera import CLOSE_UP, LENSES, WIDE, Picture, TvCamera
 from handeye.program.program import Hole, Part
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import PARK, base_top, dimensions, pin_seat, screw_holes
+from handeye.tasks.trial import Known
+from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.scene import build
-from handeye.tasks.water_pump.world.nominal import DRAWING
+from handeye.tasks.water_pump.world.nominal import DRAWING, LOOKS
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.variation import BELT_LINE, BELT_X, BELT_Y
 from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific
+from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel, View
 
+SPOTS: Final = 20  # simulated sightings with each lens
+ARM_ERROR_M: Final = 0.1 * INCH  # the largest, on each axis
+SPOT_NOISE_PX: Final = 0.5
 Place = tuple[float, float, float, float]  # x, y, z (m) and yaw (rad) in W
 
 
@@ -114,3 +125,55 @@ def base_poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
     for _ in range(number - 1):
         x, y, yaw = rng.uniform(*ranges.T) * (INCH, INCH, DEGREE)
         yield float(x), float(y), float(yaw)
+
+
+def known_camera(
+    still: StillPump, known: Known, renderer: str, about: tuple[float, float, float]
+) -> CameraModel:
+    """The camera as the program knows it; simulated sightings are about a point, W, m. Raises CalibrationFailed."""
+    match known:
+        case "lamp":
+            return by_lamp(still, renderer).model
+        case "sightings":
+            return by_sightings(still, about).model
+        case "drawn":
+            return DRAWING
+        case "true":
+            return still.true_camera
+
+
+def by_lamp(still: StillPump, renderer: str) -> Calibration:
+    """Calibrate as runs do: in the cell of the world the arm measures itself, then carries its lamp through the view.
+
+    The camera of the still scene goes on as that leaves it: with its lens, its aim, and the noise to come. Raises
+    CalibrationFailed if the lamp was seen too few times.
+    """
+    cell = build_cell(still.world, camera=renderer)
+    drive = DriveState.holding(cell.devices.sense(), STANFORD)
+    found = measure_joints(cell.devices, STANFORD, drive)
+    drive.friction, drive.links = found.friction, found.links
+    calibration = calibrate_camera(cell.devices, STANFORD, drive, DRAWING, LOOKS)
+    state = cell.truth.states["camera"]
+    assert isinstance(state, CameraState)
+    still.camera.restore(state)
+    return calibration
+
+
+def by_sightings(still: StillPump, about: tuple[float, float, float]) -> Calibration:
+    """Calibrate as by a lamp shown at random places about a point, without rendering any: cheap, and too good.
+
+    It knows nothing of the joints' own errors, of the lamp's place and of the raster.
+    """
+    rng = still.world.generator("trial.calibration")
+    sightings = []
+    for lens in LENSES:
+        for _ in range(SPOTS):
+            lamp = np.array(about) + rng.uniform((-0.12, -0.12, 0.01), (0.12, 0.12, 0.24))
+            pan, tilt = DRAWING.aim(lamp, lens)
+            wobble = rng.normal(0, still.world.camera.pot_noise, 2)
+            uv = still.true_camera.view(lens, pan + wobble[0], tilt + wobble[1]).project(lamp)[0]
+            u, v = uv + rng.normal(0, SPOT_NOISE_PX, 2)
+            told = lamp + rng.uniform(-ARM_ERROR_M, ARM_ERROR_M, 3)
+            point = (float(told[0]), float(told[1]), float(told[2]))
+            sightings.append(Sighting(lens=lens, pan=pan, tilt=tilt, u=float(u), v=float(v), point_W=point))
+    return calibrate(sightings, DRAWING)

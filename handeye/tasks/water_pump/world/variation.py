@@ -5,6 +5,7 @@ Search, sight and touch exist to beat these errors. Joints, holes and screws are
 
 from collections.abc import Iterator
 from functools import cache
+from itertools import chain
 from typing import Final
 
 from handeye.core.distributions import Noise, Normal, Phase, Range, Uniform
@@ -61,35 +62,28 @@ def _belt() -> Iterator[Quantity]:
 
 
 def _camera() -> Iterator[Quantity]:
-    where = f"Where the camera's mount is, each axis. {_VISION}"
-    yield from group("camera.place", {axis: Normal(0.15) for axis in "xyz"}, "in", where)
-    yield from group(
-        "camera.turn", {axis: Normal(0.2) for axis in ("pan", "tilt", "roll")}, "deg",
-        f"How the camera's mount is turned. {_VISION}",
-    )  # fmt: skip
-    yield from group(
-        "camera.focal_length", {lens: Normal(0.4) for lens in ("25mm", "50mm")}, "%",
-        f"Focal length of each lens over that of the drawing. {_VISION}",
-        least=-50.0,
-    )  # fmt: skip
-    yield from group(
-        "camera", {"pot_noise": Noise(0.07)}, "deg",
-        "Noise of the pan and tilt readings. Vision study: .07-.10 reproduces 1973.",
-    )  # fmt: skip
-    for lens in ("25mm", "50mm"):
-        yield from group(
-            f"camera.lens.{lens}", {way: Normal(0.1) for way in ("ahead", "side", "up")}, "in",
-            "Where the middle of the lens is, against the drawing. Placeholder: the turret's own offset is one.",
-        )  # fmt: skip
-    yield from group(
-        "camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
-        "Shape of the raster: how far a corner is drawn in, over its distance from the middle, and how far the middle "
-        "of lines and of the field is off, over half their length. Honesty study, finding 10: 1 % at the corners.",
-    )  # fmt: skip
-    yield from group(
-        "camera.raster", {"drift": Noise(0.3)}, "%",
-        "How far each picture lies off the one before, over half its length and height: half a point. The paper speaks "
-        "of a slight shift between two pictures; vision study, section 4: up to a point.",
+    lenses = ("25mm", "50mm")
+    middle = (
+        "Where the middle of the lens is, against the drawing. Placeholder: the turret's own offset is one."
+    )
+    aside = {way: Normal(0.1) for way in ("ahead", "side", "up")}
+    return chain(
+        group("camera.place", {axis: Normal(0.15) for axis in "xyz"}, "in",
+            f"Where the camera's mount is, each axis. {_VISION}"),
+        group("camera.turn", {axis: Normal(0.2) for axis in ("pan", "tilt", "roll")}, "deg",
+            f"How the camera's mount is turned. {_VISION}"),
+        group("camera.focal_length", {lens: Normal(0.4) for lens in lenses}, "%",
+            f"Focal length of each lens over that of the drawing. {_VISION}", least=-50.0),
+        group("camera", {"pot_noise": Noise(0.07)}, "deg",
+            "Noise of the pan and tilt readings. Vision study: .07-.10 reproduces 1973."),
+        *(group(f"camera.lens.{lens}", aside, "in", middle) for lens in lenses),
+        group("camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
+            "Shape of the raster: how far a corner is drawn in, over its distance from the middle, and how far the "
+            "middle of lines and of the field is off, over half their length. Honesty study, finding 10: 1 % at the "
+            "corners."),
+        group("camera.raster", {"drift": Noise(0.3)}, "%",
+            "How far each picture lies off the one before, over half its length and height: half a point. The paper "
+            "speaks of a slight shift between two pictures; vision study, section 4: up to a point."),
     )  # fmt: skip
 
 
@@ -130,28 +124,22 @@ def _holes(count: int) -> Iterator[Quantity]:
 
 
 def _parts(count: int) -> Iterator[Quantity]:
-    for part in STOOD:
-        yield from group(
-            f"parts.{part}", {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}, ("in", "in", "deg"),
-            "Where a person has put the part on its stand, against the drawing. Honesty study, finding 9.",
-        )  # fmt: skip
-    for thing in ("driver", *(f"screws.{screw}" for screw in range(1, count + 1))):
-        yield from group(
-            f"parts.{thing}", {axis: Uniform(IN_PLAY / 2) for axis in "xy"}, "%",
-            "Where it is within the play that guides or hole leave it. Even, so far that it stays within them at the "
-            "high level too. A pin has none: the bevel that it stands in puts it in the middle.",
-            greatest=IN_PLAY,
-        )  # fmt: skip
-    yield from group(
-        "parts.driver", {"yaw": Uniform(0.3)}, "deg",
-        "Turn of the screwdriver in its guides. What their play allows beside its place.", greatest=0.6,
-    )  # fmt: skip
-    yield Quantity(
-        name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]),
-        source="Masses of base and top over those of the drawing. Placeholder.",
-    )  # fmt: skip
-    yield from rubbing(RUBBING)
-    yield from group(
-        "thread_phase", {str(screw): Phase() for screw in range(1, count + 1)}, "deg",
-        "Where the thread of a screw hole starts.",
+    stood = "Where a person has put the part on its stand, against the drawing. Honesty study, finding 9."
+    off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
+    played = (
+        "Where it is within the play that guides or hole leave it. Even, so far that it stays within them at the high "
+        "level too. A pin has none: the bevel that it stands in puts it in the middle."
+    )
+    play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
+    fitted = ("driver", *(f"screws.{screw}" for screw in range(1, count + 1)))
+    masses = "Masses of base and top over those of the drawing. Placeholder."
+    phases = {str(screw): Phase() for screw in range(1, count + 1)}
+    return chain(
+        *(group(f"parts.{part}", off, ("in", "in", "deg"), stood) for part in STOOD),
+        *(group(f"parts.{thing}", play, "%", played, greatest=IN_PLAY) for thing in fitted),
+        group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
+            "Turn of the screwdriver in its guides. What their play allows beside its place.", greatest=0.6),
+        [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses)],
+        rubbing(RUBBING),
+        group("thread_phase", phases, "deg", "Where the thread of a screw hole starts."),
     )  # fmt: skip
