@@ -74,7 +74,7 @@ GROUPS: Final = {
         "handeye.Comparison": "comparison.comparison.Comparison",
         "First": "comparison.first.First",
         "QuantityDifference": "trace.quantities.QuantityDifference",
-        "Parting": "comparison.parting.Parting",
+        "Divergence": "comparison.parting.Divergence",
         "Place": "comparison.pairing.Place",
     },
     "Programs that are taught": {

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from handeye.al.definition import DECLARATION, JUMP, MODIFIER, MOTION, SHIFT, SKIP, STEP, Role
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.lower_statement import operation, restore
-from handeye.al.macros import Placed
+from handeye.al.macros import ExpandedStatement
 from handeye.al.parameters import Call, FilledLine, uses
 from handeye.al.syntax import Name, Statement, Text
 from handeye.core.diagnostics import (
@@ -45,10 +45,14 @@ class Lowered:
 
 
 def lower(
-    placed: Sequence[Placed], source: Source, report: Report, *, inner: Mapping[str, Name] | None = None
+    placed: Sequence[ExpandedStatement],
+    source: Source,
+    report: Report,
+    *,
+    inner: Mapping[str, Name] | None = None,
 ) -> Lowered:
     """Stages and steps of an expanded program, valid if no error was reported; `inner` are the labels inside macros."""
-    lowering = _Lowering(report=report, inner=inner or {})
+    lowering = _Lowerer(report=report, inner=inner or {})
     for item in placed:
         lowering.place(item)
     lowering.end()
@@ -89,7 +93,7 @@ class _Draft(msgspec.Struct, gc=False):
     call: Call
     stage: int
     operation: AnyOperation | None
-    modifier: Placed | None  # the first one
+    modifier: ExpandedStatement | None  # the first one
     next: int | None  # the following draft
     macro: str
     reach: Call  # the call whose labels a jump sees
@@ -104,7 +108,7 @@ class _Draft(msgspec.Struct, gc=False):
 
 
 @dataclass(slots=True)
-class _Lowering:
+class _Lowerer:
     report: Report
     inner: Mapping[str, Name]
     drafts: list[_Draft] = field(default_factory=list)
@@ -112,12 +116,12 @@ class _Lowering:
     stages: dict[str, Span] = field(default_factory=dict)  # by name
     stage: int = 0
     labels: dict[tuple[Call, str], tuple[int, Name]] = field(default_factory=dict)
-    pending: list[Placed] = field(default_factory=list)  # modifiers of the next motion
+    pending: list[ExpandedStatement] = field(default_factory=list)  # modifiers of the next motion
     shiftable: bool = False  # after a MOVE, or one of its RESTOREs
     searches: list[tuple[int, int]] = field(default_factory=list)  # of searches: first step, AOJ
     unresolved: int = 0  # unresolved jumps
 
-    def place(self, item: Placed) -> None:
+    def place(self, item: ExpandedStatement) -> None:
         statement = item.statement
         for label in statement.labels:
             self.label(label, item.call)
@@ -177,7 +181,7 @@ class _Lowering:
             self.drafts[-1].operation = replace(move, restore=shifts)
             self.drafts[-1].shifts += (statement,)
 
-    def step(self, item: Placed, role: Role) -> None:
+    def step(self, item: ExpandedStatement, role: Role) -> None:
         statement = item.statement
         if role is not MOTION and self.pending:
             self.no_motion(Label(span=statement.span, text="this is not a motion it can modify"))
@@ -190,7 +194,7 @@ class _Lowering:
 
     def modifiers(self, motion: Statement) -> list[Statement]:
         """Pending modifiers that apply to a motion."""
-        firsts: dict[str, Placed] = {}
+        firsts: dict[str, ExpandedStatement] = {}
         fitting = []
         for modifier in self.pending:
             first = firsts.setdefault(_MODIFIER_KINDS.get(_word(modifier).text, ""), modifier)
@@ -198,7 +202,9 @@ class _Lowering:
                 fitting.append(modifier.statement)
         return fitting
 
-    def draft(self, item: Placed, made: AnyOperation | None, modifiers: Sequence[Statement] = ()) -> None:
+    def draft(
+        self, item: ExpandedStatement, made: AnyOperation | None, modifiers: Sequence[Statement] = ()
+    ) -> None:
         if not self.stages:
             self.stages[FIRST_STAGE] = item.statement.span
         modifier = self.pending[0] if self.pending else None
@@ -213,7 +219,7 @@ class _Lowering:
             )
         )  # fmt: skip
 
-    def fits(self, modifier: Placed, first: Placed, motion: Statement) -> bool:
+    def fits(self, modifier: ExpandedStatement, first: ExpandedStatement, motion: Statement) -> bool:
         """True if it applies to this motion and is the first of its kind."""
         word = _word(modifier)
         assert motion.word is not None
@@ -349,6 +355,6 @@ def _shared(one: Call, other: Call) -> int:
     return min(len(one), len(other))
 
 
-def _word(item: Placed) -> Name:
+def _word(item: ExpandedStatement) -> Name:
     assert item.statement.word is not None
     return item.statement.word

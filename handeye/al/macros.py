@@ -19,7 +19,7 @@ MAX_STATEMENTS: Final = 10_000
 MAX_DEPTH: Final = 20
 
 
-class Placed(msgspec.Struct, frozen=True, gc=False):
+class ExpandedStatement(msgspec.Struct, frozen=True, gc=False):
     """A statement in the expanded program, never a macro call; `macro` is the one it stands in, or ""."""
 
     statement: Statement
@@ -36,14 +36,14 @@ class Placed(msgspec.Struct, frozen=True, gc=False):
         return next(calls, self.call)
 
 
-def expand(script: Script, report: Callable[[Diagnostic], None]) -> list[Placed]:
+def expand(script: Script, report: Callable[[Diagnostic], None]) -> list[ExpandedStatement]:
     """Statements of the program in order, as far as macros can be expanded."""
     expansion = _Expansion(script=script, report=report)
     expansion.place(script.statements, _Frame())
     return expansion.placed
 
 
-def as_called(script: Script, placed: list[Placed]) -> Iterator[Statement]:
+def as_called(script: Script, placed: list[ExpandedStatement]) -> Iterator[Statement]:
     """Statements of a script and its macros; macros with parameters as each call fills them."""
     yield from script.statements
     for macro in script.macros.values():
@@ -62,15 +62,15 @@ class _Frame(msgspec.Struct, frozen=True):
     given: Mapping[str, Argument] = {}  # by parameter
     by: Statement | None = None
 
-    def placed(self, statement: Statement, line: FilledLine | None = None) -> Placed:
-        return Placed(statement, self.call, self.inside[-1] if self.inside else "", line)
+    def placed(self, statement: Statement, line: FilledLine | None = None) -> ExpandedStatement:
+        return ExpandedStatement(statement, self.call, self.inside[-1] if self.inside else "", line)
 
 
 @dataclass(slots=True)
 class _Expansion:
     script: Script
     report: Callable[[Diagnostic], None]
-    placed: list[Placed] = field(default_factory=list)
+    placed: list[ExpandedStatement] = field(default_factory=list)
     visited: int = 0
     too_long: bool = False
 
@@ -88,7 +88,7 @@ class _Expansion:
             else:
                 self.placed.append(self.read(statement, frame) if statement.open else frame.placed(statement))
 
-    def read(self, statement: Statement, frame: _Frame) -> Placed:
+    def read(self, statement: Statement, frame: _Frame) -> ExpandedStatement:
         """A line with parameters, filled in from the call."""
         assert statement.word is not None
         line = filled(statement, frame.given)

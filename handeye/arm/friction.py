@@ -14,7 +14,7 @@ from handeye.arm.computed_torque import external_wrench
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel
 from handeye.core.pose import Array
-from handeye.program.guards import Exerted
+from handeye.program.guards import HandLoad
 
 MARGIN: Final = 3.0
 """Forces below this multiple of the felt friction are hard to tell from it.
@@ -30,7 +30,7 @@ def felt_friction(arm: ArmModel, q: Array, friction: Array) -> Array:
     return external_wrench(jacobian(arm, q), np.diag(friction))
 
 
-def faint(felt: Array, exerted: Exerted) -> float | None:
+def faint(felt: Array, exerted: HandLoad) -> float | None:
     """The most that `felt_friction` adds to a force (N) or moment (N m), if that is hard to tell from it; else None."""
     vector = np.array(exerted.vector)
     size = float(np.linalg.norm(vector))

@@ -33,7 +33,7 @@ class Stuck(Effect):
 
 
 @dataclass(frozen=True, slots=True)
-class Shifted(Effect):
+class OffsetEffect(Effect):
     """Something is added."""
 
     by: float
@@ -43,7 +43,7 @@ class Shifted(Effect):
 
 
 @dataclass(frozen=True, slots=True)
-class Drifting(Effect):
+class DriftEffect(Effect):
     """More and more is added, `rate` a second."""
 
     rate: float
@@ -53,7 +53,7 @@ class Drifting(Effect):
 
 
 @dataclass(frozen=True, slots=True)
-class Scaled(Effect):
+class GainEffect(Effect):
     """Only a share arrives."""
 
     by: float
@@ -63,7 +63,7 @@ class Scaled(Effect):
 
 
 @dataclass(frozen=True, slots=True)
-class Missing(Effect):
+class DropoutEffect(Effect):
     """Nothing arrives for some seconds."""
 
     seconds: float
@@ -72,7 +72,7 @@ class Missing(Effect):
         return np.asarray(values * 0) if seconds < self.seconds else values
 
 
-DEAD: Final = Scaled(0.0)  # nothing arrives
+DEAD: Final = GainEffect(0.0)  # nothing arrives
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

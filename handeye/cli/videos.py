@@ -16,7 +16,7 @@ from handeye.core.errors import BadArgument
 
 if TYPE_CHECKING:
     from handeye.trace.trace import Trace
-    from handeye.video.making import Told
+    from handeye.video.making import Progress
 
 
 def video(
@@ -99,7 +99,7 @@ def _trace(run: Path) -> "Trace":
 
 
 @contextmanager
-def drawing() -> Iterator["Told"]:
+def drawing() -> Iterator["Progress"]:
     """Tells how many frames are drawn: as a bar, or where there is no terminal, once in a while."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 

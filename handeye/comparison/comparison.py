@@ -9,7 +9,7 @@ import msgspec
 from handeye.comparison.findings import Corrections, Searches, Stops, corrections, searches, stops
 from handeye.comparison.first import First, first_difference
 from handeye.comparison.pairing import Place, TwoRuns, listing_of
-from handeye.comparison.parting import Parting, Turning, parting
+from handeye.comparison.parting import DecidingEvent, Divergence, parting
 from handeye.core.entries import require
 from handeye.core.errors import BadFile
 from handeye.core.faults import Fault
@@ -77,7 +77,7 @@ def _fault(task: Task | None, seed: int, fault: Fault) -> str:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Compared:
+class ComparedRun:
     """One of the compared runs."""
 
     name: str
@@ -106,14 +106,14 @@ class Stages:
 class Comparison:
     """Two runs beside each other."""
 
-    a: Compared
-    b: Compared
+    a: ComparedRun
+    b: ComparedRun
     measures: Measures  # Units in which people read the first difference
     conditions: tuple[Condition, ...]
     thinned: bool
     """A trace is thinned to some of its servo periods, whose sensor values are then not compared."""
     first: First | None
-    parted: Parting | None
+    parted: Divergence | None
     searches: tuple[Searches, ...]  # Places that each search tried
     stops: tuple[Stops, ...]  # Ends of guarded motions
     corrections: tuple[Corrections, ...]  # Saved differences, and located parts
@@ -157,9 +157,9 @@ def comparison(a: RecordedRun, b: RecordedRun) -> Comparison:
     )
 
 
-def _compared(run: RecordedRun) -> Compared:
+def _compared(run: RecordedRun) -> ComparedRun:
     head = run.trace.head
-    return Compared(
+    return ComparedRun(
         name=run.trace.name,
         program=head.program,
         world=str(head.world),
@@ -201,7 +201,7 @@ def _first(first: First) -> dict[str, Any]:
     }
 
 
-def _turning(turning: Turning | None) -> dict[str, Any] | None:
+def _turning(turning: DecidingEvent | None) -> dict[str, Any] | None:
     return None if turning is None else {"place": turning.place, "event": turning.event}
 
 

@@ -12,7 +12,7 @@ from handeye.report.recorded import RecordedRun
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Turning:
+class DecidingEvent:
     """An event that decides the course of a run."""
 
     place: Place | None  # The step under way, or done last; None: before the first one
@@ -20,11 +20,11 @@ class Turning:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Parting:
+class Divergence:
     """The first event at which the courses of two runs differ."""
 
-    a: Turning | None  # Where the first run stood, and what happened next; None: it has ended before
-    b: Turning | None
+    a: DecidingEvent | None  # Where the first run stood, and what happened next; None: it has ended before
+    b: DecidingEvent | None
 
     @property
     def place(self) -> Place | None:
@@ -33,7 +33,7 @@ class Parting:
         return None if turning is None else turning.place
 
 
-def parting(runs: TwoRuns) -> Parting | None:
+def parting(runs: TwoRuns) -> Divergence | None:
     """Where the courses of two runs part; None: nowhere.
 
     The course consists of the steps, and of what decides about them: guards met, errors raised, answers to tests, what
@@ -41,15 +41,15 @@ def parting(runs: TwoRuns) -> Parting | None:
     """
     for a, b in zip_longest(_turnings(runs.a), _turnings(runs.b)):
         if a is None or b is None or not _alike(runs, a.event, b.event):
-            return Parting(a=a, b=b)
+            return Divergence(a=a, b=b)
     return None
 
 
-def _turnings(run: RecordedRun) -> Iterator[Turning]:
+def _turnings(run: RecordedRun) -> Iterator[DecidingEvent]:
     place: Place | None = None
     for event in run.trace.events:
         if _decides(event) is not None:
-            yield Turning(place=place, event=event)
+            yield DecidingEvent(place=place, event=event)
         if isinstance(event, StepStarted):
             place = place_of(run, event)
 

@@ -6,7 +6,7 @@ from typing import Any, Final
 from handeye.comparison.comparison import Comparison, Condition
 from handeye.comparison.findings import Corrections, Searches, Stops
 from handeye.comparison.first import First
-from handeye.comparison.parting import Parting
+from handeye.comparison.parting import Divergence
 from handeye.comparison.wording import (
     THINNED,
     correction_words,
@@ -59,7 +59,7 @@ def _first(first: First, measures: Measures) -> Iterator[str]:
     yield from (f"  {line}" for line in first_words(first, measures))
 
 
-def _parted(parted: Parting | None) -> Iterator[str]:
+def _parted(parted: Divergence | None) -> Iterator[str]:
     if parted is None:
         yield "Both went the same way: the same steps, stops, errors and answers."
         return

@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from typing import Final
 
-from handeye.comparison.comparison import Compared, Comparison
+from handeye.comparison.comparison import ComparedRun, Comparison
 from handeye.comparison.findings import Correction, Search, Stop
 from handeye.comparison.first import EVENT, First
 from handeye.comparison.pairing import Place
-from handeye.comparison.parting import Turning
+from handeye.comparison.parting import DecidingEvent
 from handeye.core.plain_text import counted, one_line
 from handeye.core.units import DEGREE, UNITS, Measures
 from handeye.program.events import AnyEvent, StepStarted
@@ -39,7 +39,7 @@ def same_words(found: Comparison) -> str:
     return "both did the same." if found.thinned else "both did the same, to the last bit."
 
 
-def run_words(run: Compared) -> str:
+def run_words(run: ComparedRun) -> str:
     """A run, and its outcome."""
     return f"{run.name}: {run.program}, {run.world}, {run.seconds:.1f} s: {_CAME_TO[run.came_to]}"
 
@@ -62,7 +62,7 @@ def _next(event: AnyEvent | None) -> str:
     return "no event there" if event is None else sentence(event)
 
 
-def turning_words(turning: Turning | None) -> str:
+def turning_words(turning: DecidingEvent | None) -> str:
     """How a run continued."""
     if turning is None:
         return "it has ended"

@@ -36,7 +36,7 @@ class Size:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Expected:
+class ExpectedDetection:
     """How a run with a fault of usual size, present from the start, should end."""
 
     errors: tuple[int, ...] = ()  # errors that identify it
@@ -46,7 +46,7 @@ class Expected:
     harmless: str = ""  # why the work may still come out right; empty: it must be noticed
 
 
-UNKNOWN: Final = Expected()  # no expectation stated
+UNKNOWN: Final = ExpectedDetection()  # no expectation stated
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,7 +59,7 @@ class FaultKind:
     when: Literal["before", "during"] = "during"
     """`before` the run: in the world from the start only; `during` it: from the start or with a stage."""
     usual_stage: int | None = None  # default onset, stage from 1; None: from the start
-    expected: Expected = UNKNOWN
+    expected: ExpectedDetection = UNKNOWN
 
     @property
     def from_start(self) -> bool:  # cannot set in during work

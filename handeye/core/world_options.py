@@ -12,7 +12,7 @@ from handeye.core.units import UNITS, Unit, split_value, unit_named
 from handeye.core.variation import Overrides, Variation, within
 
 
-class Measured(Protocol):
+class WritableQuantity(Protocol):
     """A named quantity whose value can be written with a unit."""
 
     @property
@@ -51,7 +51,7 @@ def _setting(variation: Variation, text: str) -> dict[str, float]:
     return {quantity.name: value_of(quantity, value) for quantity in variation.select(name)}
 
 
-def value_of(quantity: Measured, text: str) -> float:
+def value_of(quantity: WritableQuantity, text: str) -> float:
     """A value of a quantity as written, SI, in its own unit by default; raises BadArgument."""
     written = split_value(text)
     if written is None:
@@ -64,7 +64,7 @@ def value_of(quantity: Measured, text: str) -> float:
     return value
 
 
-def _unit(quantity: Measured, word: str) -> Unit:
+def _unit(quantity: WritableQuantity, word: str) -> Unit:
     """The unit of a word after a number; raises BadArgument if it does not fit the quantity."""
     unit, wanted = unit_named(word), quantity.measure.dimension
     if unit is None or unit.dimension != wanted:
@@ -74,7 +74,7 @@ def _unit(quantity: Measured, word: str) -> Unit:
     return unit
 
 
-def _limits(quantity: Measured) -> str:
+def _limits(quantity: WritableQuantity) -> str:
     (low, high), unit = quantity.limits, quantity.unit and f" {quantity.unit}"
     if np.isinf(high):
         return "" if np.isinf(low) else f"; {low:g}{unit} is the least"

@@ -13,7 +13,7 @@ from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.flow_actions import DECISIONS, FLOW_ACTIONS
 from handeye.execution.hand_actions import HAND_ACTIONS
 from handeye.execution.motion_actions import MOTION_ACTIONS
-from handeye.execution.state import ExecutionState, Fault, Undoing, vector
+from handeye.execution.state import ExecutionState, Fault, ReversalOrder, vector
 from handeye.execution.undo.memory import before, noted
 from handeye.execution.undo.undoing import end, order, undo_last
 from handeye.execution.vision_actions import VISION_ACTIONS
@@ -93,7 +93,7 @@ class Executor:
             self.state.unwound[here] = self.state.unwound.get(here, 0) + 1
             done = self.state.done
             began = next(index for index in reversed(range(len(done))) if done[index].enters)
-            self.undo(Undoing(left=began, asked_by="program"))
+            self.undo(ReversalOrder(left=began, asked_by="program"))
         elif self.state.pending is not None and not self._tests(self.state.at):
             self._stop(error=self.state.pending.number, cause=self.state.pending.cause)
         else:
@@ -117,7 +117,7 @@ class Executor:
         run.emit(OperatorAnswered(time=run.time, choice=choice, step=self.state.at))
         self._leave("skipped" if choice == "skip" else "done")
 
-    def undo(self, undoing: Undoing) -> None:
+    def undo(self, undoing: ReversalOrder) -> None:
         """Order the reversal of executed steps, last first, until `left` remain; raises Refused if none are left."""
         if undoing.asked_by == "person":
             self.state.unwound.clear()

@@ -49,7 +49,7 @@ class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
     called: bool = False  # called the operator
 
 
-class Undoing(Record, frozen=True, kw_only=True):
+class ReversalOrder(Record, frozen=True, kw_only=True):
     """An order to reverse executed steps until `left` remain."""
 
     left: Natural
@@ -182,7 +182,7 @@ class ExecutionState(SystemState, kw_only=True):
     faint: list[str] = msgspec.field(default_factory=list)  # statements whose guards were reported as faint
     done: list[ExecutedStep] = msgspec.field(default_factory=list)
     """Executed steps that are not reversed, in order."""
-    undoing: Undoing | None = None  # the reversal in progress
+    undoing: ReversalOrder | None = None  # the reversal in progress
     lets_go: Natural | None = None
     """Index of the step that took the screw which has been turned out: reversed, it leaves the screw there."""
     held: float | None = None

@@ -12,7 +12,7 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Array, Pose, inverse, pose
 
 
-class Measured:
+class SettledState:
     """A copy of a cell's state: as it was left, or settled."""
 
     def __init__(self, truth: Truth, settle: float = 0.0) -> None:

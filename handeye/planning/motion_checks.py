@@ -18,7 +18,7 @@ from handeye.core.units import INCH
 from handeye.planning.grasp_state import GraspState
 from handeye.program.diagnosis.plan_findings import PlanFinding, RunsInto, TooFaint, TooHeavy, TooWeak
 from handeye.program.flow_operations import Load
-from handeye.program.guards import Exerted, Guards
+from handeye.program.guards import Guards, HandLoad
 from handeye.program.motion_operations import Change
 from handeye.program.program import Program, Step
 
@@ -141,7 +141,7 @@ LOAD_STRIDE: Final = 8  # of the configurations of a motion, every eighth is che
 class Demand:
     """A force or moment to be exerted on a motion; `guard`: a guard waits for it."""
 
-    exerted: Exerted
+    exerted: HandLoad
     guard: bool
 
 
@@ -154,7 +154,7 @@ def to_stop(guards: Guards, along: Vector3 | None = None) -> list[Demand]:
 def to_press(operation: Change) -> list[Demand]:
     """Demands of a straight motion that presses or turns."""
     both = ((operation.press, False), (operation.moment, True))
-    exerted = (Exerted(wanted, turning) for wanted, turning in both if wanted is not None)
+    exerted = (HandLoad(wanted, turning) for wanted, turning in both if wanted is not None)
     return [Demand(one, guard=False) for one in exerted]
 
 

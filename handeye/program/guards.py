@@ -23,7 +23,7 @@ class GuardKind(StrEnum):
     TOUCH = "touch"
 
 
-class Exerted(NamedTuple):
+class HandLoad(NamedTuple):
     """A force (N), or moment (N m) if `turning`, that the hand exerts, table axes."""
 
     vector: Vector3
@@ -42,7 +42,7 @@ class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda nam
         """The sense it depends on; None for the screwdriver's motor current."""
         return TESTED.get(cls.error)
 
-    def exerted(self, along: Vector3 | None) -> "Exerted | None":
+    def exerted(self, along: Vector3 | None) -> "HandLoad | None":
         """The least force or moment that meets it in a motion along a vector; None if none does."""
         return None
 
@@ -56,8 +56,8 @@ class Force(Guard, frozen=True, kw_only=True):
 
     force: Vector3
 
-    def exerted(self, along: Vector3 | None) -> Exerted:
-        return Exerted(self.force, turning=False)
+    def exerted(self, along: Vector3 | None) -> HandLoad:
+        return HandLoad(self.force, turning=False)
 
 
 class Against(Guard, frozen=True, kw_only=True):
@@ -69,12 +69,12 @@ class Against(Guard, frozen=True, kw_only=True):
 
     force: float
 
-    def exerted(self, along: Vector3 | None) -> Exerted | None:
+    def exerted(self, along: Vector3 | None) -> HandLoad | None:
         if along is None:
             return None
         x, y, z = along
         scale = self.force / math.hypot(x, y, z)
-        return Exerted((x * scale, y * scale, z * scale), turning=False)
+        return HandLoad((x * scale, y * scale, z * scale), turning=False)
 
 
 class Moment(Guard, frozen=True, kw_only=True):
@@ -86,8 +86,8 @@ class Moment(Guard, frozen=True, kw_only=True):
 
     moment: Vector3
 
-    def exerted(self, along: Vector3 | None) -> Exerted:
-        return Exerted(self.moment, turning=True)
+    def exerted(self, along: Vector3 | None) -> HandLoad:
+        return HandLoad(self.moment, turning=True)
 
 
 class Torque(Guard, frozen=True, kw_only=True):

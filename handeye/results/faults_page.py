@@ -9,7 +9,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from handeye.core.errors import ERRORS
-from handeye.core.faults import Catalogue, Expected, FaultKind, Size
+from handeye.core.faults import Catalogue, ExpectedDetection, FaultKind, Size
 
 
 class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
@@ -21,7 +21,7 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
     from_start: bool  # It can be there only from the beginning
     usual_stage: int | None
     """Number of the stage at which it sets in by default; None: it is present from the start."""
-    expected: Expected
+    expected: ExpectedDetection
     must: str  # What must happen with it, a sentence
     matrix: bool
 
@@ -74,7 +74,7 @@ def _reported(kind: FaultKind, catalogue: Catalogue) -> FaultReport:
     )
 
 
-def _must(expected: Expected) -> str:
+def _must(expected: ExpectedDetection) -> str:
     """What must happen with a fault, a sentence."""
     errors = " or ".join(f"{number} ({ERRORS[number]})" for number in expected.errors)
     ways = [

@@ -17,7 +17,7 @@ from handeye.core.plain_text import counted
 from handeye.execution.context import ExecutionContext, Stopwatch
 from handeye.execution.scheduler import Deadlock
 from handeye.execution.servo import Halted, ServoPeriod
-from handeye.execution.state import Undoing
+from handeye.execution.state import ReversalOrder
 from handeye.program.events import (
     AnyEvent,
     AskedBy,
@@ -38,7 +38,7 @@ from handeye.program.system_state import TaskPlace
 from handeye.runs.observer import Observer
 from handeye.runs.parts import OWN, Parts
 from handeye.runs.snapshot import Checkpoint, Snapshot, interfered
-from handeye.runs.system import RunningSystem, StepFacts, Surroundings
+from handeye.runs.system import RunCallbacks, RunningSystem, StepFacts
 from handeye.runs.systems import listing_of, system_of
 from handeye.tasks import any_task
 from handeye.tasks.interface import AnyTask
@@ -83,7 +83,7 @@ class Runner:
         self.kind = system_of(start.setup)  # the system that carries it out, as a value
         self.system: RunningSystem = self.kind.build(
             start.setup,
-            Surroundings(
+            RunCallbacks(
                 emit=self._emit,
                 watch=self._watch,
                 halt=halt,
@@ -243,7 +243,7 @@ class Runner:
     def order_reversal(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
         """Each step now has the arm undo an executed one, until `left` are left; the run ends there if `halts`."""
         self.require("undo")
-        self.system.reverse(Undoing(left=left, halts=halts, asked_by=asked_by))
+        self.system.reverse(ReversalOrder(left=left, halts=halts, asked_by=asked_by))
         self._settle()
 
     def finish(self) -> bool:

@@ -19,7 +19,7 @@ from handeye.core.errors import BadFile, Refused
 from handeye.core.record import Record
 from handeye.execution.context import ExecutionContext, Stopwatch
 from handeye.execution.servo import ServoPeriod
-from handeye.execution.state import Shot, Undoing
+from handeye.execution.state import ReversalOrder, Shot
 from handeye.judge.finding import Findings
 from handeye.ports.axes import Channel
 from handeye.program.events import AnyEvent, Choice
@@ -198,7 +198,7 @@ class RunningSystem(Protocol):
         """Steps that were executed and that the arm has not undone, in order; none of a system that cannot undo."""
         return ()
 
-    def reverse(self, undoing: Undoing) -> None:
+    def reverse(self, undoing: ReversalOrder) -> None:
         """From now on each step undoes one that was executed, the last first; raises InvalidInput without any."""
 
     def finish(self) -> bool:
@@ -258,7 +258,7 @@ class RunningSystem(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Surroundings:
+class RunCallbacks:
     """Callbacks that a system is given by the run that drives it."""
 
     emit: Callable[[AnyEvent], None]
@@ -317,7 +317,7 @@ class System(ABC):
         """Stages and steps of a plan."""
 
     @abstractmethod
-    def build(self, setup: Setup, around: Surroundings) -> RunningSystem:
+    def build(self, setup: Setup, around: RunCallbacks) -> RunningSystem:
         """A run's machine, before its first step; raises InvalidInput if it cannot be built here."""
 
     def machine(self, plan: Any) -> tuple[str, str]:
@@ -337,7 +337,7 @@ class System(ABC):
         """Steps of a plan that were executed and not undone, by a state."""
         return ()
 
-    def order(self, plan: Any, state: Any, undoing: Undoing) -> None:
+    def order(self, plan: Any, state: Any, undoing: ReversalOrder) -> None:
         """Let a state be one in which the arm undoes what it did; raises InvalidInput if there is nothing to undo."""
         raise refusal(self.name, "undo")
 

@@ -8,7 +8,7 @@ from handeye.core.diagnostics import quoted
 from handeye.core.entries import require
 from handeye.core.errors import Refused
 from handeye.core.mutable_records import copied
-from handeye.execution.state import Undoing
+from handeye.execution.state import ReversalOrder
 from handeye.program.events import AnyEvent, StepFinished, StepStarted, UndoEnded, UndoOrdered
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -34,7 +34,7 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
     state = copied(snapshot.state)
     executed = kind.executed(plan, state)
     _check_whole(checkpoint, executed, name)
-    undoing = Undoing(
+    undoing = ReversalOrder(
         left=0 if stage is None else stage_began(executed, listing_of(checkpoint.setup), stage), halts=True
     )
     kind.order(plan, state, undoing)

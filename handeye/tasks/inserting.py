@@ -20,7 +20,7 @@ SPREAD: Final = 1.0  # sigma of the error of the hole's place along each axis, m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Witnessed:
+class InsertionTruth:
     """The truth of an insertion, which the program never knows."""
 
     peak: float  # greatest resultant of all contacts between the two in any physics step, N
@@ -29,7 +29,7 @@ class Witnessed:
     right: bool  # whether it is seated now
 
 
-class Inserting(Task):
+class InsertionTask(Task):
     """A task of one hole; its programs fetch what goes into it in their first stage."""
 
     programs: Mapping[str, str]  # script files among the plans, by the name of their search
@@ -47,5 +47,5 @@ class Inserting(Task):
         """Quantities of a world whose hole is off by an error (x, y, m) from below what is held over it; SI."""
 
     @abstractmethod
-    def witnessed(self, cell: SimulatedCell) -> Witnessed:
+    def witnessed(self, cell: SimulatedCell) -> InsertionTruth:
         """What the witness in a cell of this task has seen so far."""

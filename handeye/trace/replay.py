@@ -125,7 +125,7 @@ class Moment:
 
 
 @dataclass(frozen=True, slots=True)
-class _Telling:
+class _StageSpan:
     time: float
     stage: str | None
     step: StepStarted | None
@@ -202,8 +202,8 @@ def _placed(moved: Iterable[tuple[int, dict[str, Pose7]]], rows: int) -> tuple[t
     return names, placed
 
 
-def _tellings(events: Iterable[AnyEvent]) -> list[_Telling]:
-    told: list[_Telling] = []
+def _tellings(events: Iterable[AnyEvent]) -> list[_StageSpan]:
+    told: list[_StageSpan] = []
     stage: str | None = None
     step: StepStarted | None = None
     for event in events:
@@ -216,5 +216,5 @@ def _tellings(events: Iterable[AnyEvent]) -> list[_Telling]:
                 step = event
             case _:
                 continue
-        told.append(_Telling(event.time, stage, step))
+        told.append(_StageSpan(event.time, stage, step))
     return told

@@ -131,19 +131,19 @@ _TABLES: Final[Mapping[str, Callable[[Trace], Table]]] = {
 
 
 @dataclass(frozen=True, slots=True)
-class _Happening:
+class _RunPosition:
     stage: str
     step: StepStarted | None
 
 
-def _happening(events: Iterable[AnyEvent]) -> Iterator[_Happening]:
+def _happening(events: Iterable[AnyEvent]) -> Iterator[_RunPosition]:
     stage, step = "", None
     for event in events:
         if isinstance(event, StageStarted):
             stage = event.stage
         elif isinstance(event, StepStarted):
             step = event
-        yield _Happening(stage, step)
+        yield _RunPosition(stage, step)
 
 
 def _under_way(trace: Trace, times: Array) -> tuple[Column, ...]:
@@ -160,7 +160,7 @@ def _since(trace: Trace, times: Array) -> Column:
     )
 
 
-def _places(happening: Iterable[_Happening]) -> tuple[Column, ...]:
+def _places(happening: Iterable[_RunPosition]) -> tuple[Column, ...]:
     each = tuple(happening)
     steps = np.array([NO_STEP if at.step is None else at.step.step for at in each], dtype=np.int64)
     lines = tuple("" if at.step is None else at.step.place for at in each)

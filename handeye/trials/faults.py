@@ -7,7 +7,7 @@ from typing import Annotated, Final, Literal
 
 import msgspec
 
-from handeye.core.faults import Catalogue, Expected, Fault, FaultKind
+from handeye.core.faults import Catalogue, ExpectedDetection, Fault, FaultKind
 from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
@@ -34,7 +34,7 @@ PANIC: Final = FaultKind(
     name="panic",
     meaning="Somebody hits the panic button while the arm moves. A run is given it by Ctrl-C, and not by --fault.",
     usual_stage=4,
-    expected=Expected(calls=("stopped by the panic button; the brakes are set",)),
+    expected=ExpectedDetection(calls=("stopped by the panic button; the brakes are set",)),
 )
 """No fault of a cell: the button of whoever stands beside it."""
 
@@ -172,7 +172,7 @@ def _message(result: Result) -> str:
     return result.message
 
 
-def outcome(expected: Expected, result: Result, *, braked: bool) -> Outcome:
+def outcome(expected: ExpectedDetection, result: Result, *, braked: bool) -> Outcome:
     """How a run ended that should have ended as expected; `braked`: the brakes were on when it had."""
     if result.exit_code == 3:
         return "silent"
@@ -183,14 +183,14 @@ def outcome(expected: Expected, result: Result, *, braked: bool) -> Outcome:
     return "stopped" if _named(expected, result) and _placed(expected, result) else "misnamed"
 
 
-def _named(expected: Expected, result: Result) -> bool:
+def _named(expected: ExpectedDetection, result: Result) -> bool:
     """See whether a run stopped by something that calls the fault by its right name."""
     if result.error is not None:
         return result.error in expected.errors
     return expected.at_setup if result.stopped_at is None else result.message in expected.calls
 
 
-def _placed(expected: Expected, result: Result) -> bool:
+def _placed(expected: ExpectedDetection, result: Result) -> bool:
     """See whether a run stopped where that name is the right one."""
     return not expected.stages or result.stopped_at is None or result.stopped_at in expected.stages
 

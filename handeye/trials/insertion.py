@@ -33,7 +33,7 @@ from handeye.runs.scripts import taught_beside
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.tasks import task
-from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD, Inserting
+from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD, InsertionTask
 from handeye.trials.sweep import Case, Details, Sweep, TrialRow
 
 Search = Literal["gentle", "1973"]
@@ -45,10 +45,10 @@ _STEP_SHARE: Final = 0.92
 _PLACE: Final = 0.005  # in, to which it is rounded down
 
 
-def bench() -> Inserting:
+def bench() -> InsertionTask:
     """The task of the bench."""
     found = task(TASK)
-    assert isinstance(found, Inserting)
+    assert isinstance(found, InsertionTask)
     return found
 
 
@@ -110,7 +110,7 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
     told: str = ""
 
 
-class _Feeling(Observer):
+class _ForcePeak(Observer):
     """Keeps the greatest force that the hand felt, N."""
 
     def __init__(self) -> None:
@@ -213,7 +213,7 @@ def tried(
         return replace(trial, told=_told(begun))
     drawn = random_numbers(trial.seed, f"insertion.error.{trial.number}").standard_normal(2) * condition.sd
     trial = replace(trial, error=(round(float(drawn[0]), 6), round(float(drawn[1]), 6)))
-    feeling = _Feeling()
+    feeling = _ForcePeak()
     start = _beginning(condition, begun, trial, plan or condition.plan)
     runner = Runner(start, observers=lambda _: [feeling])
     began = runner.time

@@ -52,12 +52,12 @@ class Worker:
         with deaf_to_interrupts():
             self.process.start()
         there.close()  # so that both ends are told when the other is gone
-        self.given: _Given[Any] | None = None
+        self.given: _Assignment[Any] | None = None
         self._send(
             trial
         )  # not with the process: whoever starts one writes for ever if it is killed meanwhile
 
-    def give(self, given: "_Given[Any]") -> None:
+    def give(self, given: "_Assignment[Any]") -> None:
         """Let it carry out a trial."""
         self.given, given.timer = given, HostTimer()
         self._send(given.item)
@@ -74,7 +74,7 @@ class Worker:
 
 
 @dataclass(slots=True, kw_only=True)
-class _Given(Generic[Item]):
+class _Assignment(Generic[Item]):
     """A trial that is to be carried out, or is under way."""
 
     item: Item
@@ -89,7 +89,7 @@ def answers(
 
     A trial whose process is killed is begun once more in a new one; one that takes `limit_s` is ended for good.
     """
-    todo = deque(_Given[Item](item=item) for item in items)
+    todo = deque(_Assignment[Item](item=item) for item in items)
     workers: list[Worker] = []
     try:
         while todo or any(worker.given for worker in workers):
@@ -101,7 +101,7 @@ def answers(
             for worker in _heard(workers, limit_s):
                 answer = _answer(worker, limit_s)
                 if answer.lost and answer.killed < TRIES:
-                    todo.appendleft(_Given(item=answer.item, killed=answer.killed))
+                    todo.appendleft(_Assignment(item=answer.item, killed=answer.killed))
                 else:
                     yield answer
                 if worker.given is not None:  # it is lost

@@ -25,7 +25,7 @@ from handeye.vision.drawing import annotate
 _FINER: Final = 2  # drawn points per frame point along a side
 _SHADOW: Final = 2048
 
-Told = Callable[[int, int], None]  # progress: frames drawn, and their number
+Progress = Callable[[int, int], None]  # progress: frames drawn, and their number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,7 +39,7 @@ class Video:
 
 
 def make_video(
-    trace: Trace, path: Path, wanted: VideoRequest, *, overwrite: bool, told: Told = lambda done, of: None
+    trace: Trace, path: Path, wanted: VideoRequest, *, overwrite: bool, told: Progress = lambda done, of: None
 ) -> Video:
     """Write a video of a recorded run, whole or not at all, without simulation; raises Taken unless `overwrite`."""
     require(trace.head.system, "video", trace.name)
@@ -55,7 +55,7 @@ def make_video(
     return Video(path=path, seconds=board.seconds, frames=len(board.frames), bytes=len(data))
 
 
-def _drawn(trace: Trace, board: Storyboard, wanted: VideoRequest, told: Told) -> Iterator[Photograph]:
+def _drawn(trace: Trace, board: Storyboard, wanted: VideoRequest, told: Progress) -> Iterator[Photograph]:
     """Draw the frames in order."""
     photographer = Photographer(
         trace.scene, width=_FINER * wanted.width, height=_FINER * wanted.height, shadow=_SHADOW

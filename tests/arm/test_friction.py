@@ -10,7 +10,7 @@ from handeye.arm.ik import solve
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel
 from handeye.core.pose import hand
-from handeye.program.guards import Exerted
+from handeye.program.guards import HandLoad
 
 
 @pytest.fixture(scope="module", params=ROBOTS)
@@ -28,7 +28,7 @@ def posture(arm: ArmModel) -> np.ndarray:
 def reach(arm: ArmModel, vector: np.ndarray) -> float:
     """How far friction is felt along a vector at most, N."""
     felt = felt_friction(arm, posture(arm), np.array(arm.compliance.friction))
-    most = faint(felt, Exerted(tuple(vector * 1e-9), turning=False))
+    most = faint(felt, HandLoad(tuple(vector * 1e-9), turning=False))
     assert most is not None
     return most
 
@@ -45,5 +45,5 @@ def test_a_force_of_three_times_as_much_is_clear_of_friction(arm: ArmModel) -> N
     down = np.array([0.0, 0.0, -1.0])
     felt = felt_friction(arm, posture(arm), np.array(arm.compliance.friction))
     clear = MARGIN * reach(arm, down)
-    assert faint(felt, Exerted((0.0, 0.0, -clear * 1.001), turning=False)) is None
-    assert faint(felt, Exerted((0.0, 0.0, -clear * 0.999), turning=False)) is not None
+    assert faint(felt, HandLoad((0.0, 0.0, -clear * 1.001), turning=False)) is None
+    assert faint(felt, HandLoad((0.0, 0.0, -clear * 0.999), turning=False)) is not None

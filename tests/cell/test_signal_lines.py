@@ -9,7 +9,7 @@ import pytest
 from handeye.arm.kinematics import jacobian
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
-from handeye.cell.defects import DEAD, PICTURE, Defect, Drifting, Effect, Scaled, Shifted, Stuck
+from handeye.cell.defects import DEAD, PICTURE, Defect, DriftEffect, Effect, GainEffect, OffsetEffect, Stuck
 from handeye.cell.signal_lines import DefectState, SignalLines, SignalLinesState
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.errors import InvalidInput
@@ -22,9 +22,9 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 EFFECTS = {
     "stuck": (Stuck(), [5.0, 5.0, 5.0]),
     "stuck at a value": (Stuck(1.0), [1.0, 1.0, 1.0]),
-    "shifted": (Shifted(0.5), [5.5, 6.5, 7.5]),
-    "drifting": (Drifting(0.5), [5.0, 6.5, 8.0]),
-    "weak": (Scaled(0.5), [2.5, 3.0, 3.5]),
+    "shifted": (OffsetEffect(0.5), [5.5, 6.5, 7.5]),
+    "drifting": (DriftEffect(0.5), [5.0, 6.5, 8.0]),
+    "weak": (GainEffect(0.5), [2.5, 3.0, 3.5]),
     "dead": (DEAD, [0.0, 0.0, 0.0]),
 }
 
@@ -46,7 +46,7 @@ def test_a_defect_changes_what_its_line_carries_and_no_other(name: str) -> None:
 
 
 def test_defects_of_one_line_act_one_after_the_other() -> None:
-    both = SignalLines([Defect(line="a", effect=Shifted(1.0)), Defect(line="a", effect=Scaled(2.0))])
+    both = SignalLines([Defect(line="a", effect=OffsetEffect(1.0)), Defect(line="a", effect=GainEffect(2.0))])
     assert both.carried("a", 5.0) == 12.0
 
 
@@ -75,7 +75,7 @@ def test_a_frozen_picture_is_the_first_one_whatever_is_seen() -> None:
 
 
 def test_lines_go_on_as_from_the_state_they_are_put_into() -> None:
-    defects = [Defect(line="a", effect=effect) for effect in (Stuck(), Drifting(0.5))]
+    defects = [Defect(line="a", effect=effect) for effect in (Stuck(), DriftEffect(0.5))]
     lines, other = SignalLines(defects), SignalLines(defects)
     arrived(lines)
     other.restore(lines.state())
@@ -119,7 +119,7 @@ def arm(line: str, effect: Effect) -> tuple[SimulatedCell, SimulatedArm]:
 
 
 def test_a_potentiometer_off_reads_wrong_and_the_arm_stands_where_it_stood() -> None:
-    cell, broken = arm("potentiometer.2", Shifted(0.1))
+    cell, broken = arm("potentiometer.2", OffsetEffect(0.1))
     cell.advance(JIFFY)
     assert broken.read().q - PARK == pytest.approx([0, 0.1, 0, 0, 0, 0], abs=1e-4)
     assert cell.truth.data.qpos[broken.qpos] == pytest.approx(PARK, abs=1e-4)
@@ -148,12 +148,12 @@ def actuated(line: str, effect: Effect) -> np.ndarray:
 
 
 def test_a_weak_drive_exerts_its_share_of_the_torque_it_is_told() -> None:
-    assert actuated("drive.5", Scaled(0.25)) == pytest.approx([1, 1, 1, 1, 0.25, 1])
+    assert actuated("drive.5", GainEffect(0.25)) == pytest.approx([1, 1, 1, 1, 0.25, 1])
 
 
 def test_drives_off_zero_exert_what_the_force_at_the_hand_is_to_them() -> None:
     force = 2.0 * jacobian(STANFORD, PARK)[2]
-    assert actuated("force.z", Shifted(2.0)) == pytest.approx(1 + force, abs=1e-6)
+    assert actuated("force.z", OffsetEffect(2.0)) == pytest.approx(1 + force, abs=1e-6)
 
 
 def test_a_brake_that_slips_lets_the_arm_down() -> None:
@@ -167,7 +167,7 @@ def test_a_brake_that_slips_lets_the_arm_down() -> None:
 
 CAPTURED: dict[str, Callable[[], tuple[SimulatedCell, SimulatedArm]]] = {
     "stuck": lambda: arm("potentiometer.1", Stuck()),
-    "drifting": lambda: arm("potentiometer.1", Drifting(0.1)),
+    "drifting": lambda: arm("potentiometer.1", DriftEffect(0.1)),
 }
 
 

@@ -15,7 +15,7 @@ from handeye.cell.threads import holes_of
 from handeye.core.mutable_records import copied
 from handeye.core.pose import translated
 from handeye.core.units import INCH, OUNCE_INCH
-from handeye.execution.state import ExecutionState, Undoing
+from handeye.execution.state import ExecutionState, ReversalOrder
 from handeye.execution.undo.retracing import Resistance
 from handeye.execution.undo.way import RecordedPath, packed, unpacked
 from handeye.program.diagnosis.causes import ScrewFast, ScrewLost, UndoResisted
@@ -59,7 +59,7 @@ def driven() -> Bench:
 
 def undo(run: Bench) -> Bench:
     """Undo all of it, or as much as the guards let."""
-    run.executor.undo(Undoing(left=0, halts=True))
+    run.executor.undo(ReversalOrder(left=0, halts=True))
     return run.go()
 
 
@@ -85,7 +85,7 @@ def test_the_magnet_is_on_again_when_the_screw_is_left_behind() -> None:
 def turned_out() -> Bench:
     """A screw that is out, and hangs from the bit."""
     run = driven()
-    run.executor.undo(Undoing(left=0, halts=True))
+    run.executor.undo(ReversalOrder(left=0, halts=True))
     return run.go(lambda: holes_of(run.cell.truth)[0].screw is None)
 
 
@@ -102,7 +102,7 @@ def test_a_program_that_goes_on_finds_the_magnet_on() -> None:
     run = turned_out()
     taken = run.run.state.lets_go
     assert taken is not None
-    run.executor.undo(Undoing(left=taken))
+    run.executor.undo(ReversalOrder(left=taken))
     run.go(lambda: run.executor.state.undoing is None)
     assert len(run.executor.state.done) == taken
     assert run.run.drive.state.magnet
@@ -145,7 +145,7 @@ def test_a_screw_that_is_half_out_when_the_arm_is_stopped_comes_out_later(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     run, check, periods = driven(), Resistance.check, [0]
-    run.executor.undo(Undoing(left=0, halts=True))
+    run.executor.undo(ReversalOrder(left=0, halts=True))
 
     def hindered(self: Resistance, reading: Reading) -> Trip | None:
         periods[0] += run.run.drive.state.tool < 0

@@ -31,7 +31,7 @@ from handeye.program.events import (
 from handeye.program.system_state import SystemState, TaskPlace
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.system import RunningSystem, Settable, StepperWords, Surroundings, System
+from handeye.runs.system import RunCallbacks, RunningSystem, Settable, StepperWords, System
 
 SECOND = 1_000_000
 """Microseconds of the machine's clock that a line takes."""
@@ -108,7 +108,7 @@ class CounterMachine(RunningSystem):
     cell = None
     trouble = None
 
-    def __init__(self, setup: Setup, around: Surroundings) -> None:
+    def __init__(self, setup: Setup, around: RunCallbacks) -> None:
         assert isinstance(setup.plan, Lines)
         self._setup, self._around, self._lines = setup, around, setup.plan
         self._state = Registers()
@@ -270,7 +270,7 @@ class ToySystem(System):
     def listing(self, plan: Lines) -> Lines:
         return plan
 
-    def build(self, setup: Setup, around: Surroundings) -> CounterMachine:
+    def build(self, setup: Setup, around: RunCallbacks) -> CounterMachine:
         return CounterMachine(setup, around)
 
 

@@ -32,7 +32,7 @@ from handeye.program.events import (
 from handeye.program.system_state import SystemState
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.system import RunningSystem, Surroundings, System
+from handeye.runs.system import RunCallbacks, RunningSystem, System
 from handeye.tasks.interface import AnyTask, Words
 
 SCENE = """<mujoco><option timestep=".00083333333333" integrator="implicitfast"><flag sleep="enable"/></option>
@@ -76,7 +76,7 @@ class TwoMachines(RunningSystem):
     trouble = None
     joints = ("x", "one", "other", "push")
 
-    def __init__(self, setup: Setup, around: Surroundings) -> None:
+    def __init__(self, setup: Setup, around: RunCallbacks) -> None:
         self._setup, self._around, self._state = setup, around, Rest(at=0)
         self.bench = bench = Bench(mujoco.MjModel.from_xml_string(SCENE))
         touched = {Channel(name="pad"): switch("pad"), Channel(name="ever", latched=True): switch("pad")}
@@ -178,7 +178,7 @@ class MachinesSystem(System):
     def machine(self, plan: Work) -> tuple[str, str]:
         return "both", ""
 
-    def build(self, setup: Setup, around: Surroundings) -> TwoMachines:
+    def build(self, setup: Setup, around: RunCallbacks) -> TwoMachines:
         return TwoMachines(setup, around)
 
 

@@ -11,7 +11,7 @@ from conftest import Command
 from results import result
 
 from handeye.core.errors import InvalidInput
-from handeye.core.faults import Catalogue, Expected, Fault, FaultKind
+from handeye.core.faults import Catalogue, ExpectedDetection, Fault, FaultKind
 from handeye.core.variation import WorldSpec
 from handeye.execution.servo import ServoPeriod
 from handeye.program.events import StageStarted, StepStarted
@@ -40,40 +40,40 @@ SET_UP = msgspec.structs.replace(STOPPED, error=None, stopped_at=None)
 RIGHT, WRONG = (result(completed=True, assembled=assembled) for assembled in (True, False))
 
 CATALOGUE = Catalogue(
-    FaultKind(name="lamp.dead", meaning="", expected=Expected(at_setup=True)),
-    FaultKind(name="picture.dark", meaning="", expected=Expected(at_setup=True, errors=(30,))),
-    FaultKind(name="picture.frozen", meaning="", expected=Expected(errors=(30, 32))),
+    FaultKind(name="lamp.dead", meaning="", expected=ExpectedDetection(at_setup=True)),
+    FaultKind(name="picture.dark", meaning="", expected=ExpectedDetection(at_setup=True, errors=(30,))),
+    FaultKind(name="picture.frozen", meaning="", expected=ExpectedDetection(errors=(30, 32))),
 )
 
 
 @pytest.mark.parametrize(
     ("expected", "ended", "found"),
     [
-        (Expected(errors=(30, 32)), STOPPED, "stopped"),
-        (Expected(errors=(32,), stages=("check the gasket",)), STOPPED, "stopped"),
-        (Expected(errors=(32,), stages=("turn the rotor",)), STOPPED, "misnamed"),
-        (Expected(errors=(23,)), STOPPED, "misnamed"),
-        (Expected(at_setup=True), SET_UP, "stopped"),
-        (Expected(at_setup=True, errors=(2,), stages=("turn the rotor",)), SET_UP, "stopped"),
-        (Expected(errors=(32,)), SET_UP, "misnamed"),
-        (Expected(calls=("THE ROTOR IS HARD TO TURN",)), CALLED, "stopped"),
-        (Expected(at_setup=True, errors=(32,)), CALLED, "misnamed"),
-        (Expected(errors=(32,)), RIGHT, "unnoticed"),
-        (Expected(harmless="It is."), RIGHT, "recovered"),
-        (Expected(harmless="It is."), STOPPED, "misnamed"),
-        (Expected(harmless="It is."), WRONG, "silent"),
-        (Expected(errors=(32,)), WRONG, "silent"),
+        (ExpectedDetection(errors=(30, 32)), STOPPED, "stopped"),
+        (ExpectedDetection(errors=(32,), stages=("check the gasket",)), STOPPED, "stopped"),
+        (ExpectedDetection(errors=(32,), stages=("turn the rotor",)), STOPPED, "misnamed"),
+        (ExpectedDetection(errors=(23,)), STOPPED, "misnamed"),
+        (ExpectedDetection(at_setup=True), SET_UP, "stopped"),
+        (ExpectedDetection(at_setup=True, errors=(2,), stages=("turn the rotor",)), SET_UP, "stopped"),
+        (ExpectedDetection(errors=(32,)), SET_UP, "misnamed"),
+        (ExpectedDetection(calls=("THE ROTOR IS HARD TO TURN",)), CALLED, "stopped"),
+        (ExpectedDetection(at_setup=True, errors=(32,)), CALLED, "misnamed"),
+        (ExpectedDetection(errors=(32,)), RIGHT, "unnoticed"),
+        (ExpectedDetection(harmless="It is."), RIGHT, "recovered"),
+        (ExpectedDetection(harmless="It is."), STOPPED, "misnamed"),
+        (ExpectedDetection(harmless="It is."), WRONG, "silent"),
+        (ExpectedDetection(errors=(32,)), WRONG, "silent"),
     ],
 )
 def test_an_outcome_asks_for_the_right_name_in_the_right_stage(
-    expected: Expected, ended: Result, found: str
+    expected: ExpectedDetection, ended: Result, found: str
 ) -> None:
     assert outcome(expected, ended, braked=True) == found
 
 
 @pytest.mark.parametrize("ended", [STOPPED, CALLED, SET_UP])
 def test_a_stop_without_brakes_is_undetected_whatever_its_name(ended: Result) -> None:
-    expected = Expected(errors=(32,), calls=("THE ROTOR IS HARD TO TURN",), at_setup=True)
+    expected = ExpectedDetection(errors=(32,), calls=("THE ROTOR IS HARD TO TURN",), at_setup=True)
     assert outcome(expected, ended, braked=False) == "unbraked"
 
 

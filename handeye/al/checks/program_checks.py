@@ -12,7 +12,7 @@ from handeye.al.checks.restores import check_restores
 from handeye.al.definition import Refers
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.lower import Lowered
-from handeye.al.macros import Placed
+from handeye.al.macros import ExpandedStatement
 from handeye.al.parameters import across, braced_in, parameters_in, uses
 from handeye.al.statements import ByWord, Used, Vectors, all_statements, pairs
 from handeye.al.syntax import Name, Script, Statement
@@ -33,7 +33,7 @@ class CompiledScript:
     words: ByWord
     used: Used
     vectors: Vectors
-    placed: Sequence[Placed]
+    placed: Sequence[ExpandedStatement]
     lowered: Lowered
 
 
@@ -74,7 +74,7 @@ def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:
 _POSITION_KINDS: Final = (Refers.POSITION, Refers.TARGET)
 
 
-def check_here(placed: Sequence[Placed], known: Container[str]) -> Iterator[Diagnostic]:
+def check_here(placed: Sequence[ExpandedStatement], known: Container[str]) -> Iterator[Diagnostic]:
     """An error for each use before the `HERE` it needs, in text order; `known`: positions taught or written."""
     defined: dict[str, int] = {}
     for number, item in enumerate(placed):

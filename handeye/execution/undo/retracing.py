@@ -80,7 +80,7 @@ JOIN: Final = 5e-4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Retracing:
+class ReturnPath:
     """A path back."""
 
     samples: Samples
@@ -88,7 +88,7 @@ class Retracing:
     left: Array  # path set-points left after each, (N,)
 
 
-def retracing(arm: ArmModel, q: Array, gap: float, way: RecordedPath, *, slowly: bool) -> Retracing:
+def retracing(arm: ArmModel, q: Array, gap: float, way: RecordedPath, *, slowly: bool) -> ReturnPath:
     """The path back from where the arm and its fingers are; `slowly`: at the speed of guarded motions at most."""
     rows = np.column_stack([way.q, way.gap])[::-1]
     here = np.append(q, gap)
@@ -111,7 +111,7 @@ def retracing(arm: ArmModel, q: Array, gap: float, way: RecordedPath, *, slowly:
     qd = np.gradient(points[:, :-1], period, axis=0)[1:]
     qd[-1] = 0.0
     left = np.minimum(np.floor(last - places[1:]).astype(int), len(way) - 1)
-    return Retracing(samples=Samples(q=at, qd=qd, qdd=np.zeros_like(at)), gap=points[1:, -1], left=left)
+    return ReturnPath(samples=Samples(q=at, qd=qd, qdd=np.zeros_like(at)), gap=points[1:, -1], left=left)
 
 
 FALLEN: Final = 0.31 * INCH

@@ -13,7 +13,7 @@ from handeye.core.errors import Refused
 from handeye.core.pose import Array
 from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_loop import Outcome
-from handeye.execution.state import ExecutedStep, ExecutionState, Undoing, vector
+from handeye.execution.state import ExecutedStep, ExecutionState, ReversalOrder, vector
 from handeye.execution.undo.loops import loop_entry, touch_entry, without_rounds
 from handeye.execution.undo.memory import Memory, recalled, remember
 from handeye.execution.undo.retracing import (
@@ -57,7 +57,7 @@ class UndoFailure:
     cause: Cause | None = None
 
 
-def order(state: ExecutionState, undoing: Undoing) -> None:
+def order(state: ExecutionState, undoing: ReversalOrder) -> None:
     """Order a reversal; raises Refused if there is nothing to reverse."""
     if undoing.left >= len(state.done):
         raise Refused("there is nothing to undo")

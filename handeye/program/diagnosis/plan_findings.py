@@ -8,7 +8,7 @@ from handeye.program.diagnosis.reach import (
     ReachFailure,
     TooFast,
 )
-from handeye.program.guards import Exerted
+from handeye.program.guards import HandLoad
 
 
 class NoConfiguration(Record, frozen=True, kw_only=True):
@@ -77,7 +77,7 @@ class TooWeak(Record, frozen=True, kw_only=True):
     """A force or moment is beyond the arm; `joint`, from 0, fails first, at `most` (N, N m)."""
 
     step: int
-    exerted: Exerted
+    exerted: HandLoad
     guard: bool  # a guard waits for it, and can never trip
     joint: int
     most: float
@@ -92,7 +92,7 @@ class TooFaint(Record, frozen=True, kw_only=True):
     """A guard's threshold is hard to tell from joint friction, felt there as `friction` (N, N m)."""
 
     step: int
-    exerted: Exerted
+    exerted: HandLoad
     friction: float
     margin: float  # multiple of `friction` that would be clear of it
     position: None = None

@@ -26,7 +26,7 @@ from handeye.execution.camera_calibration import calibrate_camera
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor, check_devices
 from handeye.execution.friction_measurement import measure_joints
-from handeye.execution.state import ExecutedStep, ExecutionState, Shot, Undoing, VisionResult
+from handeye.execution.state import ExecutedStep, ExecutionState, ReversalOrder, Shot, VisionResult
 from handeye.execution.undo.undoing import order
 from handeye.execution.vision_actions import just_found
 from handeye.planfile.plan import Plan
@@ -38,7 +38,7 @@ from handeye.program.system_state import SystemState
 from handeye.runs.operator import undoing
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup, plan_of
-from handeye.runs.system import Listing, RunningSystem, Settable, StepperWords, Surroundings, System, Topics
+from handeye.runs.system import Listing, RunCallbacks, RunningSystem, Settable, StepperWords, System, Topics
 from handeye.systems.stanford.kept_calibrations import KeptCalibrations
 from handeye.systems.stanford.preparation import (
     Conditions,
@@ -57,7 +57,7 @@ from handeye.vision.marks import Mark
 class RunningPlan(RunningSystem):
     """A run of a plan with the arm of a simulated cell."""
 
-    def __init__(self, setup: Setup, around: Surroundings) -> None:
+    def __init__(self, setup: Setup, around: RunCallbacks) -> None:
         """Build the cell; InvalidInput if the plan is for another arm or the camera cannot work as asked."""
         self._setup, self._halt, self._viewed = setup, around.halt, around.viewed
         self._anew, self._kept_until = around.calibrate, 0.0
@@ -200,7 +200,7 @@ class RunningPlan(RunningSystem):
     def executed(self) -> Sequence[ExecutedStep]:
         return self.state.done
 
-    def reverse(self, undoing: Undoing) -> None:
+    def reverse(self, undoing: ReversalOrder) -> None:
         self.executor.undo(undoing)
 
     def finish(self) -> bool:
@@ -331,7 +331,7 @@ class PlanSystem(System):
     def listing(self, plan: Plan) -> Listing:
         return plan.program
 
-    def build(self, setup: Setup, around: Surroundings) -> RunningPlan:
+    def build(self, setup: Setup, around: RunCallbacks) -> RunningPlan:
         return RunningPlan(setup, around)
 
     def machine(self, plan: Plan) -> tuple[str, str]:
@@ -354,7 +354,7 @@ class PlanSystem(System):
     def executed(self, plan: Plan, state: ExecutionState) -> Sequence[ExecutedStep]:
         return state.done
 
-    def order(self, plan: Plan, state: ExecutionState, undoing: Undoing) -> None:
+    def order(self, plan: Plan, state: ExecutionState, undoing: ReversalOrder) -> None:
         order(state, undoing)
 
     def calibration(self, state: ExecutionState) -> Calibration | None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.judge.finding import Findings, at_most
-from handeye.tasks.inserting import Inserting, Witnessed
+from handeye.tasks.inserting import InsertionTask, InsertionTruth
 from handeye.tasks.interface import Words
 from handeye.tasks.stanford_cell.dimensions import PARK, dimensions
 
@@ -26,7 +26,7 @@ HOLDER_PLACE: Final = 3.0
 HOLDER_LEAN: Final = 10.0  # deg: it stands in the holder, and does not lean out
 
 
-class Insertion(Inserting):
+class Insertion(InsertionTask):
     """Put one pin into one hole."""
 
     name = "insertion"
@@ -81,12 +81,12 @@ class Insertion(Inserting):
         end = tip(truth.data)
         return {f"plate.{axis}": float(end[k] - HOLE[k] + error[k]) for k, axis in enumerate("xy")}
 
-    def witnessed(self, cell: SimulatedCell) -> Witnessed:
+    def witnessed(self, cell: SimulatedCell) -> InsertionTruth:
         from handeye.tasks.insertion.cell import SEATED, InsertionCell, shoulder
 
         assert isinstance(cell, InsertionCell)
         seen, right = cell.witness, shoulder(cell.truth.data) <= SEATED
-        return Witnessed(peak=seen.peak, first=seen.first, seated=seen.seated, right=right)
+        return InsertionTruth(peak=seen.peak, first=seen.first, seated=seen.seated, right=right)
 
 
 INSERTION: Final = Insertion()

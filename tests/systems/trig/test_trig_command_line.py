@@ -17,7 +17,7 @@ from trig_sessions import PLANS
 from handeye.cli.panic_button import PanicButton
 from handeye.systems.trig.jobs import referee
 from handeye.systems.trig.language.axes_arm import AxesArm
-from handeye.systems.trig.language.trig_arm import Resisted
+from handeye.systems.trig.language.trig_arm import Resistance
 from handeye.systems.trig.run import job as taught_job
 from handeye.systems.trig.run import job_page, job_video
 from handeye.systems.trig.run.pallet_trials import broken_off_after
@@ -168,7 +168,7 @@ def test_a_job_that_is_done_and_wrong_has_an_exit_code_of_its_own(
 def test_a_job_whose_arm_is_stopped_says_what_it_has_met(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
+    monkeypatch.setattr(AxesArm, "back", lambda *_: Resistance(force=4.0, limit=3.0))
     code, out, _ = command("trig", "palletise", "--blocks", "0", "--out", "job")
     assert (code, out.splitlines()[-2:]) == (
         1,

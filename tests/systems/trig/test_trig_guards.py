@@ -14,10 +14,10 @@ from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.trig_arm import (
     HoldOff,
     LeftBehind,
-    Missed,
+    MissingContact,
+    MissingSupport,
     Obstacle,
-    Resisted,
-    Unsupported,
+    Resistance,
 )
 from handeye.systems.trig.language.trig_arm import told_obstacle as told
 from handeye.touch.senses import as_before
@@ -57,7 +57,7 @@ def test_what_a_guarded_step_has_met_must_still_be_there() -> None:
         "0 steps undone; the arm has stopped at the step before that: "
         "the finger met something here then, and meets nothing now"
     )
-    assert stopped(typist, "RUN -2") == Missed()
+    assert stopped(typist, "RUN -2") == MissingContact()
     typist.type("* STACK 2 X 100 Y 0")
     typist.type("RUN -2")
     assert typist.told[-1].startswith("2 steps undone")
@@ -83,7 +83,7 @@ def test_a_force_on_the_finger_stops_the_way_back_whatever_its_direction() -> No
     arm = AxesArm(axes, Ticking(), PURBRICK.limits)
     axes.push = PURBRICK.limits.resistance + 0.1
     met = arm.back(Place(x=0.05), lambda: False)
-    assert met == Resisted(force=PURBRICK.limits.resistance + 0.1, limit=PURBRICK.limits.resistance)
+    assert met == Resistance(force=PURBRICK.limits.resistance + 0.1, limit=PURBRICK.limits.resistance)
     assert arm.here().x < 0.001
     assert told(met) == "the finger met 3.1 N, and going back may meet 3.0 N"
     axes.push = PURBRICK.limits.resistance - 0.1
@@ -102,7 +102,7 @@ def test_half_as_much_again_as_a_move_met_is_no_obstacle_where_it_is_undone(
     axes = Hindered(FakeClock(), *PURBRICK.specs)
     back, axes.push = AxesArm(axes, Ticking(), PURBRICK.limits), push
     found = back.back(Place(x=0.05), lambda: False, arm.met)
-    assert found == (None if limit is None else Resisted(force=push, limit=limit))
+    assert found == (None if limit is None else Resistance(force=push, limit=limit))
 
 
 def test_an_axis_that_does_not_follow_stops_the_way_back() -> None:
@@ -122,7 +122,7 @@ def test_what_is_held_is_not_let_go_where_there_is_nothing_to_set_it_down_on() -
     bench.table.bench.data.joint("block_1").qpos[0] -= 0.1
     bench.type("RUN -1000")
     assert bench.told[-1] == (
-        f"4 steps undone; the arm has stopped at the step before that: {told(Unsupported())}"
+        f"4 steps undone; the arm has stopped at the step before that: {told(MissingSupport())}"
     )
     assert bench.arm.closed
     assert bench.blocks[1][2] == pytest.approx(24 - 2, abs=0.3)  # 2 mm lower than it lay, and held

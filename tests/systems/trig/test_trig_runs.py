@@ -16,7 +16,7 @@ from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.stepper import Stepper
 from handeye.execution.servo import Halted
-from handeye.execution.state import Undoing
+from handeye.execution.state import ReversalOrder
 from handeye.judge.finding import all_right
 from handeye.program.events import Choice, OperatorCalled, StepFinished, StepStarted
 from handeye.results.finishing import outcome
@@ -35,7 +35,7 @@ from handeye.runs.verify import difference
 from handeye.systems.trig.jobs.benches import JobName, TaughtPlan, open_job
 from handeye.systems.trig.language.axes_arm import ArmMemory, AxesArm
 from handeye.systems.trig.language.place import Place
-from handeye.systems.trig.language.trig_arm import Resisted
+from handeye.systems.trig.language.trig_arm import Resistance
 from handeye.systems.trig.run import plan as plans
 from handeye.systems.trig.run.job import account, carried_out
 from handeye.systems.trig.run.plan import listing
@@ -162,7 +162,7 @@ def test_what_the_arm_meets_calls_the_operator_and_is_tried_again(monkeypatch: p
     runner = low_job(0, seed=1)
     advance(runner)
     runner.order_reversal(0, halts=True)
-    monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
+    monkeypatch.setattr(AxesArm, "back", lambda *_: Resistance(force=4.0, limit=3.0))
     assert advance(runner).kind == "operator"
     assert isinstance(runner.events[-1], OperatorCalled)
     assert "the finger met 4.0 N" in runner.events[-1].message
@@ -199,7 +199,7 @@ def _far(arm: ArmMemory | None, **changed: object) -> ArmMemory:
         lambda state: msgspec.structs.replace(state, positions={}),
         lambda state: msgspec.structs.replace(state, arm=None),
         lambda state: msgspec.structs.replace(state, stage=1),
-        lambda state: msgspec.structs.replace(state, undoing=Undoing(left=0, halts=True)),
+        lambda state: msgspec.structs.replace(state, undoing=ReversalOrder(left=0, halts=True)),
         lambda state: msgspec.structs.replace(state, arm=_far(state.arm, told=Place(z=1e308))),
         lambda state: msgspec.structs.replace(state, arm=_far(state.arm, opening=1e308)),
     ],
@@ -307,7 +307,7 @@ def test_a_job_that_is_interrupted_is_not_sent_to_commands_of_an_editor() -> Non
 def test_no_step_is_skipped_that_the_arm_undoes(monkeypatch: pytest.MonkeyPatch) -> None:
     runner = low_job(0, seed=1)
     advance(runner)
-    monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
+    monkeypatch.setattr(AxesArm, "back", lambda *_: Resistance(force=4.0, limit=3.0))
     runner.order_reversal(0, halts=True, asked_by="job")
     stepper = Stepper(runner)
     stepper.do("continue")
@@ -335,7 +335,7 @@ def test_the_stepper_tells_of_a_taught_program_what_is_true_of_it(monkeypatch: p
     assert hand.outcome.startswith("hand at (")
     assert hand.outcome.endswith(") mm")
     assert grasp.outcome == "gap 0.0 mm"
-    monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
+    monkeypatch.setattr(AxesArm, "back", lambda *_: Resistance(force=4.0, limit=3.0))
     called = stepper.do("undo 3")
     assert called.said == "the operator is called: answer `proceed`, `retry` or `abort`, go back, or `undo`"
     said: list[str] = []

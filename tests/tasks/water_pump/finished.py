@@ -13,7 +13,7 @@ from handeye.cell.threads import Threads
 from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, planar, pose, translated
 from handeye.core.units import JIFFY
-from handeye.judge.measured import Measured
+from handeye.judge.measured import SettledState
 from handeye.runs.exported_state import ExportedState
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, standard
 from handeye.tasks.water_pump.cell import build_cell
@@ -92,7 +92,7 @@ def finished_cell(seed: int | None = None) -> SimulatedCell:
 @cache
 def _rested(seed: int | None) -> Truth:
     truth = finished_cell(seed).truth
-    quiet = Measured(truth, limits.SETTLE)
+    quiet = SettledState(truth, limits.SETTLE)
     return replace(truth, model=quiet.model, data=quiet.data)
 
 

@@ -12,7 +12,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import Array, hand
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import Level, Overrides, WorldSpec
-from handeye.judge.measured import Measured, tilt
+from handeye.judge.measured import SettledState, tilt
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.referee.measure import deepest
 from handeye.tasks.water_pump.scene import build
@@ -109,7 +109,7 @@ def test_no_error_shares_its_name_with_a_sense() -> None:
 def test_no_part_starts_in_another(level: Level) -> None:
     for seed in range(3):
         truth = build_cell(PumpWorld.draw(WorldSpec(seed=seed, level=level)), camera="ray").truth
-        assert max(overlap.depth for overlap in deepest(Measured(truth))) < 1e-6
+        assert max(overlap.depth for overlap in deepest(SettledState(truth))) < 1e-6
 
 
 def test_a_person_puts_gasket_and_top_down_within_three_hundredths_and_a_degree() -> None:

@@ -12,7 +12,7 @@ from handeye.cell.threads import Thread, ThreadsState, holes_of
 from handeye.cell.truth import Truth
 from handeye.core.pose import planar, pose, rotation_x, translated
 from handeye.judge.finding import all_right
-from handeye.judge.measured import Measured
+from handeye.judge.measured import SettledState
 from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.referee.findings import judge
@@ -115,7 +115,7 @@ def test_what_hangs_in_the_air_is_found_though_it_falls_home() -> None:
     for part in ("base", "gasket", "top"):
         put(truth, part, translated(X(truth, part), (0.0, 0.0, 0.001)))
     assert "base_height" in wrong(truth)
-    assert abs(Measured(truth, limits.SETTLE).pose("base")[2, 3]) < 1e-3 * limits.BASE_HEIGHT
+    assert abs(SettledState(truth, limits.SETTLE).pose("base")[2, 3]) < 1e-3 * limits.BASE_HEIGHT
 
 
 def test_a_gasket_left_on_its_stand_is_found() -> None:

@@ -22,7 +22,7 @@ from handeye.core.pose import Array, Pose, inverse, planar, pose, rotation_x, tr
 from handeye.core.resources import plans
 from handeye.core.units import DEGREE
 from handeye.judge.finding import Findings
-from handeye.judge.measured import Measured
+from handeye.judge.measured import SettledState
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.referee import limits, measure
 from handeye.tasks.water_pump.referee.findings import judge
@@ -86,7 +86,7 @@ def swing(truth: Truth, parts: tuple[str, ...], R: Array) -> None:
 
 def gap(truth: Truth, side: str) -> float:
     """Between the base and a block, m; negative where they overlap."""
-    return Measured(truth).gap("plate", f"block_{side}")
+    return SettledState(truth).gap("plate", f"block_{side}")
 
 
 def draw_screw(truth: Truth, hole: int, way: float) -> None:
@@ -158,7 +158,7 @@ def screw_height(truth: Truth, value: float) -> None:
 
 
 def screw_thread(truth: Truth, value: float) -> None:
-    draw_screw(truth, 2, measure.thread_length(Measured(truth), 2) - value * MM)
+    draw_screw(truth, 2, measure.thread_length(SettledState(truth), 2) - value * MM)
 
 
 def screw_lean(truth: Truth, value: float) -> None:
@@ -197,7 +197,7 @@ def clamp(truth: Truth, value: float) -> None:
         way = (low + high) / 2
         truth.data.qpos[:] = start
         draw_screw(truth, 2, way)
-        low, high = (way, high) if head_force(Measured(truth), 2) > value else (low, way)
+        low, high = (way, high) if head_force(SettledState(truth), 2) > value else (low, way)
 
 
 def thread(truth: Truth, **changed: object) -> Truth:

@@ -11,7 +11,7 @@ from short_runs import plan_of, through
 
 from handeye.cli import app
 from handeye.core.variation import WorldSpec
-from handeye.judge.measured import Measured
+from handeye.judge.measured import SettledState
 from handeye.runs.checkpoint_file import write_checkpoint
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
@@ -86,7 +86,7 @@ def measured(program: str, folder: Path) -> dict[str, float]:
 
 @pytest.mark.parametrize("program", [WITH_MUJOCO, WITH_TRIMESH], ids=["mujoco", "trimesh"])
 def test_strangers_find_screws_as_far_off_their_holes_as_the_referee(program: str, folder: Path) -> None:
-    there, here = measured(program, folder), Measured(finished(SEED))
+    there, here = measured(program, folder), SettledState(finished(SEED))
     for layer in LAYERS:
         for k in range(6):
             assert there[f"{layer}{k}"] == pytest.approx(1e3 * measure.misfit(here, layer, k), abs=AGREEMENT)

@@ -48,10 +48,10 @@ def watched(session: Session, halted: Halted) -> Iterator[None]:
 def watched_desk(session: Session, halted: Halted) -> Iterator[Desk]:
     """A desk that shows progress at a terminal."""
     with notes.status("running") as status:
-        yield _Watched(session, status, halted)
+        yield _ProgressDesk(session, status, halted)
 
 
-class _Watched(Script):
+class _ProgressDesk(Script):
     def __init__(self, session: Session, status: Status, halted: Halted) -> None:
         super().__init__((), note, halted)
         self._session, self._status = session, status

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from handeye.core.distributions import Distribution, Noise, Range, random_numbers
-from handeye.core.faults import Catalogue, Expected, FaultKind, Size
+from handeye.core.faults import Catalogue, ExpectedDetection, FaultKind, Size
 from handeye.core.pose import Array
 from handeye.core.variation import Quantity, Variation, WorldSpec
 
@@ -45,12 +45,14 @@ FAULTS: Final = Catalogue(
     FaultKind(
         name=HEAVY, meaning="Blocks weigh so many times as much as aluminium.", when="before",
         size=Size(unit="", usual=10.0, limits=(1.0, 100.0)),
-        expected=Expected(harmless="The hand holds a hundred times the weight of a block."),
+        expected=ExpectedDetection(harmless="The hand holds a hundred times the weight of a block."),
     ),
     FaultKind(
         name=SLIPPERY, meaning="Blocks and platter are oiled: their friction is this.", when="before",
         size=Size(unit="", usual=0.05, limits=(0.01, 0.3)),
-        expected=Expected(harmless="Blocks lie flat where they are put, and are held with all the force of the hand."),
+        expected=ExpectedDetection(
+            harmless="Blocks lie flat where they are put, and are held with all the force of the hand."
+        ),
     ),
 )  # fmt: skip
 _WAVE: Final = (*3 * (0.1,), *3 * (1.0,))  # m and rad, period of a potentiometer's error

@@ -16,10 +16,10 @@ from handeye.systems.trig.language.trig_arm import (
     Arrival,
     Halted,
     LeftBehind,
+    MissingSupport,
     Obstacle,
-    Resisted,
+    Resistance,
     TrigArm,
-    Unsupported,
 )
 
 APPROACH: Final = 5e-3  # m of vertical approach when setting down: a slanted path would push over a stack
@@ -136,7 +136,7 @@ class AxesArm(TrigArm):
             obstacle = self._obstacle(tare, speed, self._limits.resistance)
             if obstacle is not None:
                 return obstacle
-        return Unsupported()
+        return MissingSupport()
 
     @property
     def gap(self) -> float:
@@ -167,9 +167,9 @@ class AxesArm(TrigArm):
         lower, upper = np.transpose(self.travel)
         return np.clip(self._axes.read().q[:-1], lower, upper)
 
-    def _resistance(self, tare: Array, limit: float) -> Resisted | None:
+    def _resistance(self, tare: Array, limit: float) -> Resistance | None:
         force = float(np.linalg.norm(self._force() - tare))
-        return Resisted(force=round(force, 6), limit=round(limit, 6)) if force > limit else None
+        return Resistance(force=round(force, 6), limit=round(limit, 6)) if force > limit else None
 
     def _left_behind(self, speed: Array) -> LeftBehind | None:
         off = np.abs(self._goal - self._axes.read().q[:-1])

@@ -15,7 +15,7 @@ from typing import Final, Literal
 from handeye.systems.trig.language.graph import GUARDED, NONE, NORMAL, TOP, Node
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.program import NOWHERE, HaltedMove, RecordedStep, TrigProgram
-from handeye.systems.trig.language.trig_arm import Halted, HoldOff, Missed, Obstacle, TrigArm
+from handeye.systems.trig.language.trig_arm import Halted, HoldOff, MissingContact, Obstacle, TrigArm
 from handeye.touch.senses import as_before, at_least, least_gap
 
 AGAIN: Final = 1e-3  # m past a guarded step's contact by which it is met again; chosen: a twelfth of a block
@@ -74,7 +74,7 @@ def _touch_again(node: Node, done: RecordedStep, arm: TrigArm, halted: Halted) -
     goal = arm.within_travel(done.touched.moved(beyond))
     arrival = arm.feel(goal, node.vector, node.threshold, halted)
     if arrival.kind == "reached":
-        return arm.back(done.touched, halted) or Missed()
+        return arm.back(done.touched, halted) or MissingContact()
     return "halted" if arrival.kind == "halted" else None
 
 

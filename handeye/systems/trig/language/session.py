@@ -15,7 +15,7 @@ from handeye.systems.trig.language.running import Interpreter
 from handeye.systems.trig.language.trig_arm import TrigArm
 
 
-class Killed(Refused):
+class KillSwitchHit(Refused):
     """The teach box's kill switch was hit."""
 
     def __init__(self) -> None:
@@ -104,13 +104,13 @@ class Session:
         return branch
 
     def taught(self) -> Place:
-        """The arm's place after moving it with the teach box until record is pressed; raises Killed."""
+        """The arm's place after moving it with the teach box until record is pressed; raises KillSwitchHit."""
         while True:
             button = self.desk.press()
             if button == "record":
                 return self.arm.here()
             if button == "kill":
-                raise Killed
+                raise KillSwitchHit
             here = self.arm.here()
             value = here[button.axis] + button.amount if button.by else button.amount
             try:

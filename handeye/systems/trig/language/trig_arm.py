@@ -16,7 +16,7 @@ from handeye.core.units import MILLIMETRE
 from handeye.systems.trig.language.place import AXES, SIZES, UNITS, Place
 
 
-class Resisted(Record, frozen=True, kw_only=True, tag="resisted"):
+class Resistance(Record, frozen=True, kw_only=True, tag="resisted"):
     """The finger met a force, N."""
 
     force: float
@@ -38,20 +38,20 @@ class LeftBehind(Record, frozen=True, kw_only=True, tag="left_behind"):
     limit: float
 
 
-class Missed(Record, frozen=True, kw_only=True, tag="missed"):
+class MissingContact(Record, frozen=True, kw_only=True, tag="missed"):
     """A guarded move met something here, and meets nothing now."""
 
 
-class Unsupported(Record, frozen=True, kw_only=True, tag="unsupported"):
+class MissingSupport(Record, frozen=True, kw_only=True, tag="unsupported"):
     """The object held was taken from a support that is gone."""
 
 
-Obstacle = Resisted | HoldOff | LeftBehind | Missed | Unsupported
+Obstacle = Resistance | HoldOff | LeftBehind | MissingContact | MissingSupport
 
 
 def told_obstacle(obstacle: Obstacle) -> str:
     match obstacle:
-        case Resisted(force=force, limit=limit):
+        case Resistance(force=force, limit=limit):
             felt, allowed = distinct_digits((force, limit), 1)
             return f"the finger met {felt} N, and going back may meet {allowed} N"
         case HoldOff(gap=gap, kept=kept):
@@ -60,9 +60,9 @@ def told_obstacle(obstacle: Obstacle) -> str:
         case LeftBehind(axis=axis, off=off, limit=limit):
             far, allowed = distinct_digits((off / SIZES[axis], limit / SIZES[axis]), 1)
             return f"{AXES[axis]} is {far} {UNITS[axis]} from where it was told to be, and may be {allowed}"
-        case Missed():
+        case MissingContact():
             return "the finger met something here then, and meets nothing now"
-        case Unsupported():
+        case MissingSupport():
             return "what the hand holds was taken up from something here, and there is nothing here now"
 
 

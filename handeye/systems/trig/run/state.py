@@ -6,7 +6,7 @@ import msgspec
 
 from handeye.core.errors import BadFile, Refused
 from handeye.core.record import Record
-from handeye.execution.state import Undoing
+from handeye.execution.state import ReversalOrder
 from handeye.program.system_state import SystemState
 from handeye.systems.trig.jobs.benches import TaughtPlan
 from handeye.systems.trig.language.axes_arm import ArmMemory
@@ -19,7 +19,7 @@ from handeye.systems.trig.run.plan import listing
 _MAX_MEASURE: Final = 1000.0  # m and rad
 
 
-class Executed(Record, frozen=True, kw_only=True):
+class CompletedStep(Record, frozen=True, kw_only=True):
     """An executed step that is not reversed."""
 
     step: int
@@ -38,7 +38,7 @@ class TaughtState(SystemState, kw_only=True):
     """Everything but the steps."""
 
     came: int = TOP  # node executed before the next step
-    undoing: Undoing | None = None  # the reversal in progress
+    undoing: ReversalOrder | None = None  # the reversal in progress
     turn: Turn | None = None  # the job's own reversal, in progress or complete
     obstacle: Obstacle | None = None  # what stopped the reversal
     rounds: dict[int, int] = msgspec.field(default_factory=dict)  # by loop node
@@ -52,7 +52,7 @@ class TaughtState(SystemState, kw_only=True):
     ended_at: Place | None = None
     arm: ArmMemory | None = None  # None: not begun
 
-    def order(self, plan: TaughtPlan, undoing: Undoing) -> None:
+    def order(self, plan: TaughtPlan, undoing: ReversalOrder) -> None:
         """Order a reversal; raises Refused if there is nothing to reverse."""
         executed = self.executed(plan)
         if undoing.left >= len(executed):
@@ -60,11 +60,11 @@ class TaughtState(SystemState, kw_only=True):
         self.undoing, self.stopped, self.onward, self.obstacle, self.turn = undoing, None, None, None, None
         self.at = executed[-1].step
 
-    def executed(self, plan: TaughtPlan) -> list[Executed]:
+    def executed(self, plan: TaughtPlan) -> list[CompletedStep]:
         """Executed steps that are not reversed."""
         numbers = listing(plan).numbers
         found = [numbers[done.node] for done in self.trail if done.node in numbers]
-        return [Executed(step=number, enters=not before) for before, number in enumerate(found)]
+        return [CompletedStep(step=number, enters=not before) for before, number in enumerate(found)]
 
     def note(self, program: TrigProgram, arm: ArmMemory) -> None:
         """Record a program's state between two steps."""

@@ -15,7 +15,7 @@ from handeye.core.record import Vector3
 from handeye.core.units import MILLIMETRE
 from handeye.core.versions import versions
 from handeye.execution.servo import Halted, ServoPeriod
-from handeye.execution.state import Undoing
+from handeye.execution.state import ReversalOrder
 from handeye.judge.finding import Findings
 from handeye.machines.purbrick import PURBRICK
 from handeye.planfile.store import written_digest
@@ -44,21 +44,21 @@ from handeye.runs.advance import Pause
 from handeye.runs.operator import undoing
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
-from handeye.runs.system import Listing, RunningSystem, Settable, StepperWords, Surroundings, System
+from handeye.runs.system import Listing, RunCallbacks, RunningSystem, Settable, StepperWords, System
 from handeye.systems.trig.jobs.benches import JobName, TaughtJob, TaughtPlan, job_script, open_job
 from handeye.systems.trig.language.command_input import Script
 from handeye.systems.trig.language.graph import NONE, TOP
 from handeye.systems.trig.language.place import AXES, is_named
 from handeye.systems.trig.language.trig_arm import told_obstacle
 from handeye.systems.trig.run.plan import TaughtStep, decode, encode, imagined, listing, text_now
-from handeye.systems.trig.run.state import Executed, TaughtState, Turn
+from handeye.systems.trig.run.state import CompletedStep, TaughtState, Turn
 from handeye.tasks import any_task
 
 
 class RunningJob(RunningSystem):
     """Teaches a program in the world of a run, and carries it out."""
 
-    def __init__(self, setup: Setup, around: Surroundings) -> None:
+    def __init__(self, setup: Setup, around: RunCallbacks) -> None:
         """Build the bench, empty, with nothing taught."""
         TAUGHT.check(setup)
         self._setup, self._around, self._plan = setup, around, plan_of(setup)
@@ -251,10 +251,10 @@ class RunningJob(RunningSystem):
             state.stage = None
 
     @property
-    def executed(self) -> Sequence[Executed]:
+    def executed(self) -> Sequence[CompletedStep]:
         return self._state.executed(self._plan)
 
-    def reverse(self, undoing: Undoing) -> None:
+    def reverse(self, undoing: ReversalOrder) -> None:
         turn = Turn(steps=len(self.executed), ended=self._state.at is None, time=self.time)
         self._state.order(self._plan, undoing)
         if undoing.asked_by == "job":
@@ -383,7 +383,7 @@ class TaughtSystem(System):
     def listing(self, plan: TaughtPlan) -> Listing:
         return listing(plan)
 
-    def build(self, setup: Setup, around: Surroundings) -> RunningJob:
+    def build(self, setup: Setup, around: RunCallbacks) -> RunningJob:
         return RunningJob(setup, around)
 
     def own_plan(self, task: JobName) -> TaughtPlan:  # type: ignore[override]
@@ -398,10 +398,10 @@ class TaughtSystem(System):
         task.variation(world.seed).check(world)
         task.faults(world.seed).check(world.faults)
 
-    def executed(self, plan: TaughtPlan, state: TaughtState) -> Sequence[Executed]:
+    def executed(self, plan: TaughtPlan, state: TaughtState) -> Sequence[CompletedStep]:
         return state.executed(plan)
 
-    def order(self, plan: TaughtPlan, state: TaughtState, undoing: Undoing) -> None:
+    def order(self, plan: TaughtPlan, state: TaughtState, undoing: ReversalOrder) -> None:
         state.order(plan, undoing)
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:

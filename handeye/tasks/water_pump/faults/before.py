@@ -24,7 +24,7 @@ from handeye.core.errors import (
     SERVO_LAG,
     WRONG_HEIGHT,
 )
-from handeye.core.faults import Expected, Fault, Size
+from handeye.core.faults import ExpectedDetection, Fault, Size
 from handeye.core.pose import rotation_z
 from handeye.tasks.stanford_cell.dimensions import Point, base_top, dimensions, web_centre
 from handeye.tasks.water_pump.faults import expected_detection as detect
@@ -74,7 +74,7 @@ def break_parts(spec: mujoco.MjSpec, faults: Sequence[Fault], seed: int) -> None
 
 
 def _fault(
-    name: str, meaning: str, breaks: Change, expected: Expected, size: Size | None = None
+    name: str, meaning: str, breaks: Change, expected: ExpectedDetection, size: Size | None = None
 ) -> PartFault:
     return PumpFault(name=name, meaning=meaning, when="before", size=size, expected=expected, breaks=breaks)
 
@@ -82,12 +82,12 @@ def _fault(
 def _base() -> Iterator[PartFault]:
     yield _fault(
         "base.missing", "Nothing lies on the belt.", partial(_missing, "base"),
-        Expected(errors=(PART_NOT_SEEN,), calls=detect.UNSEEN),
+        ExpectedDetection(errors=(PART_NOT_SEEN,), calls=detect.UNSEEN),
     )  # fmt: skip
     yield _fault(
         "base.turned", "The base lies with its line of centres in this direction.",
         lambda spec, yaw: _turn(spec, "base", _plate_centre(), yaw),
-        Expected(
+        ExpectedDetection(
             errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=detect.UNSEEN,
             harmless="The job is for a base that lies anyhow within the arm's reach.",
         ),
@@ -96,22 +96,22 @@ def _base() -> Iterator[PartFault]:
     yield _fault(
         "base.far", "The belt has carried the base so much too far: out of the arm's reach, or out of sight.",
         partial(_shift, "base", (0.0, 1.0)),
-        Expected(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=detect.UNSEEN),
+        ExpectedDetection(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=detect.UNSEEN),
         Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
     )  # fmt: skip
     yield _fault(
         "base.reversed", "The base lies end for end.", lambda spec, _: _reverse(spec, "base", _plate_centre()),
-        Expected(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=detect.UNSEEN),
+        ExpectedDetection(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=detect.UNSEEN),
     )  # fmt: skip
 
 
 def _gasket() -> Iterator[PartFault]:
     part, middle = "gasket", (web_centre(), 0.0)
     thin = dimensions()("gasket.thickness")
-    wrong = Expected(errors=(WRONG_HEIGHT,), calls=(detect.THICKNESS,))
+    wrong = ExpectedDetection(errors=(WRONG_HEIGHT,), calls=(detect.THICKNESS,))
     yield _fault(
         "gasket.missing", "No gasket lies on its stand.", partial(_missing, part),
-        Expected(errors=(NOTHING_HELD,), stages=(detect.PUT_ON_GASKET,)),
+        ExpectedDetection(errors=(NOTHING_HELD,), stages=(detect.PUT_ON_GASKET,)),
     )  # fmt: skip
     yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0), wrong)
     yield _fault(
@@ -120,8 +120,8 @@ def _gasket() -> Iterator[PartFault]:
         Size(unit="in", usual=0.09, limits=(0.02, 0.5)),
     )  # fmt: skip
     yield from _moved(part, "the gasket", {
-        "x": Expected(calls=(detect.GASKET_OFF,), harmless="The hand feels for it around its place."),
-        "y": Expected(
+        "x": ExpectedDetection(calls=(detect.GASKET_OFF,), harmless="The hand feels for it around its place."),
+        "y": ExpectedDetection(
             errors=(SEARCH_EXHAUSTED,), calls=(detect.GASKET_STAYS,),
             harmless="The search finds the pins with a gasket that is held a quarter inch off.",
         ),
@@ -129,7 +129,7 @@ def _gasket() -> Iterator[PartFault]:
     yield _fault(
         "gasket.turned", "The gasket lies turned about the vertical on its stand.",
         lambda spec, angle: _turn(spec, part, middle, _yaw(spec, part) + angle),
-        Expected(
+        ExpectedDetection(
             errors=(SEARCH_EXHAUSTED, GASKET_WRONG),
             # Down beside the pins, it leaves bare where the hand feels how thick it is.
             calls=(detect.GASKET_OFF, detect.GASKET_STAYS, detect.THICKNESS),
@@ -139,23 +139,23 @@ def _gasket() -> Iterator[PartFault]:
     )  # fmt: skip
     yield _fault(
         "gasket.reversed", "The gasket lies end for end.", lambda spec, _: _reverse(spec, part, middle),
-        Expected(calls=(detect.GASKET_LOST,)),
+        ExpectedDetection(calls=(detect.GASKET_LOST,)),
     )  # fmt: skip
 
 
 def _top() -> Iterator[PartFault]:
     yield _fault(
         "top.missing", "No top lies on its stand.", partial(_missing, "top"),
-        Expected(calls=("NO TOP IS ON ITS STAND", detect.TOP_LOST), stages=(detect.PUT_ON_TOP,)),
+        ExpectedDetection(calls=("NO TOP IS ON ITS STAND", detect.TOP_LOST), stages=(detect.PUT_ON_TOP,)),
     )  # fmt: skip
-    off = Expected(
+    off = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED,),
         harmless="CENTER takes the top where it stands, and the search finds the pins along the fingers.",
     )
     yield from _moved("top", "the top", {"x": off, "y": off})
     yield _fault(
         "top.tilted", "A chip so high lies under one end of the top, on its stand.", _chip,
-        Expected(
+        ExpectedDetection(
             # Askew on the pins it may reach up to where the hand comes down on it, and touch it in what should be free
             # air.
             errors=(NOTHING_HELD, SERVO_LAG, WRONG_HEIGHT, SEARCH_EXHAUSTED, FORCE_WRONG),
@@ -170,14 +170,17 @@ def _top() -> Iterator[PartFault]:
     )  # fmt: skip
     yield _fault(
         "top.reversed", "The top lies end for end.", lambda spec, _: _reverse(spec, "top", (0.0, 0.0)),
-        Expected(calls=(detect.TOP_LOST,)),
+        ExpectedDetection(calls=(detect.TOP_LOST,)),
     )  # fmt: skip
     yield _fault(
-        "rotor.jammed", "The rotor does not turn.", _jam, Expected(calls=("THE ROTOR IS HARD TO TURN",))
+        "rotor.jammed",
+        "The rotor does not turn.",
+        _jam,
+        ExpectedDetection(calls=("THE ROTOR IS HARD TO TURN",)),
     )
 
 
-def _moved(part: str, article: str, expected: Mapping[str, Expected]) -> Iterator[PartFault]:
+def _moved(part: str, article: str, expected: Mapping[str, ExpectedDetection]) -> Iterator[PartFault]:
     for axis, direction in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
         meaning = f"On its stand {article} lies so far along table {axis} from its place."
         yield _fault(f"{part}.off.{axis}", meaning, partial(_shift, part, direction), expected[axis], _AWAY)
@@ -198,8 +201,8 @@ def _screws(count: int) -> Iterator[PartFault]:
     for number in range(1, count + 1):
         screw, loose = f"screw{number - 1}", detect.loose_screw(number)
 
-        def calls(*texts: str, number: int = number) -> Expected:
-            return detect.if_used(number, Expected(calls=texts))
+        def calls(*texts: str, number: int = number) -> ExpectedDetection:
+            return detect.if_used(number, ExpectedDetection(calls=texts))
 
         yield _fault(
             f"screw.{number}.missing", f"Screw {number} is not in the dispenser.", partial(_missing, screw),
@@ -220,8 +223,8 @@ def _holes(count: int) -> Iterator[PartFault]:
     for number in range(1, count + 1):
         hole, screw = number - 1, detect.screw_of(number)
         misfit, loose, high = detect.misfit_screw(screw), detect.loose_screw(screw), detect.high_screw(screw)
-        blocked = Expected(calls=(misfit, high))
-        full = Expected(  # the mouth of a hole that is full still lets a point in, by less than a thread
+        blocked = ExpectedDetection(calls=(misfit, high))
+        full = ExpectedDetection(  # the mouth of a hole that is full still lets a point in, by less than a thread
             errors=(SEARCH_EXHAUSTED,),
             calls=(misfit, loose),
             stages=(detect.DRIVE_FIRST if screw <= 2 else detect.DRIVE_LAST,),
@@ -233,15 +236,15 @@ def _holes(count: int) -> Iterator[PartFault]:
              partial(_block, hole, "plug"), blocked, Size(unit="mm", usual=2.0, limits=(0.0, 20.0))),
             (f"thread.{number}.scarred",
              f"A screw was crossed in tapped hole {number} before: another crosses there more easily.", _as_drawn,
-             Expected(
+             ExpectedDetection(
                  harmless="A screw that comes in straight goes home in a scarred thread, too; the referee cautions."
              ), None),
             (f"thread.{number}.crosses",
              f"Whatever screw comes into tapped hole {number} crosses, however straight it stands.", _as_drawn,
-             Expected(calls=(high,)), None),
+             ExpectedDetection(calls=(high,)), None),
             (f"thread.{number}.stripped",
              f"The thread of tapped hole {number} is worn away: a screw slides in and holds nothing.",
-             partial(_strip, hole), Expected(calls=(loose, detect.lost_screw(screw))), None),
+             partial(_strip, hole), ExpectedDetection(calls=(loose, detect.lost_screw(screw))), None),
             (f"thread.{number}.full",
              f"The shank of a broken screw fills tapped hole {number} up to its mouth.",
              partial(_block, hole, "stub"), full, None),
@@ -252,11 +255,11 @@ def _holes(count: int) -> Iterator[PartFault]:
 def _screwdriver_and_light() -> Iterator[PartFault]:
     yield _fault(
         "screwdriver.missing", "The screwdriver is not in its rack.", partial(_missing, "driver"),
-        Expected(errors=(NOTHING_HELD,), stages=(detect.DRIVE_FIRST,)),
+        ExpectedDetection(errors=(NOTHING_HELD,), stages=(detect.DRIVE_FIRST,)),
     )  # fmt: skip
     yield _fault(
         _SMOOTH, "The bit does not rub on what it turns, and no thread takes it.", partial(_slippery, "bit"),
-        Expected(calls=(detect.loose_screw(1),)),
+        ExpectedDetection(calls=(detect.loose_screw(1),)),
     )  # fmt: skip
     yield _fault(
         "light.shadow", "A card in the way of the light throws the edge of its shadow across the base.", _shade,

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from handeye.core.faults import Expected, Fault, FaultKind, Size
+from handeye.core.faults import ExpectedDetection, Fault, FaultKind, Size
 
 B = TypeVar("B")
 
@@ -20,7 +20,7 @@ def declared(
     name: str,
     meaning: str,
     breaks: B,
-    expected: Expected,
+    expected: ExpectedDetection,
     size: Size | None = None,
     *,
     stage: int | None = None,

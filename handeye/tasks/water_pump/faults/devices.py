@@ -5,7 +5,17 @@ from dataclasses import replace
 from functools import cache
 from typing import Final
 
-from handeye.cell.defects import DEAD, PICTURE, Defect, Drifting, Effect, Missing, Scaled, Shifted, Stuck
+from handeye.cell.defects import (
+    DEAD,
+    PICTURE,
+    Defect,
+    DriftEffect,
+    DropoutEffect,
+    Effect,
+    GainEffect,
+    OffsetEffect,
+    Stuck,
+)
 from handeye.core.errors import (
     CURRENT_WRONG,
     FEATURES_NOT_SEEN,
@@ -21,7 +31,7 @@ from handeye.core.errors import (
     SWITCH_WRONG,
     WATCHDOG,
 )
-from handeye.core.faults import Expected, Fault, Size
+from handeye.core.faults import ExpectedDetection, Fault, Size
 from handeye.core.units import JIFFY
 from handeye.tasks.stanford_cell.arm_variation import JOINT_UNITS
 from handeye.tasks.water_pump.faults import expected_detection as detect
@@ -63,7 +73,7 @@ def _fault(
     meaning: str,
     lines: str | Sequence[str],
     effect: Effect | Callable[[float], Effect],
-    expected: Expected,
+    expected: ExpectedDetection,
     size: Size | None = None,
     stage: int | None = None,
 ) -> DeviceFault:
@@ -74,7 +84,7 @@ def _fault(
 
 def _switches() -> Iterator[DeviceFault]:
     told = {"closed": "tells of touch, whatever it meets", "open": "never tells of touch"}
-    expected = Expected(errors=(SWITCH_WRONG,))
+    expected = ExpectedDetection(errors=(SWITCH_WRONG,))
     for state, tells in told.items():
         stuck = Stuck(float(state == "closed"))
         yield _fault(
@@ -87,16 +97,16 @@ def _switches() -> Iterator[DeviceFault]:
 
 
 def _hand() -> Iterator[DeviceFault]:
-    gap, expected = "gap_potentiometer", Expected(errors=(GAP_WRONG,))
+    gap, expected = "gap_potentiometer", ExpectedDetection(errors=(GAP_WRONG,))
     yield _fault(f"{gap}.stuck", "The gap reads what it read when this set in.", gap, Stuck(), expected)
     yield _fault(
-        f"{gap}.off", "The gap reads so much more than it is.", gap, Shifted, expected,
+        f"{gap}.off", "The gap reads so much more than it is.", gap, OffsetEffect, expected,
         Size(unit="in", usual=0.5, limits=(-4.0, 4.0)),
     )  # fmt: skip
-    expected = Expected(errors=(GAP_WRONG, NOTHING_HELD, FORCE_WRONG))
+    expected = ExpectedDetection(errors=(GAP_WRONG, NOTHING_HELD, FORCE_WRONG))
     yield _fault("finger_motor.dead", "The fingers press with nothing.", "finger_motor", DEAD, expected)
     yield _fault(
-        "finger_motor.weak", "So much is left of the force with which the fingers press.", "finger_motor", Scaled,
+        "finger_motor.weak", "So much is left of the force with which the fingers press.", "finger_motor", GainEffect,
         expected, Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
     )  # fmt: skip
 
@@ -107,13 +117,13 @@ def _force() -> Iterator[DeviceFault]:
             f"force.off_zero.{axis}",
             f"The drives are off zero by what a force at the hand, along table {axis}, is to them: the arm bears a "
             "force that is not there, and the program, which reckons the force from the torques it put out, feels it.",
-            f"force.{axis}", Shifted, Expected(errors=(FORCE_WRONG,), at_setup=True),
+            f"force.{axis}", OffsetEffect, ExpectedDetection(errors=(FORCE_WRONG,), at_setup=True),
             Size(unit="N", usual=20.0, limits=(-100.0, 100.0)),
         )  # fmt: skip
 
 
 def _joints() -> Iterator[DeviceFault]:
-    wrong = Expected(errors=(JOINT_SENSE_WRONG,), at_setup=True)
+    wrong = ExpectedDetection(errors=(JOINT_SENSE_WRONG,), at_setup=True)
     for number, unit in enumerate(JOINT_UNITS, 1):
         pot, tachometer, drive = f"potentiometer.{number}", f"tachometer.{number}", f"drive.{number}"
         joint = f"of joint {number}"
@@ -121,27 +131,28 @@ def _joints() -> Iterator[DeviceFault]:
             f"{pot}.stuck", f"The position {joint} reads what it read when this set in.", pot, Stuck(), wrong
         )
         yield _fault(
-            f"{pot}.jump", f"The position {joint} reads so much more than it is.", pot, Shifted,
-            Expected(errors=(JOINT_SENSE_WRONG, FORCE_WRONG), calls=detect.ASTRAY, at_setup=True), _JUMP[unit],
+            f"{pot}.jump", f"The position {joint} reads so much more than it is.", pot, OffsetEffect,
+            ExpectedDetection(errors=(JOINT_SENSE_WRONG, FORCE_WRONG), calls=detect.ASTRAY, at_setup=True), _JUMP[unit],
         )  # fmt: skip
         yield _fault(
-            f"{pot}.drift", f"The position {joint} reads more and more: so much more each second.", pot, Drifting,
+            f"{pot}.drift", f"The position {joint} reads more and more: so much more each second.", pot, DriftEffect,
             wrong, _DRIFT[unit],
         )  # fmt: skip
         yield _fault(f"{tachometer}.dead", f"The rate {joint} reads zero.", tachometer, DEAD, wrong)
         yield _fault(
-            f"{drive}.weak", f"So much is left of the torque that the drive {joint} is told.", drive, Scaled,
-            Expected(errors=(FORCE_WRONG, SERVO_LAG), at_setup=True), Size(unit="%", usual=50.0, limits=_PERCENT_LEFT),
+            f"{drive}.weak", f"So much is left of the torque that the drive {joint} is told.", drive, GainEffect,
+            ExpectedDetection(errors=(FORCE_WRONG, SERVO_LAG), at_setup=True),
+            Size(unit="%", usual=50.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
         yield _fault(
-            f"brake.{number}.slips", f"So much is left of what the brake {joint} holds.", f"brake.{number}", Scaled,
+            f"brake.{number}.slips", f"So much is left of what the brake {joint} holds.", f"brake.{number}", GainEffect,
             replace(wrong, harmless="The brakes hold for as long as a picture takes, and the potentiometers tell where "
                     "the arm sank."),
             Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
     yield _fault(
         "servo.late", "The computer is late: no torque arrives at the drives for so many servo periods.", "servo",
-        lambda periods: Missing(periods * JIFFY), Expected(errors=(WATCHDOG,)),
+        lambda periods: DropoutEffect(periods * JIFFY), ExpectedDetection(errors=(WATCHDOG,)),
         Size(unit="", usual=60.0, limits=(1.0, 36000.0)), stage=3,
     )  # fmt: skip
 
@@ -150,19 +161,19 @@ def _screwdriver() -> Iterator[DeviceFault]:
     current, motor = "screwdriver.current", "screwdriver.motor"
     yield _fault(
         f"{current}.dead", "The current of the screwdriver's motor reads zero, and so does its torque.", current, DEAD,
-        Expected(errors=(CURRENT_WRONG,)),
+        ExpectedDetection(errors=(CURRENT_WRONG,)),
     )  # fmt: skip
     yield _fault(
         f"{motor}.dead", "The screwdriver's motor never turns.", motor, DEAD,
-        Expected(errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1),)),
+        ExpectedDetection(errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1),)),
     )  # fmt: skip
     lost = [
         (f"SCREW {screw} IS NOT ON THE BIT", detect.lost_screw(screw), f"NO SCREW AT S{screw}")
         for screw in range(1, 7)  # it is fetched once more, and may lie elsewhere by then
     ]
     yield _fault(
-        "magnet.weak", "So much is left of the force of the bit's magnet, which holds a screw.", "magnet", Scaled,
-        Expected(
+        "magnet.weak", "So much is left of the force of the bit's magnet, which holds a screw.", "magnet", GainEffect,
+        ExpectedDetection(
             calls=tuple(call for calls in lost for call in calls),
             harmless="A screw weighs .06 N, a hundredth of that force: what bears it holds it straight, too.",
         ),
@@ -171,16 +182,18 @@ def _screwdriver() -> Iterator[DeviceFault]:
 
 
 def _sight() -> Iterator[DeviceFault]:
-    yield _fault("lamp.dead", "The lamp on the hand stays dark.", "lamp", DEAD, Expected(at_setup=True))
-    wrong = Expected(errors=(PICTURE_WRONG,), at_setup=True)
+    yield _fault(
+        "lamp.dead", "The lamp on the hand stays dark.", "lamp", DEAD, ExpectedDetection(at_setup=True)
+    )
+    wrong = ExpectedDetection(errors=(PICTURE_WRONG,), at_setup=True)
     yield _fault(
         "picture.frozen", "Every picture is the first one after this set in.", PICTURE, Stuck(), wrong
     )
     yield _fault("picture.dark", "Every picture is black.", PICTURE, DEAD, wrong)
     yield _fault(
         "camera.bumped", "The camera has been bumped: it looks so far aside and down of where its mount is told.",
-        ("camera.pan", "camera.tilt"), Shifted,
-        Expected(
+        ("camera.pan", "camera.tilt"), OffsetEffect,
+        ExpectedDetection(
             # The base is not where it was seen: nothing is between the fingers, or it is in their way.
             errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, SEARCH_EXHAUSTED, NOTHING_HELD, SERVO_LAG, GASKET_WRONG),
             calls=(*detect.UNSEEN, *detect.OFF, detect.NOT_HELD),
@@ -190,5 +203,5 @@ def _sight() -> Iterator[DeviceFault]:
     )  # fmt: skip
     yield _fault(
         "turret.stuck", "The lens stays that was turned to first after this set in.", "turret", Stuck(),
-        Expected(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG), calls=detect.UNSEEN), stage=1,
+        ExpectedDetection(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG), calls=detect.UNSEEN), stage=1,
     )  # fmt: skip

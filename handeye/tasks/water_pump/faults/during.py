@@ -17,7 +17,7 @@ from handeye.cell.mechanism import Mechanism
 from handeye.cell.physics_stepper import wake
 from handeye.cell.state import finite
 from handeye.core.errors import FORCE_WRONG, NOTHING_HELD, SEARCH_EXHAUSTED, SERVO_LAG, WRONG_HEIGHT
-from handeye.core.faults import Expected, Fault, Size
+from handeye.core.faults import ExpectedDetection, Fault, Size
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.core.units import INCH
@@ -168,7 +168,7 @@ def _light_and_pushes() -> Iterator[MishapFault]:
     meaning = "The lamp of the cell goes out; what light the room has stays."
     yield declared("light.off", meaning, _always(Mishap(_put_out)), detect.POOR_LIGHT, stage=6)
     size = Size(unit="N", usual=40.0, limits=(-300.0, 300.0))
-    expected = Expected(
+    expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),
         calls=detect.ASTRAY,
         harmless="The drives bear a push that is over before the hand feels for anything.",
@@ -180,7 +180,7 @@ def _light_and_pushes() -> Iterator[MishapFault]:
 
 def _base() -> Iterator[MishapFault]:
     size = Size(unit="in", usual=1.0, limits=(-6.0, 6.0))
-    expected = Expected(
+    expected = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED, NOTHING_HELD),
         calls=(detect.NOT_HELD, "THE PUMP IS NOT WHERE IT WAS PUT", "THE PUMP HAS MOVED SINCE IT WAS FELT"),
         stages=("feel for the grasp",),
@@ -194,12 +194,12 @@ def _base() -> Iterator[MishapFault]:
 
 
 def _losses() -> Iterator[MishapFault]:
-    gasket = Expected(
+    gasket = ExpectedDetection(
         errors=(NOTHING_HELD, WRONG_HEIGHT),
         calls=(detect.GASKET_LOST, detect.THICKNESS, *detect.OFF),
         stages=(detect.PUT_ON_GASKET,),
     )
-    top = Expected(
+    top = ExpectedDetection(
         errors=(NOTHING_HELD,),
         calls=(detect.TOP_LOST, "THE TOP MEETS NOTHING: IT IS LOST"),
         stages=(detect.PUT_ON_TOP,),

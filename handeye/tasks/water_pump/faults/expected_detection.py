@@ -15,7 +15,7 @@ from handeye.core.errors import (
     PICTURE_WRONG,
     SEARCH_EXHAUSTED,
 )
-from handeye.core.faults import UNKNOWN, Expected
+from handeye.core.faults import UNKNOWN, ExpectedDetection
 
 SCREWED: Final = (1, 3, 6, 2, 5, 4)
 """The tapped holes in the order in which the program drives screws 1 to 6 into them."""
@@ -43,9 +43,9 @@ GASKET_STAYS: Final = "THE GASKET DOES NOT COME UP: IT LIES OFF ITS PLACE"
 GASKET_LOST: Final = "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
 TOP_LOST: Final = "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
 
-NO_PIN: Final = Expected(errors=(NOTHING_HELD,), stages=(INSERT_PINS,))
-NO_HOLE_FOR_PIN: Final = Expected(errors=(SEARCH_EXHAUSTED,), stages=(INSERT_PINS,))
-POOR_LIGHT: Final = Expected(
+NO_PIN: Final = ExpectedDetection(errors=(NOTHING_HELD,), stages=(INSERT_PINS,))
+NO_HOLE_FOR_PIN: Final = ExpectedDetection(errors=(SEARCH_EXHAUSTED,), stages=(INSERT_PINS,))
+POOR_LIGHT: Final = ExpectedDetection(
     errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG, GASKET_WRONG),
     calls=(*UNSEEN, *OFF),
     harmless="The eye adjusts itself to what light there is.",
@@ -73,6 +73,6 @@ def screw_of(hole: int) -> int:
     return SCREWED.index(hole) + 1 if hole in SCREWED else hole
 
 
-def if_used(number: int, expected: Expected) -> Expected:
+def if_used(number: int, expected: ExpectedDetection) -> ExpectedDetection:
     """Unknown for screw and hole 7 of a later make, which the program does not use: the referee says so."""
     return expected if number <= len(SCREWED) else UNKNOWN

@@ -11,7 +11,7 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import yaw
 from handeye.core.units import INCH
 from handeye.judge.finding import Finding, Findings, at_least, at_most, worse
-from handeye.judge.measured import Measured, tilt
+from handeye.judge.measured import SettledState, tilt
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.referee import limits, measure
@@ -44,11 +44,11 @@ def judge(truth: Truth) -> Findings:
     }
 
 
-def _as_left_and_settled(truth: Truth) -> tuple[Measured, Measured]:
-    return Measured(truth), Measured(truth, limits.SETTLE)
+def _as_left_and_settled(truth: Truth) -> tuple[SettledState, SettledState]:
+    return SettledState(truth), SettledState(truth, limits.SETTLE)
 
 
-def _places(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
+def _places(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     bores, others = deepest(measured)
     return {
         **_base(measured),
@@ -71,7 +71,7 @@ def _deg(value_rad: float, limit_deg: float, subject: str) -> Finding:
     return at_most(degrees(value_rad), limit_deg, "deg", subject)
 
 
-def _base(measured: Measured) -> Findings:
+def _base(measured: SettledState) -> Findings:
     turn = degrees(yaw(measured.relative("base", "blocks")) % (2 * np.pi)) - 180
     X_WB = measured.pose("base")
     gaps = {side: abs(measured.gap("plate", f"block_{side}")) for side in ("far", "left")}
@@ -86,7 +86,7 @@ def _base(measured: Measured) -> Findings:
     }  # fmt: skip
 
 
-def _layer(measured: Measured, layer: str, holes: tuple[Thread, ...]) -> Findings:
+def _layer(measured: SettledState, layer: str, holes: tuple[Thread, ...]) -> Findings:
     """Height of gasket or top, and whether every screw passes its hole there without cutting into it."""
     off = measure.corner_height(measured, layer, len(holes))
     margin = [measure.clearance(measured, layer, k) for k in range(len(holes))]
@@ -104,7 +104,7 @@ def _layer(measured: Measured, layer: str, holes: tuple[Thread, ...]) -> Finding
     }  # fmt: skip
 
 
-def _screws(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
+def _screws(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     size = dimensions()
     filled = [k for k, thread in enumerate(holes) if thread.screw is not None]
     gap = max(
@@ -131,7 +131,7 @@ def _screws(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
     }  # fmt: skip
 
 
-def _cell(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
+def _cell(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     screws = [f"screw{k}" for k in range(len(holes))]
     in_threads = {thread.screw for thread in holes}
     loose = [name for k, name in enumerate(screws) if k not in in_threads]
@@ -150,11 +150,11 @@ def _cell(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
     }  # fmt: skip
 
 
-def _tilt(measured: Measured, bodies: Sequence[str], limit_deg: float, subject: str) -> Finding:
+def _tilt(measured: SettledState, bodies: Sequence[str], limit_deg: float, subject: str) -> Finding:
     return _deg(max(tilt(measured.pose(body)) for body in bodies), limit_deg, subject)
 
 
-def _hand(measured: Measured, parts: Iterable[str]) -> Finding:
+def _hand(measured: SettledState, parts: Iterable[str]) -> Finding:
     """Distance of the hand from the nearest of some parts and what is fixed to them; at most twice its limit."""
     model = measured.model
     solid = (model.geom_contype | model.geom_conaffinity) != 0
@@ -175,7 +175,7 @@ def judge_apart(truth: Truth) -> Findings:
     return {**worse(_apart(left), _apart(settled)), "screws_out": in_threads}
 
 
-def _apart(measured: Measured) -> Findings:
+def _apart(measured: SettledState) -> Findings:
     names = [measured.model.body(number).name for number in range(measured.model.nbody)]
     screws = [name for name in names if name.startswith("screw") and name[5:].isdecimal()]
     turned = max(measured.turned(name) for name in _PARTS)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.core.pose import inverse, pose
-from handeye.judge.measured import Measured, tilt
+from handeye.judge.measured import SettledState, tilt
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.referee.limits import ROTOR_SWING, ROTOR_TORQUE
@@ -27,7 +27,7 @@ PIERCED = 256  # contact bits of scenes/water_pump/workcell.xml
 Mask = NDArray[np.bool_]
 
 
-def head_force(measured: Measured, hole: int) -> float:
+def head_force(measured: SettledState, hole: int) -> float:
     """Force of the screw head of a hole on what lies beneath, N."""
     model, data = measured.model, measured.data
     contact, head = data.contact, model.geom(f"head{hole}").id
@@ -38,14 +38,14 @@ def head_force(measured: Measured, hole: int) -> float:
     return float(data.efc_force[rows].sum())
 
 
-def head_gap(measured: Measured, hole: int) -> float:
+def head_gap(measured: SettledState, hole: int) -> float:
     """Height of a screw's head over the top's flange, m; negative where it is pressed in."""
     X_WT, size = measured.pose("top"), dimensions()
     middle = measured.data.geom(f"head{hole}").xpos - X_WT[:3, 3]
     return float(X_WT[:3, 2] @ middle) - size("top.flange") - size("screw.head_height") / 2
 
 
-def misfit(measured: Measured, layer: str, hole: int) -> float:
+def misfit(measured: SettledState, layer: str, hole: int) -> float:
     """Distance of a screw's axis from that of its hole in gasket or top, at the worse end of the hole, m."""
     axis, mouth = measured.data.site(f"thread{hole}"), measured.data.site(f"{layer}_hole{hole}").xpos
     down = -thickness(layer) * measured.pose(layer)[:3, 2]
@@ -53,13 +53,13 @@ def misfit(measured: Measured, layer: str, hole: int) -> float:
     return float(np.hypot(*(ends @ axis.xmat.reshape(3, 3))[:, :2].T).max())
 
 
-def clearance(measured: Measured, layer: str, hole: int) -> float:
+def clearance(measured: SettledState, layer: str, hole: int) -> float:
     """Radial clearance of a screw's shank in its hole in gasket or top, m."""
     model = measured.model
     return float(model.site(f"{layer}_hole{hole}").size[0] - model.geom(f"shank{hole}").size[0])
 
 
-def corner_height(measured: Measured, layer: str, holes: int) -> float:
+def corner_height(measured: SettledState, layer: str, holes: int) -> float:
     """Deviation of a layer's upper face from its nominal height over the base, at the worst screw hole, m."""
     X_BW = inverse(measured.pose("base"))
     corners = np.array([measured.data.site(f"{layer}_hole{k}").xpos for k in range(holes)])
@@ -77,25 +77,25 @@ def under(layer: str) -> float:
     return base_top() + (thickness("gasket") if layer == "top" else 0.0)
 
 
-def thread_length(measured: Measured, hole: int) -> float:
+def thread_length(measured: SettledState, hole: int) -> float:
     """Length of a screw's thread that is in its tapped hole, m."""
     point = inverse(measured.pose("base")) @ measured.pose(f"carrier{hole}")
     return float(base_top() - point[2, 3] - dimensions()("screw.point_length"))
 
 
-def thread_offset(measured: Measured, hole: int) -> float:
+def thread_offset(measured: SettledState, hole: int) -> float:
     """Distance of a screw's axis from the mouth of its tapped hole, m."""
     axis, mouth = measured.data.site(f"thread{hole}"), measured.data.site(f"base_hole{hole}")
     return float(np.hypot(*((mouth.xpos - axis.xpos) @ axis.xmat.reshape(3, 3))[:2]))
 
 
-def screw_lean(measured: Measured, hole: int) -> float:
+def screw_lean(measured: SettledState, hole: int) -> float:
     """Angle between a screw and the base, rad."""
     axis = measured.data.site(f"thread{hole}").xmat.reshape(3, 3)
     return tilt(inverse(measured.pose("base")) @ pose(axis, np.zeros(3)))
 
 
-def rotor_torque(measured: Measured) -> float:
+def rotor_torque(measured: SettledState) -> float:
     """Greatest torque that it takes to swing the rotor to either side and back, N m.
 
     Infinite if the limit does not bring it all the way. Done on a further copy.
@@ -128,7 +128,7 @@ class Overlap:
     between: str
 
 
-def deepest(measured: Measured) -> tuple[Overlap, Overlap]:
+def deepest(measured: SettledState) -> tuple[Overlap, Overlap]:
     """The deepest overlap of a shank or pin with a bore, and that of all other parts."""
     kinds = _Kinds.of(measured)
     pairs, depths = measured.overlaps(kinds.solid)
@@ -141,7 +141,7 @@ def deepest(measured: Measured) -> tuple[Overlap, Overlap]:
     return _worst(measured, pairs, depths * inside), _worst(measured, pairs, depths * ~inside)
 
 
-def _worst(measured: Measured, pairs: NDArray[np.int32], depths: NDArray[np.float64]) -> Overlap:
+def _worst(measured: SettledState, pairs: NDArray[np.int32], depths: NDArray[np.float64]) -> Overlap:
     if not depths.any():
         return Overlap(depth=0.0, between="nothing")
     worst = int(np.argmax(depths))
@@ -161,7 +161,7 @@ class _Kinds:
     arm: Mask
 
     @classmethod
-    def of(cls, measured: Measured) -> "_Kinds":
+    def of(cls, measured: SettledState) -> "_Kinds":
         model = measured.model
         gives, takes = model.geom_contype, model.geom_conaffinity
         names = [model.body(body).name for body in model.geom_bodyid]
