@@ -1,6 +1,7 @@
 """Machines of a bench: joints and tendons with servos of their own, what they sense, and what they switch."""
 
 from collections.abc import Callable, Mapping, Sequence
+from itertools import chain
 
 import mujoco
 import numpy as np
@@ -227,8 +228,8 @@ class BenchAxes(Axes, Mechanism[AxesState]):
     def check(self, state: AxesState) -> None:
         if not len(state.goal) == len(state.way) == len(self._specs) or not 0 <= state.left <= self._steps:
             raise BadFile("its machine has other axes")
-        if not np.isfinite((*state.goal, *state.way)).all():
-            raise BadFile("a goal of its machine is not a finite number")
+        if not np.isfinite((*state.goal, *state.way, *chain.from_iterable(state.latched.values()))).all():
+            raise BadFile("a goal or a channel of its machine is not a finite number")
         widths = {channel.name: channel.width for channel in self._senses if channel.latched}
         if any(widths.get(name) != len(values) for name, values in state.latched.items()):
             raise BadFile("its machine has other channels")
@@ -263,6 +264,9 @@ class BenchOutputs(Outputs, Mechanism[OutputsState]):
         if not np.isfinite(value):
             raise BadArgument(f"the output {name} is set to what is not a finite number")
         self._values[name] = float(value)
+
+    def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """They have nothing of the scene."""
 
     def before(self, seconds: float) -> None:
         for name, act in self._outputs.items():

@@ -8,7 +8,7 @@ from typing import ClassVar, Generic, TypeVar
 import msgspec
 import mujoco
 
-from handeye.core.errors import BadArgument
+from handeye.core.errors import BadArgument, Refused
 
 S = TypeVar("S", bound=msgspec.Struct)
 
@@ -40,7 +40,8 @@ class Mechanism(ABC, Generic[S]):
         """More time (s) than that of `before` passes at once, because everything sleeps."""
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Go on in a changed scene, where numbers of bodies, joints and servos may be others."""
+        """Go on in a changed scene, where numbers of bodies, joints and servos may be others, if it can."""
+        raise Refused(f"{self.name} cannot go on in a scene that changes")
 
     def after(self) -> None:
         """Read the simulator when time has passed, and once when the cell is switched on."""

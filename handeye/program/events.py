@@ -6,6 +6,7 @@ from typing import ClassVar, Literal
 import msgspec
 from msgspec import UNSET, UnsetType
 
+from handeye.core.errors import BadArgument
 from handeye.core.record import Record
 from handeye.core.source import line_name
 from handeye.core.units import Measures
@@ -337,5 +338,10 @@ _encoder = msgspec.json.Encoder()
 
 
 def to_line(event: Event) -> bytes:
-    """The event as one line of JSON."""
-    return _encoder.encode(event) + b"\n"
+    """The event as one line of JSON; raises BadArgument if it could not be read back: NaN is null in JSON."""
+    try:
+        line = _encoder.encode(event)
+        msgspec.json.decode(line, type=type(event))
+    except (TypeError, msgspec.ValidationError) as error:
+        raise BadArgument(f"an event {type(event).__name__} cannot be written: {error}") from None
+    return line + b"\n"

@@ -6,6 +6,7 @@ import pytest
 
 from handeye.cell.bench import Bench
 from handeye.cell.bench_axes import BenchAxes, BenchOutputs, sensor, switch
+from handeye.cell.mechanism import Mechanism
 from handeye.core.errors import BadArgument, BadFile, HandeyeError, NoSuchName, PhysicsFailed, Refused
 from handeye.execution.scheduler import Task, Until, run
 from handeye.ports.axes import AxisSpec, Channel
@@ -38,6 +39,40 @@ def test_periods_of_ten_milliseconds_and_a_sixtieth_add_up_exactly(bench: Bench)
     for _ in range(60):
         bench.advance(1 / 60)
     assert (bench.now, bench.data.time) == (1.06, 1.06)
+
+
+def test_machines_that_put_goals_in_every_period_of_a_quarter_of_a_minute_stay_in_step(bench: Bench) -> None:
+    machines = [
+        BenchAxes(bench, [axis(name)], period=period, name=name)
+        for name, period in (("a", 0.01), ("b", 1 / 60))
+    ]
+
+    def working(machine: BenchAxes) -> Task[float]:
+        for _ in range(round(15 / machine.period)):
+            machine.put(np.zeros(1))
+            yield machine.period
+        return bench.now
+
+    assert run(bench, [working(machine) for machine in machines]) == [15.0, 15.0]
+    assert bench.data.time == 15.0
+
+
+def test_a_scene_changes_only_under_what_can_go_on_in_it() -> None:
+    class Fixed(BenchOutputs):
+        bind = Mechanism.bind
+
+    spec = mujoco.MjSpec.from_string(SCENE)
+    bench = Bench(spec.compile())
+    axes = machine(bench)
+    BenchOutputs(bench, "lamps", {})
+    axes.put(np.array([0.05, 0.0]))
+    bench.advance(1.0)
+    spec.worldbody.add_geom(size=[0.1, 0.1, 0.1], pos=[9, 9, 9])
+    bench.replace(spec)
+    assert axes.read().q[0] == pytest.approx(0.05, abs=1e-3)
+    Fixed(bench, "fixed", {})
+    with pytest.raises(Refused, match=r"^fixed cannot go on in a scene that changes$"):
+        bench.replace(spec)
 
 
 def test_an_event_happens_before_the_first_step_at_its_time_and_belongs_to_the_state(bench: Bench) -> None:

@@ -1,4 +1,7 @@
-"""Two machines of different periods on one bench: an hour without drift, killed and resumed, their channels shown."""
+"""Two machines of different periods on one bench: an hour, killed and resumed, and their channels.
+
+The hour is two seconds of work, whose physics are simulated; the rest passes at once while everything sleeps.
+"""
 
 from pathlib import Path
 

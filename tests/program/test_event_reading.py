@@ -1,5 +1,6 @@
 """A system adds kinds of events to those of all; a reader learns from the start of a run which they are."""
 
+import math
 from pathlib import Path
 
 import msgspec
@@ -111,6 +112,13 @@ def test_a_kind_of_another_version_is_told_as_such() -> None:
         msgspec.DecodeError, match="known here: another version of handeye, or of its system, wrote it"
     ):
         EventReader("machine").read(b'{"event":"Sneezed","time":1.0}')
+
+
+def test_an_event_that_could_not_be_read_back_is_not_written() -> None:
+    with pytest.raises(
+        InvalidInput, match=r"^an event LimitCrossed cannot be written: Expected `float`, got `null`"
+    ):
+        to_line(LimitCrossed(time=1.0, limit=math.nan))
 
 
 def test_no_system_can_give_another_meaning_to_a_common_kind(monkeypatch: pytest.MonkeyPatch) -> None:
