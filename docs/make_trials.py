@@ -25,10 +25,10 @@ sys.path.insert(0, str(ROOT))
 from handeye.core.files import Kind, write_over  # noqa: E402
 from handeye.report.facts.again import sense_words, world_words  # noqa: E402
 from handeye.trials.comparing import PairedTrial, beside  # noqa: E402
+from handeye.trials.figures import rate  # noqa: E402
 from handeye.trials.folder import Head, read_batch  # noqa: E402
 from handeye.trials.plans.row import OUTCOMES, Row  # noqa: E402
 from handeye.trials.plans.trial import SIMULATED_LIMIT_S  # noqa: E402
-from handeye.trials.rates import rate  # noqa: E402
 from handeye.trials.sweep import FAILED  # noqa: E402
 
 PAGE: Final = ROOT / "docs" / "figures.md"

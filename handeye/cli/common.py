@@ -2,7 +2,7 @@
 
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated, Final, Literal
 
@@ -126,6 +126,15 @@ def put_line(text: str) -> None:
 def put_json(answer: object) -> None:
     """Write an answer for programs as JSON that people can read too."""
     put(msgspec.json.format(msgspec.json.encode(answer), indent=1) + b"\n")
+
+
+def answer(found: object, lines: Iterable[str], *, json: bool) -> int:
+    """Answer with JSON for programs, or with lines for people; the exit code of an answer."""
+    if json:
+        put_json(found)
+    for line in () if json else lines:
+        say(line)
+    return 0
 
 
 def note(text: str) -> None:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, note, put_json, say
+from handeye.cli.common import Json, answer, note, say
 from handeye.cli.programs import check_task, made_known
 from handeye.cli.reports import read_recorded
 from handeye.cli.trace_files import TraceFile, trace_file
@@ -64,12 +64,7 @@ def glb(
 
 def _told(written: "Export", *, json: bool) -> int:
     """Tell what was written."""
-    if json:
-        put_json(written)
-    else:
-        for line in (f"{written.path}: {written.shows}", *written.remarks):
-            say(line)
-    return 0
+    return answer(written, (f"{written.path}: {written.shows}", *written.remarks), json=json)
 
 
 def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":

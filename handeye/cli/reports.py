@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, TaskWords, note, put_json, say, screen
+from handeye.cli.common import Json, TaskWords, answer, note, say, screen
 from handeye.cli.programs import made_known
 from handeye.cli.trace_files import TraceFile, check_no_batch, motion_file
 from handeye.core.diagnostics import quoted
@@ -49,6 +49,7 @@ def report(
     Exit code 0: it is written, whatever the run came to; 2: bad input.
     """
     from handeye.core import resources
+    from handeye.runs.folder import REPORT
 
     made_known(task)
     if (run is None) != demo or (demo and other is not None):
@@ -63,17 +64,10 @@ def report(
         place = output
         write_comparison(run, other, place, overwrite=overwrite)
     else:
-        place = output or _beside(run)
+        place = output or (run / REPORT if run.is_dir() else run.with_name(REPORT))
         write_report(run, place, overwrite=overwrite)
     say(str(place))
     return 0
-
-
-def _beside(run: Path) -> Path:
-    """Default path of the report of a run: in its folder, or beside its trace."""
-    from handeye.runs.folder import REPORT
-
-    return run / REPORT if run.is_dir() else run.with_name(REPORT)
 
 
 def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
@@ -143,12 +137,7 @@ def compare(
     else:
         found = write_comparison(a, b, output, overwrite=overwrite)
         note(f"its page: {output}")
-    if json:
-        put_json(as_json(found))
-    else:
-        for line in comparison_text(found):
-            say(line)
-    return 0
+    return answer(as_json(found), comparison_text(found), json=json)
 
 
 def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comparison":

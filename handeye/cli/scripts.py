@@ -14,6 +14,7 @@ from handeye.cli.common import (
     PlanFile,
     Script,
     TaskWords,
+    answer,
     complain,
     note,
     put,
@@ -169,12 +170,7 @@ def stages(
     from handeye.debugger.listing import listing, listing_text
 
     made = plan_at(file)
-    if json:
-        put_json(listing(made.program))
-    else:
-        for line in listing_text(made.program):
-            say(line)
-    return 0
+    return answer(listing(made.program), listing_text(made.program), json=json)
 
 
 StageName = Annotated[str | None, Parameter(help="One stage only: its number, its name, or a piece of it.")]
@@ -227,11 +223,7 @@ def diff(old: PlanFile, new: PlanFile, /, *, json: Json = False) -> int:
     from handeye.inspection.difference_text import difference_text
 
     found = difference(plan_at(old), plan_at(new))
-    if json:
-        put_json(found)
-    else:
-        for line in difference_text(found):
-            say(line)
+    answer(found, difference_text(found), json=json)
     return 0 if found.same else 1
 
 

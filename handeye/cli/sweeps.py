@@ -201,15 +201,12 @@ class _Progress(Tally):
 
         done = len(self._rows)
         left = self._timer.wall_s / (done - self._kept) * (self._total - done)
+        soon = f"{left:.0f} s" if left < 100 else f"{left / 60:.0f} min"
         rate = told_so_far(self._sweep, self._rows)
         note(
-            f"{done:4} of {self._total}  seed {row.seed:4}  {row.verdict:9}  {rate}, {_left(left)} left"
+            f"{done:4} of {self._total}  seed {row.seed:4}  {row.verdict:9}  {rate}, {soon} left"
             f"{row.detail and '  '}{row.detail}"
         )
-
-
-def _left(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
 
 
 def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:

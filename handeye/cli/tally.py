@@ -62,7 +62,9 @@ class Tally:
         """Count a trial that has ended."""
         self._ended += 1
         self._bar.update(self._task, completed=self._ended, description=self._told())
-        if not self._silent and not self._console.is_terminal and self._due():
+        share = self._ended * LINES // self._total
+        due = self._ended == self._kept + 1 or share > (self._ended - 1) * LINES // self._total
+        if not self._silent and not self._console.is_terminal and due:
             say(self._told(), self._console)
 
     @contextmanager
@@ -73,10 +75,6 @@ class Tally:
             yield
         finally:
             self._bar.start()
-
-    def _due(self) -> bool:
-        share = self._ended * LINES // self._total
-        return self._ended == self._kept + 1 or share > (self._ended - 1) * LINES // self._total
 
     def _told(self) -> str:
         left = self._total - self._ended

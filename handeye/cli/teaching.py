@@ -1,8 +1,9 @@
 """Commands for programming by doing: functions carried out at once, and the two modes of the arm program."""
 
 import sys
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
@@ -35,16 +36,60 @@ From = Annotated[Path | None, Parameter(name="--from", help="Begin with the cell
 Keep = Annotated[Path | None, Parameter(help="Save the cell at the end to this checkpoint.")]
 
 
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CellOptions:
+    """The cell to work in, and what is known of it."""
+
+    world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
+    fault: Faults = None
+    taught: TaughtFile = None
+    look: Looking = False
+    calibrate: Calibrate = False
+    first: From = None
+    camera: Camera = "auto"
+
+    def workplace(
+        self,
+        panic: "Callable[[], bool]",
+        taught: Taught | None,
+        observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
+    ) -> "Workplace":
+        """The cell; raises InvalidInput if a file, an option or the camera cannot be used."""
+        from handeye.execution.servo import Halted
+        from handeye.runs.checkpoint_file import read_checkpoint
+        from handeye.teaching.workplace import Workplace
+
+        if self.first is not None and (self.world.chosen or self.fault):
+            raise BadArgument(
+                f"{self.first} brings its own world; --seed, --level, --without, --set and --fault do not go with "
+                "--from"
+            )
+        if self.first is not None:
+            return Workplace.at(read_checkpoint(self.first), taught, panic, observers)
+        work = planned(self.world.work)
+        try:
+            return Workplace(
+                world=broken(self.world.spec, self.fault, work),
+                camera=self.camera,
+                taught=taught_for(default_script(work), work) if taught is None else taught,
+                task=work.name,
+                look=self.look,
+                calibrate=self.calibrate,
+                halt=panic,
+                observers=observers,
+            )
+        except Halted:
+            raise KeyboardInterrupt from None
+
+
+ANY_CELL: Final = CellOptions()
+
+
 def do(
     *functions: str,
-    world: WorldOptions = ANY_WORLD,
-    fault: Faults = None,
-    taught: TaughtFile = None,
-    look: Looking = False,
-    calibrate: Calibrate = False,
-    first: From = None,
+    cell: CellOptions = ANY_CELL,
     keep: Keep = None,
-    camera: Camera = "auto",
     json: Json = False,
 ) -> int:
     """Plan functions and carry them out at once, each by itself: `handeye do "OPEN 3" PARK`.
@@ -65,16 +110,7 @@ def do(
     if keep is not None:
         check_place(keep, CHECKPOINT)
     with PanicButton() as panic:
-        workplace = _workplace(
-            panic,
-            _given(taught),
-            world=world,
-            fault=fault,
-            camera=camera,
-            look=look,
-            calibrate=calibrate,
-            first=first,
-        )
+        workplace = cell.workplace(panic, None if cell.taught is None else load_taught(cell.taught))
         lines = (f"DO {function}" for function in functions)
         repl = Repl(workplace=workplace, folder=Path(), called=_kept(keep))
         failed = converse(repl, lines, put_line if json else say, json=json, strict=True)
@@ -89,13 +125,7 @@ def repl(
     script: Path | None = None,
     /,
     *,
-    world: WorldOptions = ANY_WORLD,
-    fault: Faults = None,
-    taught: TaughtFile = None,
-    look: Looking = False,
-    calibrate: Calibrate = False,
-    first: From = None,
-    camera: Camera = "auto",
+    cell: CellOptions = ANY_CELL,
     json: Json = False,
 ) -> int:
     """Type functions to collect and check them; DO carries them out. HELP lists the commands.
@@ -112,20 +142,12 @@ def repl(
     from handeye.teaching.answers import converse
     from handeye.teaching.repl import COMMANDS, Repl
 
+    taught = cell.taught
     if script is not None and taught is None and beside(script, ".toml").exists():
         taught = beside(script, ".toml")
     folder = Path() if script is None else script.parent
     with PanicButton() as panic:
-        workplace = _workplace(
-            panic,
-            _given(taught),
-            world=world,
-            fault=fault,
-            camera=camera,
-            look=look,
-            calibrate=calibrate,
-            first=first,
-        )
+        workplace = cell.workplace(panic, None if taught is None else load_taught(taught))
         lines = typed_lines("* ", panic.aside, lambda: (*COMMANDS, *INSTRUCTIONS, *workplace.known.positions))
         typist = Repl(workplace=workplace, folder=folder)
         failed = converse(typist, lines, put_line if json else say, json=json)
@@ -156,7 +178,8 @@ def teach(
     from handeye.teaching.teach_commands import TEACH_COMMANDS, TeachSession
 
     with PanicButton() as panic:
-        teacher = teacher_of(file, panic, world=world, fault=fault, camera=camera, first=first)
+        cell = CellOptions(world=world, fault=fault, camera=camera, first=first)
+        teacher = teacher_of(file, panic, cell)
         workplace = teacher.workplace
         lines = typed_lines(
             "teach> ",
@@ -171,11 +194,7 @@ def teach(
 def teacher_of(
     file: Path,
     panic: "Callable[[], bool]",
-    *,
-    world: WorldOptions,
-    fault: Faults,
-    camera: str,
-    first: Path | None,
+    cell: CellOptions,
     observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
 ) -> "Teacher":
     """A cell, and the taught file that is given, or that stands beside a script; raises InvalidInput."""
@@ -184,10 +203,7 @@ def teacher_of(
     path = file if file.suffix == ".toml" else beside(file, ".toml")
     text = read_source(path).text if path.exists() else ""
     known = load_taught(path) if path.exists() else Taught()
-    workplace = _workplace(
-        panic, known, world=world, fault=fault, camera=camera, look=False, first=first, observers=observers
-    )
-    return Teacher(workplace=workplace, file=path, saved=text)
+    return Teacher(workplace=cell.workplace(panic, known, observers), file=path, saved=text)
 
 
 def left_unsaved(teacher: "Teacher") -> bool:
@@ -195,50 +211,6 @@ def left_unsaved(teacher: "Teacher") -> bool:
     if teacher.unsaved:
         note(f"not saved: {', '.join(teacher.unsaved)}")
     return bool(teacher.unsaved)
-
-
-def _workplace(
-    panic: "Callable[[], bool]",
-    taught: Taught | None,
-    *,
-    world: WorldOptions,
-    fault: Faults,
-    camera: str,
-    look: bool,
-    calibrate: bool = False,
-    first: Path | None,
-    observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
-) -> "Workplace":
-    """The cell to work in; raises InvalidInput if a file, an option or the camera cannot be used."""
-    from handeye.execution.servo import Halted
-    from handeye.runs.checkpoint_file import read_checkpoint
-    from handeye.teaching.workplace import Workplace
-
-    if first is not None and (world.chosen or fault):
-        raise BadArgument(
-            f"{first} brings its own world; --seed, --level, --without, --set and --fault do not go with --from"
-        )
-    if first is not None:
-        return Workplace.at(read_checkpoint(first), taught, panic, observers)
-    work = planned(world.work)
-    known = taught_for(default_script(work), work) if taught is None else taught
-    try:
-        return Workplace(
-            world=broken(world.spec, fault, work),
-            camera=camera,
-            taught=known,
-            task=work.name,
-            look=look,
-            calibrate=calibrate,
-            halt=panic,
-            observers=observers,
-        )
-    except Halted:
-        raise KeyboardInterrupt from None
-
-
-def _given(file: Path | None) -> Taught | None:
-    return None if file is None else load_taught(file)
 
 
 def _kept(file: Path | None) -> str:

@@ -3,8 +3,9 @@
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
@@ -28,29 +29,64 @@ if TYPE_CHECKING:
     from handeye.tasks.interface import Disturbance
     from handeye.trials.chaos.schedule import Schedule
 
-Eye = Annotated[
-    Known,
-    Parameter(
-        help="What the program knows of its camera: what its lamp shows it, what simulated sightings would "
-        "(cheap, and too good), its drawing, or the truth."
-    ),
-]
-Worlds = Annotated[
-    WholeNumber | None, Parameter(help="Worlds to try in, from --seed on; by default as many as COUNT.")
-]
 Worldly = Annotated[WholeNumber, Parameter(name="--n", help="Worlds, from --seed on; each is tried in each.")]
-Count = Annotated[WholeNumber | None, Parameter(help="The same as COUNT.")]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AttemptOptions:
+    """How many attempts are made in which worlds, and by what camera."""
+
+    n: Annotated[WholeNumber | None, Parameter(help="The same as COUNT.")] = None
+    world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
+    worlds: Annotated[
+        WholeNumber | None, Parameter(help="Worlds to try in, from --seed on; by default as many as COUNT.")
+    ] = None
+    eye: Annotated[
+        Known,
+        Parameter(
+            help="What the program knows of its camera: what its lamp shows it, what simulated sightings would "
+            "(cheap, and too good), its drawing, or the truth."
+        ),
+    ] = "lamp"
+    camera: Camera = "auto"
+
+    def carry_out(self, name: str, count: int | None, usual: int, options: SweepOptions) -> int:
+        """Carry out a trial of the task; raises BadArgument if COUNT and --n both say how often."""
+        from handeye.trials.eye import EyeWork, eye_cases, eye_sweep
+        from handeye.trials.folder import head_of
+
+        if None not in (count, self.n):
+            raise BadArgument("COUNT says the same as --n: leave one of them out")
+        count = next((each for each in (count, self.n) if each is not None), usual)
+        worlds = count if self.worlds is None else self.worlds
+        for each, what in ((count, "world"), (worlds, "world"), (options.jobs, "process")):
+            positive(each, what)
+        options.check()
+        first, work, number = self.world.spec, planned(self.world.work), min(count, worlds)
+        if name not in work.trials:
+            raise NoSuchName(f"the task {quoted(work.name)} has no trial {quoted(name)}")
+        sweep = eye_sweep(name, work.trials[name])
+        settings = {"eye": self.eye, "number of worlds": str(number), "task": work.name}
+        return carry_out_sweep(
+            sweep,
+            EyeWork(task=work.name, trial=name, world=first, camera=self.camera, known=self.eye),
+            eye_cases(first.seed, count, number),
+            head_of(sweep, first, settings=settings, camera=self.camera),
+            options,
+            title=f"{name} in worlds from {first} on, the camera known by {self.eye}",
+            more={"worlds": number, "eye": self.eye},
+        )
+
+
+ATTEMPTS: Final = AttemptOptions()
 
 
 def base_vision_trials(
     count: WholeNumber | None = None,
     /,
     *,
-    n: Count = None,
-    world: WorldOptions = ANY_WORLD,
-    worlds: Worlds = None,
-    eye: Eye = "lamp",
-    camera: Camera = "auto",
+    attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,
 ) -> int:
     """Find the base on the belt at many poses: how often, how exactly, and how often wrongly.
@@ -65,18 +101,14 @@ def base_vision_trials(
     count
         Poses to try, by default 100: the one that a world has, then fresh ones.
     """
-    return _vision_trial("base", _counted(count, n, 100), world, worlds, eye, camera, options)
+    return attempts.carry_out("base", count, 100, options)
 
 
 def gasket_vision_trials(
     count: WholeNumber | None = None,
     /,
     *,
-    n: Count = None,
-    world: WorldOptions = ANY_WORLD,
-    worlds: Worlds = None,
-    eye: Eye = "lamp",
-    camera: Camera = "auto",
+    attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,
 ) -> int:
     """Check gaskets of every kind by eye: on properly, shifted by .3 in, absent, and one on another.
@@ -90,46 +122,7 @@ def gasket_vision_trials(
     count
         Gaskets of each kind, by default 50.
     """
-    return _vision_trial("gasket", _counted(count, n, 50), world, worlds, eye, camera, options)
-
-
-def _counted(count: int | None, n: int | None, usual: int) -> int:
-    """How many attempts; raises BadArgument if COUNT and --n both say."""
-    if None not in (count, n):
-        raise BadArgument("COUNT says the same as --n: leave one of them out")
-    return next((each for each in (count, n) if each is not None), usual)
-
-
-def _vision_trial(
-    name: str,
-    count: int,
-    world: WorldOptions,
-    worlds: int | None,
-    eye: Known,
-    camera: str,
-    options: SweepOptions,
-) -> int:
-    from handeye.trials.eye import EyeWork, eye_cases, eye_sweep
-    from handeye.trials.folder import head_of
-
-    worlds = count if worlds is None else worlds
-    for each, what in ((count, "world"), (worlds, "world"), (options.jobs, "process")):
-        positive(each, what)
-    options.check()
-    first, work, number = world.spec, planned(world.work), min(count, worlds)
-    if name not in work.trials:
-        raise NoSuchName(f"the task {quoted(work.name)} has no trial {quoted(name)}")
-    sweep = eye_sweep(name, work.trials[name])
-    settings = {"eye": eye, "number of worlds": str(number), "task": work.name}
-    return carry_out_sweep(
-        sweep,
-        EyeWork(task=work.name, trial=name, world=first, camera=camera, known=eye),
-        eye_cases(first.seed, count, number),
-        head_of(sweep, first, settings=settings, camera=camera),
-        options,
-        title=f"{name} in worlds from {first} on, the camera known by {eye}",
-        more={"worlds": number, "eye": eye},
-    )
+    return attempts.carry_out("gasket", count, 50, options)
 
 
 def disturbed_trials(

@@ -1,11 +1,9 @@
 """One sentence for each way in which a command line can be wrong, from the facts of the parser."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from typing import Final, Literal, get_args, get_origin
 
 from cyclopts import (
-    App,
-    ArgumentCollection,
     CoercionError,
     CycloptsError,
     MissingArgumentError,
@@ -30,10 +28,13 @@ def usage_sentence(error: CycloptsError) -> str:
 def _fault(error: CycloptsError, command: str) -> str:
     match error:
         case UnknownCommandError(unused_tokens=[word, *_], app=app):
-            return _unknown_command(word, () if app is None else tuple(_commands(app, word)))
+            option = word.startswith("-")  # then the options of a group, else its commands
+            alike = () if app is None else (name for name in app if name.startswith("-") == option)
+            return f"there is no {'option' if option else 'command'} {quoted(word)}{_meant(word, alike)}"
         case UnknownOptionError(token=token, argument_collection=known):
             name = token.keyword or token.value
-            return f"{command} has no option {quoted(name)}{_meant(name, _options(known))}"
+            options = (each for argument in known for each in argument.names if each.startswith("-"))
+            return f"{command} has no option {quoted(name)}{_meant(name, options)}"
         case RepeatArgumentError(token=token):
             return f"{token.keyword} is given more than once"
         case CoercionError():
@@ -44,20 +45,6 @@ def _fault(error: CycloptsError, command: str) -> str:
             return f"{keyword} needs a value" if keyword else f"{command} needs {argument.name}"
     error.verbose = False
     return str(error)
-
-
-def _unknown_command(word: str, known: tuple[str, ...]) -> str:
-    kind = "option" if word.startswith("-") else "command"
-    return f"there is no {kind} {quoted(word)}{_meant(word, known)}"
-
-
-def _commands(app: App, word: str) -> Iterator[str]:
-    """Commands of a group, or its options if the word looks like one."""
-    return (name for name in app if name.startswith("-") == word.startswith("-"))
-
-
-def _options(known: ArgumentCollection) -> Iterator[str]:
-    return (name for argument in known for name in argument.names if name.startswith("-"))
 
 
 def _wrong_value(error: CoercionError) -> str:
@@ -74,7 +61,7 @@ def _wrong_value(error: CoercionError) -> str:
     return f"{name} is {_NOUNS.get(error.target_type, 'something else')}; {quoted(given)} is not"
 
 
-def _meant(name: str, known: Iterator[str] | tuple[str, ...]) -> str:
+def _meant(name: str, known: Iterable[str]) -> str:
     """`; did you mean ...`, or the few that there are, if that helps."""
     near = suggestion(name, known)
     return f"; {near}" if near else ""

@@ -6,12 +6,12 @@ from typing import Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Out, WholeNumber, note, say
+from handeye.cli.common import Camera, CameraKind, Out, WholeNumber, note, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.programs import compiled, made_known, plan_or_own
 from handeye.cli.reports import page_of
 from handeye.cli.runs import Overwrite
-from handeye.cli.teaching import left_unsaved, teacher_of
+from handeye.cli.teaching import CellOptions, left_unsaved, teacher_of
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.errors import BadArgument
 
@@ -101,7 +101,7 @@ def _play(run: Path, port: int) -> int:
     return 0
 
 
-def _teach(file: Path, port: int, world: WorldOptions, fault: Faults, camera: str) -> int:
+def _teach(file: Path, port: int, world: WorldOptions, fault: Faults, camera: CameraKind) -> int:
     """Let positions be taught in a browser; raises InvalidInput if a file, an option or the port cannot be used."""
     from handeye.debugger.live import Pace
     from handeye.teaching.teach_commands import TeachSession
@@ -113,15 +113,8 @@ def _teach(file: Path, port: int, world: WorldOptions, fault: Faults, camera: st
     link = Link()
     watch = Watch(link, Pace(factor=1.0))  # whoever jogs the arm wants to see it go
     with PanicButton() as panic, Server(link, port) as server:
-        teacher = teacher_of(
-            file,
-            lambda: panic() or link.panic(),
-            world=world,
-            fault=fault,
-            camera=camera,
-            first=None,
-            observers=watch,
-        )
+        cell = CellOptions(world=world, fault=fault, camera=camera)
+        teacher = teacher_of(file, lambda: panic() or link.panic(), cell, watch)
         assert watch.newest is not None
         note("making the page")
         server.show(teaching_page(teacher, watch.newest), watch.newest)

@@ -159,8 +159,10 @@ def first_difference(runs: TwoRuns) -> First | None:
     Times count from the beginning of each step: a run that was late in one step is not late in all that follow. Raises
     BadFile if a message of a trace is not what its channel says.
     """
+    both = runs.a.trace, runs.b.trace
+    unseen = max(trace.unseen for trace in both)
     try:
-        for a, b in zip_longest(*_stretches(runs)):
+        for a, b in zip_longest(*(stretches(t, unseen=unseen, periods=not runs.thinned) for t in both)):
             found = _other_step(runs, a, b) or _recorded_otherwise(runs, a, b)
             if found is not None:
                 return found
@@ -168,13 +170,6 @@ def first_difference(runs: TwoRuns) -> First | None:
         names = " or ".join(run.trace.name for run in (runs.a, runs.b))
         raise BadFile(f"a message in {names} cannot be understood") from None
     return None
-
-
-def _stretches(runs: TwoRuns) -> tuple[Iterator[Stretch], Iterator[Stretch]]:
-    """The segments of both traces, with what both contain."""
-    unseen = max(run.trace.unseen for run in (runs.a, runs.b))
-    a, b = (stretches(run.trace, unseen=unseen, periods=not runs.thinned) for run in (runs.a, runs.b))
-    return a, b
 
 
 def _other_step(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | None:

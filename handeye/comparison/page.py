@@ -5,10 +5,9 @@ from pathlib import Path
 from typing import Final, TypeVar
 
 from handeye.comparison.comparison import Comparison
-from handeye.comparison.course import Course, course
 from handeye.comparison.findings import Correction, Search, Stop
-from handeye.comparison.pairing import Place, TwoRuns
-from handeye.comparison.wording import (
+from handeye.comparison.pairing import Course, Place, TwoRuns, course
+from handeye.comparison.text import (
     THINNED,
     correction_words,
     first_words,

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 from handeye.core.errors import Refused
 from handeye.core.record import Record
+from handeye.trials.figures import mcnemar, signed_rank
 from handeye.trials.folder import Head, sweep_of
-from handeye.trials.rates import mcnemar, signed_rank
 from handeye.trials.sweep import Standing, TrialRow
 
 Batch = tuple[Head, tuple[Any, ...]]

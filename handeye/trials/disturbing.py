@@ -13,7 +13,6 @@ from handeye.planfile.plan import Plan
 from handeye.program.diagnosis.causes import UndoResisted
 from handeye.program.events import UndoFinished, UndoStarted
 from handeye.results.finishing import finished
-from handeye.results.result import Result
 from handeye.runs.advance import AfterStage, advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
@@ -99,13 +98,14 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturban
     undone = [event for event in runner.events[begun:] if isinstance(event, UndoStarted)]
     met = [event.force for event in runner.events[begun:] if isinstance(event, UndoFinished)]
     cause = None if runner.call is None else runner.call.cause
+    wrong = "; ".join(check.told for check in result.referee.values() if check.refuses)
     return DisturbanceResult(
         name=name,
         built=True,
         stopped=runner.call is not None and brakes_hold(runner.arm_cell),
         at=undone[-1].text if undone else "",
         line=undone[-1].place if undone else "",
-        message=result.message if runner.call is not None else _wrong(result),
+        message=result.message if runner.call is not None else wrong or "undone, and everything is back",
         moved=round(moved, 3),
         part=part,
         felt=round(max([*met, cause.force] if isinstance(cause, UndoResisted) else met, default=0.0), 2),
@@ -120,12 +120,6 @@ def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
         runner, () if number == len(stages) else (AfterStage(stage=number - 1, name=stages[number - 1]),)
     )
     return runner.call is None and pause.kind in ("end", "break")
-
-
-def _wrong(result: Result) -> str:
-    """The referee’s complaints after a complete reversal."""
-    wrong = "; ".join(check.told for check in result.referee.values() if check.refuses)
-    return wrong or "undone, and everything is back"
 
 
 def _moved(runner: Runner) -> tuple[float, str]:

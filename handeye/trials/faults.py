@@ -154,22 +154,16 @@ def trial_of(
     """Result of a run with a fault, from its result and events."""
     begun = [event for event in events if isinstance(event, StepStarted)]
     stopped = not result.completed and begun
+    complaints = (check.told for check in result.referee.values() if check.refuses)
     return FaultTrial(
         name=catalogue.written(fault),
         outcome=outcome(catalogue.kind(fault.name).expected, result, braked=braked),
         stage=result.stopped_at,
-        message=_message(result),
+        message="; ".join(complaints) if result.completed else result.message,
         error=result.error,
         line=begun[-1].place if stopped else None,
         exit_code=result.exit_code,
     )
-
-
-def _message(result: Result) -> str:
-    """The call of the operator, or the referee’s complaints."""
-    if result.completed:
-        return "; ".join(check.told for check in result.referee.values() if check.refuses)
-    return result.message
 
 
 def outcome(expected: ExpectedDetection, result: Result, *, braked: bool) -> Outcome:

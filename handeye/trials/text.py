@@ -155,7 +155,7 @@ def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
 
 def told_so_far(sweep: Sweep[R], rows: Sequence[R]) -> str:
     """The rate of the trials that have ended: `3 of 4 assembled (30.1 to 95.4 %)`."""
-    from handeye.trials.rates import rate
+    from handeye.trials.figures import rate
 
     known = [row for row in rows if sweep.standing(row) != "uncounted"]
     found = rate(sum(sweep.standing(row) == "right" for row in known), len(known))

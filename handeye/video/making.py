@@ -19,7 +19,7 @@ from handeye.trace.trace import Trace
 from handeye.video.captions import captioned
 from handeye.video.formats import format_of
 from handeye.video.request import VideoRequest
-from handeye.video.storyboard import Frame, Storyboard, storyboard
+from handeye.video.storyboard import Storyboard, storyboard
 from handeye.vision.drawing import annotate
 
 _FINER: Final = 2  # drawn points per frame point along a side
@@ -64,14 +64,9 @@ def _drawn(trace: Trace, board: Storyboard, wanted: VideoRequest, told: Progress
         told(number, len(board.frames))
         fine = photographer.take(*posed(trace.scene, trace.at(frame.time).poses, frame.time), frame.view)
         small = cv2.resize(fine, (wanted.width, wanted.height), interpolation=cv2.INTER_AREA)
-        yield _said(np.asarray(small, dtype=np.uint8), frame)
-
-
-def _said(drawn: Photograph, frame: Frame) -> Photograph:
-    """A frame with its caption."""
-    if frame.caption is None:
-        return drawn
-    return captioned(drawn, frame.caption, None if frame.looked_at is None else _marked(frame.looked_at))
+        drawn, seen = np.asarray(small, dtype=np.uint8), frame.looked_at
+        inset = None if seen is None else _marked(seen)
+        yield drawn if frame.caption is None else captioned(drawn, frame.caption, inset)
 
 
 def _marked(seen: SeenPicture) -> Photograph:

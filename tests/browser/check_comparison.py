@@ -12,9 +12,8 @@ from chromium import Browser, Page
 from short_runs import GRASP, begin, through
 
 from handeye.comparison.comparison import comparison
-from handeye.comparison.course import Course, course
 from handeye.comparison.page import comparison_page
-from handeye.comparison.pairing import TwoRuns
+from handeye.comparison.pairing import Course, TwoRuns, course
 from handeye.report.animation import animation
 from handeye.report.recorded import RecordedRun
 from handeye.runs.folder import TRACE, open_new

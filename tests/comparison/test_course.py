@@ -3,8 +3,7 @@
 import pytest
 from told_runs import told
 
-from handeye.comparison.course import Course, course
-from handeye.comparison.pairing import TwoRuns
+from handeye.comparison.pairing import Course, TwoRuns, course
 
 OPEN, GRASP, LIFT = ("OPEN", ()), ("CLOSE", ()), ("CHANGE  [0 0 1]", ())
 

@@ -23,14 +23,13 @@ from handeye.results.result import Check
 from handeye.tasks import task
 from handeye.trace.tables import check_tables, csv_bytes, write_tables
 from handeye.trials.comparing import paired
-from handeye.trials.figures import Figures
+from handeye.trials.figures import Figures, mcnemar, rate
 from handeye.trials.figures import figures as figures_of
 from handeye.trials.folder import BatchFolder, Head, read_batch
 from handeye.trials.page import sweep_page
 from handeye.trials.plans.distributions import margins
 from handeye.trials.plans.row import Contact, Row, SearchEnd, contacts, searches
 from handeye.trials.plans.trial import ASSEMBLY, DISMANTLING, Trial, answered
-from handeye.trials.rates import mcnemar, rate
 from handeye.trials.sweep import Case, Engine, GuardedWork, cases, processes, rows_of
 from handeye.trials.sweep import carry_out as carry_out_sweep
 from handeye.trials.tables import tables as tables_of

@@ -31,17 +31,14 @@ class How(StrEnum):
 
 def felt_section(motions: Sequence[GuardedMotion], *, how: How, lost: int) -> Markup:
     """The section; `lost`: guards that were met before the trace begins."""
-    return section("felt", "What the hand felt", *_lost(lost), *_content(motions, how=how, lost=lost))
+    return section("felt", "What the hand felt", *_content(motions, how=how, lost=lost))
 
 
-def _lost(lost: int) -> Iterator[Markup]:
+def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int) -> Iterator[Markup]:
     if lost:
         yield note(
             f"{counted(lost, 'guard')} met before this trace begins, which does not tell what was felt there."
         )
-
-
-def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int) -> Iterator[Markup]:
     if not motions:
         if not lost:
             yield note("No motion of this run had a guard: the hand felt for nothing.")

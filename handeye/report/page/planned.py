@@ -19,7 +19,7 @@ from handeye.core.markup import (
 )
 from handeye.core.plain_text import counted, one_line
 from handeye.core.units import INCH, MILLIMETRE
-from handeye.report.facts.planned import Cause, Correction, EndReason, MotionEnd, Search
+from handeye.report.facts.planned import Correction, EndReason, MotionEnd, Search
 from handeye.report.page.figures import clock, exact_clock, millimetres
 from handeye.report.page.plots import Scale, dot, drawing, rule, words
 from handeye.trace.stages import Stage
@@ -141,19 +141,17 @@ def _corrections(corrections: Sequence[Correction]) -> Iterator[Markup]:
 
 def _correction(correction: Correction) -> list[Markup]:
     shifts = [figure_cell(millimetres(component)) for component in correction.shift]
-    causes = joined((_cause(cause) for cause in correction.causes), ", ")
+    causes = (
+        joined([element("b", each.name), f" {each.by} ", to_moment(each.time, f"line {each.place}")])
+        for each in correction.causes
+    )
     return [
         figure_cell(correction.step.place),
         cell(element("code", one_line(correction.step.text))),
         figure_cell(to_moment(correction.time, clock(correction.time))),
         *shifts,
-        element("td", causes if correction.causes else "what the program did", class_="wide"),
+        element("td", joined(causes, ", ") if correction.causes else "what the program did", class_="wide"),
     ]
-
-
-def _cause(cause: Cause) -> Markup:
-    link = to_moment(cause.time, f"line {cause.place}")
-    return joined([element("b", cause.name), f" {cause.by} ", link])
 
 
 _SPIRAL: Final = 220.0

@@ -1,6 +1,5 @@
 """The script as markup, line by line, in the colours of its language."""
 
-from collections.abc import Iterator
 from typing import Final
 
 from pygments import lex
@@ -30,15 +29,16 @@ def listing(program: Program) -> Markup:
         element(
             "div",
             *([] if not file else [element("h3", file)]),
-            element("ol", *_items(program, content, file, files)),
+            element(
+                "ol",
+                *(
+                    element("li", element("code", line), id=line_id(number, file, files))
+                    for number, line in enumerate(coloured(program, content), 1)
+                ),
+            ),
         )
         for file, content in zip(files, texts, strict=True)
     )
-
-
-def _items(program: Program, content: str, file: str, files: tuple[str, ...]) -> Iterator[Markup]:
-    for number, line in enumerate(coloured(program, content), 1):
-        yield element("li", element("code", line), id=line_id(number, file, files))
 
 
 def excerpt(program: Program, step: StepStarted) -> Markup:

@@ -1,19 +1,204 @@
-"""Many schedules, in several processes; those that fail are shrunk to the fewest things with which they do."""
+"""Schedules tried: what must hold after each, and those that fail shrunk to the fewest things with which they do."""
 
-from collections.abc import Iterator, Sequence
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Final
 
+import msgspec
+
+from handeye.core.errors import InvalidInput
+from handeye.core.record import Record
 from handeye.core.variation import Level, WorldSpec
+from handeye.judge.finding import Findings
+from handeye.program.events import OperatorAnswered, StageFinished
+from handeye.results.judging import findings_so_far
+from handeye.results.result import Result
+from handeye.runs.advance import StopCondition, advance
+from handeye.runs.checkpoint_store import CheckpointStore
+from handeye.runs.folder import CHECKPOINTS, EVENTS, RESULT, TRACE
+from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint, Snapshot
+from handeye.runs.systems import listing_of
+from handeye.tasks import any_task
 from handeye.tasks.interface import AnyTask
-from handeye.trials.chaos.schedule import Schedule, draw, parse_schedule
-from handeye.trials.chaos.sound_run import SoundRun, sound_run
-from handeye.trials.chaos.trial import ScheduleResult, shrunk, try_schedule
+from handeye.trace.eventlist import effective, read_events
+from handeye.trace.reading import read_trace
+from handeye.trials.chaos.carrying_out import ReachedPosition, ScheduleRun, ScheduleRunner
+from handeye.trials.chaos.schedule import MOST_STEPS, Schedule, draw, parse_schedule
+from handeye.trials.chaos.sound_run import SoundRun, sound_run, with_faults
 from handeye.trials.sweep import Case, Sweep, TrialRow
 from handeye.trials.workers import in_processes
+
+
+def on_disk(carried: ScheduleRun) -> Iterator[str]:
+    """Sentences on what is lost or unsound on disk."""
+    yield from carried.lost
+    yield from CheckpointStore(carried.folder / CHECKPOINTS).damaged()
+    try:
+        if list(effective(read_events(carried.folder / EVENTS))) != carried.runner.events:
+            yield "the event list is not what happened"
+        msgspec.json.decode((carried.folder / RESULT).read_bytes(), type=Result)
+    except (InvalidInput, OSError, msgspec.DecodeError) as fault:
+        yield str(fault)
+
+
+def in_trace(carried: ScheduleRun) -> Iterator[str]:
+    """Sentences on what is unsound in the trace."""
+    try:
+        trace = read_trace(carried.folder / TRACE)
+    except InvalidInput as fault:
+        yield str(fault)
+        return
+    if list(trace.events) != carried.runner.events:
+        yield "the trace does not tell what happened"
+    if trace.head.world != carried.runner.setup.world:
+        yield "the trace is of another world"
+
+
+def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]:
+    """Differences of a run that was interrupted from the same without interruptions, a sentence each."""
+    if carried.runner.events != unbroken.runner.events:
+        yield "other events than without interruptions"
+    if _bytes(carried.folder) != _bytes(unbroken.folder):
+        yield "another trace than without interruptions"
+    if _plain(carried.runner.history[-1]) != _plain(unbroken.runner.history[-1]):
+        yield "another state than without interruptions"
+    if carried.pause != unbroken.pause and carried.pause.kind != unbroken.pause.kind:
+        yield f"it ended with {carried.pause.kind}, and without interruptions with {unbroken.pause.kind}"
+
+
+def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
+    """Findings that fail although they hold once `done` stages are: all after the last, some by `holds_from` before."""
+    return [
+        f"{name}: {finding.subject} {finding.value:.3g} {finding.unit}"
+        for name, finding in findings.items()
+        if not finding.ok
+        and not finding.caution
+        and done >= next((stage for words, stage in holds_from.items() if name.startswith(words)), stages)
+    ]
+
+
+def _bytes(folder: Path) -> bytes:
+    return (folder / TRACE).read_bytes()
+
+
+def _plain(snapshot: Snapshot) -> bytes:
+    return msgspec.msgpack.encode(
+        (snapshot.position, snapshot.happened, snapshot.cell, snapshot.state),
+        enc_hook=lambda array: array.tobytes(),
+    )
+
+
+class EndOfStage(StopCondition, frozen=True, kw_only=True):
+    """Pause between two stages, past a number of steps."""
+
+    after: int
+
+    def met_before(self, runner: Runner) -> bool:
+        return runner.between_stages and runner.position > self.after
+
+
+class Violation(Record, frozen=True):
+    """An invariant that did not hold."""
+
+    invariant: str
+    what: str
+
+    def __str__(self) -> str:
+        return f"{self.invariant}: {self.what}"
+
+
+class ScheduleResult(Record, frozen=True, kw_only=True):
+    """Result of a schedule."""
+
+    schedule: str
+    ended: str  # The kind of its last pause; `error`: it raised what nothing should
+    broken: tuple[Violation, ...]
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Names of the invariants that did not hold."""
+        return frozenset(each.invariant for each in self.broken)
+
+
+def try_schedule(schedule: Schedule, sound: SoundRun) -> ScheduleResult:
+    """Carry a schedule out, and check what must hold; raises InvalidInput for an unknown fault or start."""
+    begun = sound.at(schedule.start)
+    start = with_faults(begun, schedule.given(any_task(begun.setup.task).faults(schedule.seed)))
+    ended, broken = "error", list[Violation]()
+    with tempfile.TemporaryDirectory(prefix="handeye-chaos-") as name:
+        try:
+            unbroken = _carried(schedule, start, Path(name) / "unbroken", broken=False)
+            ended = unbroken.pause.kind
+            broken += [*_sound(unbroken), *_named("silent", _silent(unbroken, start))]
+            if schedule.breaks:
+                carried = _carried(schedule, start, Path(name) / "broken", broken=True)
+                broken += [*_sound(carried), *_named("resume", after_resuming(carried, unbroken))]
+        except Exception as error:
+            broken.append(Violation("error", f"{type(error).__name__}: {error}"))
+    return ScheduleResult(schedule=str(schedule), ended=ended, broken=tuple(dict.fromkeys(broken)))
+
+
+def _carried(schedule: Schedule, start: Checkpoint, folder: Path, *, broken: bool) -> ScheduleRun:
+    stops: list[StopCondition] = [EndOfStage(after=start.position)]
+    stages = listing_of(start.setup).stages
+    if schedule.steps is not None or len(stages) < 2:
+        stops.append(ReachedPosition(position=start.position + (schedule.steps or MOST_STEPS)))
+    return ScheduleRunner(schedule, start, folder).carry_out(stops, broken=broken)
+
+
+def _named(invariant: str, sentences: Iterator[str]) -> Iterator[Violation]:
+    return (Violation(invariant, sentence) for sentence in sentences)
+
+
+def _sound(carried: ScheduleRun) -> Iterator[Violation]:
+    """Violations of what holds for every run, stopped or not."""
+    yield from _named("brakes", iter(carried.unbraked))
+    yield from _named("trace", in_trace(carried))
+    yield from _named("disk", on_disk(carried))
+
+
+# -- silence ------------------------------------------------------------------------------------------
+
+
+def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
+    """Failed findings on work that the program considers right.
+
+    A stage that the program has done is judged by the findings that must hold from its end on. If one does not, the
+    program goes on, for a later check may notice: it is silent only if the program ends with a wrong pump.
+    """
+    happened = carried.runner.events[len(start.events) :]
+    overruled = any(isinstance(event, OperatorAnswered) and event.choice != "retry" for event in happened)
+    done = [e.stage for e in happened if isinstance(e, StageFinished) and e.status == "done"]
+    if overruled or not done or not (carried.runner.between_stages or carried.pause.kind == "end"):
+        return
+    stages = len(carried.runner.listing.stages)
+    number = carried.runner.listing.stages.index(done[-1]) + 1
+    if carried.pause.kind == "end":
+        yield from wrong(findings_so_far(carried.runner), stages, stages, {})
+    elif wrong(findings_so_far(carried.runner), number, stages, carried.runner.task.holds_from):
+        runner = Runner(carried.runner.checkpoint())
+        if advance(runner).kind == "end":
+            yield from wrong(findings_so_far(runner), stages, stages, {})
+
+
+# -- shrinking ----------------------------------------------------------------------------------------
+
+
+def shrunk(
+    failing: ScheduleResult, schedule: Schedule, fails: Callable[[Schedule], ScheduleResult]
+) -> tuple[Schedule, ScheduleResult]:
+    """Shrink a failing schedule by removing one event at a time while it still fails."""
+    for fewer in schedule.without():
+        tried = fails(fewer)
+        if tried.names & failing.names:
+            return shrunk(tried, fewer, fails)
+    return schedule, failing
+
 
 LEVELS: Final[tuple[Level, ...]] = ("nominal", "low", "high")
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from handeye.core.record import Record
 from handeye.results.result import Check
+from handeye.trials.figures import rate
 from handeye.trials.plans.row import Row
-from handeye.trials.rates import rate
 from handeye.trials.sweep import Details
 
 ALIKE: Final = 1e-3  # Part of their mean by which margins may vary and still count as equal

@@ -13,7 +13,7 @@ from handeye.systems.trig.run.state import TaughtState
 from handeye.systems.trig.run.system import RunningJob
 from handeye.trials.chaos.schedule import parse_schedule
 from handeye.trials.chaos.sound_run import NEAR_END, SoundRun, sound_run
-from handeye.trials.chaos.trial import try_schedule
+from handeye.trials.chaos.trials import try_schedule
 
 
 @pytest.fixture(scope="module")
