@@ -14,7 +14,7 @@ from handeye.debugger.view_records import (
     PartPose,
     PartShown,
     PositionView,
-    Shown,
+    RunViews,
     TaskView,
 )
 from handeye.results.pauses import pause_sentence, stop_name
@@ -80,7 +80,7 @@ def told_row(step: StepSummary) -> str:
 # -- what is shown --------------------------------------------------------------------------------------
 
 
-def shown_lines(shown: Shown) -> list[str]:
+def shown_lines(shown: RunViews) -> list[str]:
     """Show what was asked for, as lines of text."""
     lines: list[str] = []
     for field, tell in _LINES.items():

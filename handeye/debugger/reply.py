@@ -9,7 +9,7 @@ from handeye.core.plain_text import one_line
 from handeye.core.record import Record
 from handeye.core.units import Measures
 from handeye.debugger.listing import SourceLine
-from handeye.debugger.view_records import Shown, TaskView
+from handeye.debugger.view_records import RunViews, TaskView
 from handeye.program import events as happened
 from handeye.program.events import AnyEvent
 from handeye.runs.advance import AnyStop, Pause
@@ -100,7 +100,7 @@ class CommandResult(Record, frozen=True, kw_only=True):
     said: str | UnsetType = UNSET
     pause: Pause | None = None  # why the run pauses, if the command made it go
     source: tuple[SourceLine, ...] | UnsetType = UNSET  # around where the run stands, or as asked
-    show: Shown | UnsetType = UNSET
+    show: RunViews | UnsetType = UNSET
     breaks: tuple[Break, ...] | UnsetType = UNSET
     file: str | UnsetType = UNSET  # file that was written
 

@@ -80,7 +80,7 @@ class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
     waits_for: str = ""  # what it waits for, in words; empty: its turn
 
 
-class Shown(Record, frozen=True, kw_only=True):
+class RunViews(Record, frozen=True, kw_only=True):
     """The views asked for; the rest is left out."""
 
     time_s: float | UnsetType = UNSET

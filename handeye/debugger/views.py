@@ -9,13 +9,13 @@ from handeye.core.errors import CannotWrite, NoSuchName, Refused
 from handeye.core.files import write_whole
 from handeye.core.plain_text import one_line
 from handeye.debugger.breakpoints import meant
-from handeye.debugger.view_records import PictureShown, Shown, TaskView
+from handeye.debugger.view_records import PictureShown, RunViews, TaskView
 from handeye.program.events import PictureTaken
 from handeye.results.pictures import annotated_png
 from handeye.runs.runner import Runner
 
 
-def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
+def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunViews:
     """Views by topics or their beginnings (empty: all but `positions`); raises InvalidInput.
 
     The last picture is written to the folder `pictures`, if there is one.
@@ -29,7 +29,7 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
     last = fields.get("picture")
     if last is not None and pictures is not None:
         fields["picture"] = _kept(runner, last.name, pictures)
-    return Shown(**fields)
+    return RunViews(**fields)
 
 
 def task_views(runner: Runner) -> tuple[TaskView, ...]:

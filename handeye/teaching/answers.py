@@ -12,7 +12,7 @@ from handeye.core.record import Record
 from handeye.core.source import Source
 from handeye.debugger.formatting import shown_lines, summary_lines
 from handeye.debugger.reply import StepSummary, step_summaries
-from handeye.debugger.view_records import Shown
+from handeye.debugger.view_records import RunViews
 from handeye.planning.planner import PlannedScript
 from handeye.results.pauses import pause_sentence
 from handeye.runs.advance import Pause
@@ -25,7 +25,7 @@ class LineResult(Record, frozen=True, kw_only=True):
     said: str | UnsetType = UNSET  # a sentence or more
     did: tuple[StepSummary, ...] | UnsetType = UNSET  # steps that were done, in words
     pause: Pause | UnsetType = UNSET  # why the arm pauses, if it went
-    show: Shown | UnsetType = UNSET
+    show: RunViews | UnsetType = UNSET
     lines: tuple[str, ...] | UnsetType = UNSET  # lines that are collected, or listed
     file: str | UnsetType = UNSET  # file that was written
     error: str | UnsetType = UNSET  # why the line was not carried out
