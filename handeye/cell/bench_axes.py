@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain
+from math import isfinite
 
 import mujoco
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from handeye.cell.bench import Bench
 from handeye.cell.mechanism import Mechanism, scene_for
 from handeye.cell.physics_stepper import allow, wake
-from handeye.core.errors import BadArgument, BadFile, NoSuchName, Refused
+from handeye.core.errors import BadArgument, BadFile, NoSuchName, PhysicsFailed, Refused
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel, Outputs
@@ -130,6 +131,8 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         values = tuple(map(float, self._senses[channel](self._bench.model, self._bench.data)))
         if len(values) != channel.width:
             raise BadArgument(f"{channel.name} of {self.name} has {channel.width} values, not {len(values)}")
+        if not all(map(isfinite, values)):
+            raise PhysicsFailed(f"{channel.name} of {self.name} shows what is not a finite number")
         return values
 
     def _true(self) -> Array:

@@ -141,4 +141,7 @@ def channels_schema() -> bytes:
 
 def decoded_channels(data: bytes) -> tuple[ChannelValues, ...]:
     """The channels of the message in some bytes; raises DecodeError if it is none."""
-    return _channels_decoder.decode(data).channels
+    channels = _channels_decoder.decode(data).channels
+    if any(channel.width != len(channel.values) for channel in channels):
+        raise msgspec.DecodeError("a channel has more values, or fewer, than it says")
+    return channels

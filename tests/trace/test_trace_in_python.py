@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 from recordings import HISTORY, Recording, record
@@ -15,7 +16,7 @@ from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard
 from handeye.trace.channels import HAND
 from handeye.trace.forces import Forces, recorded_forces
-from handeye.trace.hand_message import hand_message
+from handeye.trace.hand_message import decoded_channels, hand_message
 from handeye.trace.reading import read_trace
 from handeye.trace.records import RawMessage
 from handeye.trace.trace import Trace
@@ -89,6 +90,12 @@ def test_the_value_is_what_the_guard_looks_at(guard: ActiveGuard, value: float) 
     period = ServoPeriod(sensed=sensed, effort=np.zeros(6), wrench=np.arange(1.0, 7.0), guards=(guard,))
     forces = recorded_forces(np.zeros(1), [RawMessage(HAND, 0, hand_message(period))])
     assert (forces.guard[0], forces.value[0], forces.limit[0]) == (guard.guard, value, guard.limit)
+
+
+@pytest.mark.parametrize("width", [0, 2, 10**12])
+def test_a_channel_has_as_many_values_as_it_says(width: int) -> None:
+    with pytest.raises(msgspec.DecodeError, match="more values, or fewer, than it says"):
+        decoded_channels(b'{"channels":[{"name":"range","width":%d,"values":[1.0]}]}' % width)
 
 
 def test_where_nothing_is_estimated_there_are_no_figures(trace: Trace) -> None:
