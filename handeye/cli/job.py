@@ -77,7 +77,7 @@ class Job:
     planning_cpu_s: float = 0.0
 
 
-class _KeepStages(Observer):
+class _StageKeeper(Observer):
     """Keeps the states at the beginning of stages in a folder."""
 
     def __init__(self, folder: Path, setup: Setup) -> None:
@@ -170,7 +170,7 @@ class _Work:
             again = self.job.folder is not None
             looking.append(self.folder.watch(runner, self.job.start, again=again, meter=self.meter))
         if self.job.checkpoints is not None:
-            looking.append(_KeepStages(self.job.checkpoints, self.job.start.setup))
+            looking.append(_StageKeeper(self.job.checkpoints, self.job.start.setup))
         if self.job.server is not None:
             from handeye.view.moment import Newest
 

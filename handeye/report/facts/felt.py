@@ -14,7 +14,7 @@ from handeye.trace.forces import Forces
 from handeye.trace.stages import DoneStep, done_steps
 
 
-class Trip(NamedTuple):
+class MetGuard(NamedTuple):
     """A guard that was met."""
 
     time: float  # s since the run began
@@ -33,7 +33,7 @@ class GuardedMotion:
     values: Array
     """Force along the guard's axis (N), moment about it, torque of the screwdriver (N m), or switches, shape (n,)."""
     limit: float  # N, N m, or switches
-    trip: Trip | None
+    trip: MetGuard | None
 
 
 def guarded_motions(run: RecordedRun) -> tuple[GuardedMotion, ...]:
@@ -70,7 +70,7 @@ def _motion(run: RecordedRun, forces: Forces, step: DoneStep, watched: Array, st
         times=forces.times[watched] - run.trace.head.time,
         values=forces.value[watched],
         limit=float(forces.limit[watched[-1]]),
-        trip=None if met is None else Trip(run.seconds(met.time), met.value, met.limit),
+        trip=None if met is None else MetGuard(run.seconds(met.time), met.value, met.limit),
     )
 
 
