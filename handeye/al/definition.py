@@ -36,7 +36,7 @@ REV_PER_MIN = OperandUnit(name="rpm", si=units.RPM)
 
 
 class Refers(StrEnum):
-    """What kind of name an operand is."""
+    """Kinds of names that operands refer to."""
 
     POSITION = "position"
     PART = "part"

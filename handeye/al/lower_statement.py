@@ -93,7 +93,7 @@ def _operands(statement: Statement) -> Operands:
 
 
 class _Modifiers(msgspec.Struct, frozen=True, kw_only=True):
-    """What the modifiers set on a motion."""
+    """The settings that modifiers make on a motion."""
 
     guards: g.Guards = ()
     press: Vector3 | None = None

@@ -14,7 +14,7 @@ _CALLED: Final = {
 
 
 def takes(definition: Instruction, operand: Operand) -> str:
-    """What an operand of an instruction accepts."""
+    """The values that an operand of an instruction accepts, in words."""
     kinds = {
         Vector: f"{len(operand.units)} numbers in brackets{_units(operand)}",
         Number: f"{'a whole number' if operand.whole else 'a number'}{_units(operand)}",

@@ -1,1 +1,1 @@
-"""What Python programs use: plans, worlds and runs as values that show themselves."""
+"""The Python interface: plans, worlds and runs as values that show themselves."""

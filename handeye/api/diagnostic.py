@@ -72,5 +72,5 @@ class ScriptError(InvalidInput):
         super().__init__("\n\n".join(map(str, self.diagnostics)))
 
     def _render_traceback_(self) -> list[str]:
-        """What a notebook shows: the mistakes with their places, and not where in handeye they were found."""
+        """The traceback for a notebook: the mistakes with their places in the script, without handeye's own frames."""
         return str(self).splitlines()

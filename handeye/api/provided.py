@@ -1,4 +1,4 @@
-"""What comes with handeye."""
+"""Files that come with handeye."""
 
 from pathlib import Path
 from typing import Final

@@ -49,7 +49,7 @@ Place = str | int
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunEnding:
-    """What is done with a run when it ends."""
+    """Settings for the end of a run."""
 
     folder: RunFolder | None
     judged: bool
@@ -256,7 +256,7 @@ class Run:
 
     @property
     def state(self) -> State:
-        """Where the run now pauses."""
+        """The state in which the run is paused."""
         stage = self._session.stage
         name = None if stage is None else self._runner.listing.stages[stage]
         why = reason(self._session.pause) if self.ended else self._why
@@ -313,7 +313,7 @@ class Run:
 
     @property
     def assembled(self) -> bool | None:
-        """What the referee says: the work is as it should be; None if it was not asked, or not yet."""
+        """True if the referee finds the work right; None if it was not asked, or not yet."""
         return self.result.assembled
 
     # -- keeping --------------------------------------------------------------------------------------

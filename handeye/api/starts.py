@@ -1,4 +1,4 @@
-"""Where a run begins: at the beginning of a plan, or in a state that was kept."""
+"""The start of a run: the beginning of a plan, or a saved state."""
 
 import os
 from dataclasses import dataclass
@@ -62,7 +62,7 @@ class RunRequest:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Start:
-    """What a run begins with."""
+    """The start of a run."""
 
     state: Checkpoint
     folder: RunFolder | None = None
@@ -77,7 +77,7 @@ def start_of(
     taught: FileName | None,
     out: FileName | None,
 ) -> Start:
-    """What a run begins with; arguments are those of `handeye.begin`, and raises InvalidInput as that does."""
+    """The start of a run; takes the arguments of `handeye.begin` and raises InvalidInput as it does."""
     if isinstance(script, (str, os.PathLike)) and _is_kept(script):
         if taught is not None:
             raise Refused("a run that is taken up has its positions; nothing can be taught for it")

@@ -15,13 +15,13 @@ from handeye.runs.runner import Runner
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Memory:
-    """What the program remembers; differences and places are of the frame W."""
+    """The program's memory; differences and places are of the frame W."""
 
     error: int | None  # the error that was raised and that the next step may test
     saved: Mapping[str, Array]  # differences that `SAVE` saved, shape (3,), m
     counters: Mapping[str, int]
     parts: Mapping[str, Pose]  # where parts were measured: X_WP, shape (4, 4), m
-    place: int | None  # number of the place that a search has come to, from 0; None if none is under way
+    place: int | None  # number of the place that a search has reached, from 0; None if none is under way
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Memory) and _same(_values(self), _values(other))
@@ -29,7 +29,7 @@ class Memory:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class State:
-    """Where a run pauses, and how the arm stands by its own sensors. States are equal if all in them is.
+    """The place at which a run is paused, and the arm by its own sensors. States are equal if all fields are.
 
     >>> state = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray").step()
     >>> state

@@ -77,7 +77,7 @@ class World:
 
     @property
     def spec(self) -> WorldSpec:
-        """What a run records of it, in SI units."""
+        """The world as a run records it, in SI units."""
         return self._spec
 
     @property

@@ -136,7 +136,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         return values
 
     def _true(self) -> Array:
-        """Where its axes are, shape (n,)."""
+        """True positions of its axes, shape (n,)."""
         data = self._bench.data
         q = data.actuator_length[self._servos].copy()
         q[self._jointed] = data.qpos[self._qpos]

@@ -32,7 +32,7 @@ class Carriers:
         """Empty holes."""
         self._model, self._data = model, data
         self.count = sum(model.body(i).name.startswith("carrier") for i in range(model.nbody))
-        """How many there are."""
+        """Their number."""
         holes = range(self.count)
         self._body = np.array([model.body(f"carrier{k}").id for k in holes])
         bases = {int(model.body_parentid[body]) for body in self._body}
@@ -55,11 +55,11 @@ class Carriers:
             self._show(hole, there=False)
 
     def friction_of(self, hole: int) -> int:
-        """Where the model keeps the friction of a hole's thread: a degree of freedom."""
+        """The degree of freedom that has the friction of a hole's thread."""
         return int(self._model.jnt_dofadr[self._turn[hole]])
 
     def depth(self, hole: int) -> float:
-        """How deep the point of a screw is under the mouth, along its axis, m."""
+        """Depth of the point of a screw below the mouth, along its axis, m."""
         return -float(self._data.qpos[self._model.jnt_qposadr[self._slide[hole]]])
 
     def pose(self, hole: int) -> Pose:

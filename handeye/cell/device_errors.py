@@ -50,7 +50,7 @@ class ArmErrors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmBuild:
-    """How an arm of n joints was really built; arrays have shape (n,), true over believed unless said."""
+    """The true build of an arm of n joints; arrays have shape (n,), true over believed unless said."""
 
     link_mass: Array
     mass_centre: Array  # distance of each link's mass centre from the joint that moves the link

@@ -33,7 +33,7 @@ def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
 
 
 def _told(model: mujoco.MjModel) -> dict[int, tuple[float, float]]:
-    """How metallic and how rough, by the number of the material."""
+    """Metalness and roughness, by the number of the material."""
     figures = {
         model.numeric(number).name: tuple(model.numeric(number).data.tolist())
         for number in range(model.nnumeric)
@@ -113,7 +113,7 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExposurePlan:
-    """How a fine photograph is made."""
+    """Settings of a fine photograph."""
 
     exposures: int = USUAL
     film: str = "colour"
@@ -128,7 +128,7 @@ class ExposurePlan:
 
 
 def exposing(*, fine: bool, film: str | None, exposures: int | None) -> ExposurePlan | None:
-    """How a photograph is made by what was asked for, None: plainly, without a film; raises as `ExposurePlan`."""
+    """The settings asked for; None for a plain photograph; raises as `ExposurePlan`."""
     if not (fine or film is not None or exposures is not None):
         return None
     return ExposurePlan(

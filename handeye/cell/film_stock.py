@@ -104,7 +104,7 @@ def _black_and_white(light: Array) -> Array:
 
 
 _PANCHROMATIC: Final = np.array([0.30, 0.55, 0.15])
-"""How much a black and white film makes of red, green and blue."""
+"""Sensitivity of a black and white film to red, green and blue."""
 _PAPER: Final = np.array([1.0, 0.985, 0.945])
 _GRAIN: Final = 0.016  # how much a point differs by the grain, standard deviation
 

@@ -30,7 +30,7 @@ class Near:
     place: tuple[float, float, float]  # W, m
     distance: float  # m
     turned: float = 0.0
-    """How far the eye has gone round the place from there, counterclockwise seen from above, degrees."""
+    """Angle of the eye round the place from there, counterclockwise seen from above, degrees."""
 
 
 class Photographer:

@@ -22,9 +22,9 @@ class Raster:
     """Shape of a raster."""
 
     pincushion: float = 0.0
-    """How far a corner is drawn inwards in the picture, over its distance from the middle."""
+    """Inward displacement of a corner of the picture, over its distance from the middle."""
     lines: float = 0.0
-    """How far the middle of each line is off, over half its length, where its ends are right."""
+    """Displacement of the middle of each line, over half its length, its ends being right."""
     field: float = 0.0  # the same down the picture
 
     def read(self, light: NDArray[np.float32], shift: Array) -> NDArray[np.float32]:

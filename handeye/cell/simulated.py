@@ -67,7 +67,7 @@ class SimulatedCell(Clock, SnapshotCell):
 
     @property
     def renderer(self) -> Renderer:
-        """How its camera's pictures are made, if it has one."""
+        """The renderer of its camera, if it has one."""
         camera = self.devices.camera
         return Renderer(method="none") if camera is None else camera.renderer
 

@@ -51,7 +51,7 @@ class SnapshotCell:
 
     @property
     def renderer(self) -> Renderer:
-        """How its camera's pictures are made, if it has one."""
+        """The renderer of its camera, if it has one."""
         return Renderer(method="none")
 
     def capture(self) -> CellState:

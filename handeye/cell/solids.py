@@ -135,7 +135,7 @@ class SolidScene:
 
     @classmethod
     def of(cls, spec: mujoco.MjSpec, wanted: Collection[str] | None) -> Self:
-        """Those of some bodies, by default of all, the world itself with what stands around for people included."""
+        """The solids of some bodies, by default of all, the world's own scenery included."""
         model = spec.compile()
         bodies = [body for body in spec.bodies if wanted is None or body.name in wanted]
         return cls(

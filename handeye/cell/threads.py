@@ -88,7 +88,7 @@ class Driver(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ThreadFigures:
-    """How threads and screws were made; holes and screws are numbered from 0."""
+    """Dimensions of threads and screws as made; holes and screws are numbered from 0."""
 
     phases: tuple[float, ...]  # where the thread of each hole starts, rad
     friction: float = THREAD_FRICTION
@@ -220,7 +220,7 @@ class Threads(Mechanism[ThreadsState]):
         return float(self._data.qvel[self._free(screw)[1] + 5])  # free joints turn in body axes
 
     def _free(self, screw: int) -> tuple[int, int]:
-        """Where positions and rates of a loose screw are in the simulator's state."""
+        """Indices of a loose screw's positions and rates in the simulator's state."""
         body = self._screw[screw]
         return int(self._model.jnt_qposadr[self._model.body_jntadr[body]]), int(self._model.body_dofadr[body])
 

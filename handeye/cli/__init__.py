@@ -88,7 +88,7 @@ STAND_INS: Final = {
     "—": "-", "─": "-", "│": "|", "┌": "+", "├": "+", "…": "...", "“": '"', "”": '"', "„": '"', "«": '"', "»": '"',
     "‘": "'", "’": "'",
 }  # fmt: skip
-"""What an encoding without these gets instead: as wide as they are, but for the last of a line that was cut."""
+"""Replacements for characters that an encoding lacks: of equal width, except the mark of a cut line."""
 _PLAIN: Final = "handeye.plain"
 
 
@@ -118,7 +118,7 @@ def let_go_of_streams() -> None:
 
 
 def _stand_in(error: UnicodeError) -> tuple[str, int]:
-    """What stands in the place of characters that an encoding lacks, and where the text goes on."""
+    """The replacement for characters that an encoding lacks, and the position at which the text goes on."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
     lacking = error.object[error.start : error.end]

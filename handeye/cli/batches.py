@@ -133,7 +133,7 @@ def assembly_trials(
 
 
 def _engine(name: str, jobs: int, scheduler: str | None, wall_limit_s: float) -> "Engine":
-    """What carries trials out."""
+    """The engine that carries out trials."""
     from handeye.trials.sweep import processes
 
     if name == "process":
@@ -256,7 +256,7 @@ def _task_words(task: str, plan: Path | None) -> list[str]:
 
 
 def _again(trial: "Trial", command: list[str], options: list[str]) -> "Callable[[Row], str]":
-    """What tells the command that carries the trial of a row out again."""
+    """A function that gives the command to repeat the trial of a row."""
     from msgspec.structs import replace
 
     from handeye.report.facts.again import sense_words, world_words

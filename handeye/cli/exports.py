@@ -68,7 +68,7 @@ def _told(written: "Export", *, json: bool) -> int:
 
 
 def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
-    """What is to be exported; a note says what is wrong with it. Raises InvalidInput if there is no such run."""
+    """The state to export; flaws are printed as notes. Raises InvalidInput if there is no such run."""
     from handeye.runs.exported_state import initial_state, kept_state
 
     wanted = made_known(world.task)

@@ -68,7 +68,7 @@ def plan_or_own(given: Path | None, task_words: str | None) -> Plan:
 
 
 def is_program(given: Path) -> bool:
-    """Whether a name is that of a program, and not of a file; raises NoSuchName if it is of neither."""
+    """True if a name is a program's, False if a file's; raises NoSuchName if neither."""
     return not given.is_file() and _program(given) is not None
 
 

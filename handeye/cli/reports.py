@@ -155,7 +155,7 @@ def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comp
 
 
 def _animations(a: "RecordedRun", b: "RecordedRun") -> "Animations | str":
-    """What is shown of both runs to walk round in, or why there is nothing."""
+    """The animations of both runs, or the reason why there are none."""
     from handeye.report.animation import animation
     from handeye.report.recorded import check_scene
 

@@ -1,4 +1,4 @@
-"""How many of many trials have ended, and about how long the others will take, on standard error."""
+"""Progress of a batch on standard error: trials ended, and the estimated time for the rest."""
 
 import time
 from collections.abc import Callable, Iterable, Iterator

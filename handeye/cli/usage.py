@@ -19,7 +19,7 @@ _NOUNS: Final[dict[object, str]] = {float: "a number", int: "a whole number"}
 
 
 def usage_sentence(error: CycloptsError) -> str:
-    """What is wrong with a command line, what may have been meant, and where to read more."""
+    """A sentence on the mistake in a command line, with a likely correction and where to read more."""
     command = " ".join(error.command_chain or ())
     tell_more = f"see `handeye {command} --help`" if command else "see `handeye --help`"
     return f"{_fault(error, quoted(command or 'handeye'))} ({tell_more})"
@@ -48,7 +48,7 @@ def _fault(error: CycloptsError, command: str) -> str:
 
 
 def _wrong_value(error: CoercionError) -> str:
-    """What is wrong with the value of an option or argument."""
+    """A sentence on the wrong value of an option or argument."""
     name = "" if error.argument is None else error.argument.name
     if error.msg is not None:  # by a converter of our own
         return f"{name}: {error.msg}"

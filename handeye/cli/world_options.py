@@ -128,7 +128,7 @@ class WorldOptions:
 
     @property
     def task(self) -> str | None:
-        """What was said of the task; None: nothing."""
+        """The task as given; None if it was not."""
         return self.errors.task
 
     @property
@@ -175,7 +175,7 @@ def broken(
 
 
 def stage_of(listing: "Listing") -> StageNumber:
-    """What tells the number of a stage of a program from how it is written."""
+    """A function from a stage of a program, as written, to its number."""
     from handeye.debugger.breakpoints import stage_number
 
     return lambda text: stage_number(text, listing) + 1

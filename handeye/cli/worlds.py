@@ -30,7 +30,7 @@ _GROUP: Final = Group("Fine photographs", sort_key=2)
 @Parameter(name="*", group=_GROUP)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FineOptions:
-    """Whether a photograph is a fine one, and how that is made."""
+    """Options of a fine photograph."""
 
     fine: Annotated[
         bool,

@@ -97,7 +97,7 @@ class Stages:
 
     @property
     def seconds(self) -> tuple[float | None, float | None]:
-        """How long it took in both."""
+        """Its duration in both runs, s."""
         a, b = (None if each is None else each.seconds for each in (self.a, self.b))
         return a, b
 

@@ -1,4 +1,4 @@
-"""Where the courses of two runs part: the first event after which they no longer do the same."""
+"""The divergence of two runs: the first event after which they no longer do the same."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ class Divergence:
 
 
 def parting(runs: TwoRuns) -> Divergence | None:
-    """Where the courses of two runs part; None: nowhere.
+    """The divergence of two runs; None if they do not diverge.
 
     The course consists of the steps, and of what decides about them: guards met, errors raised, answers to tests, what
     people did.
@@ -62,7 +62,7 @@ def _alike(runs: TwoRuns, a: AnyEvent, b: AnyEvent) -> bool:
 
 
 def _decides(event: AnyEvent) -> Any:
-    """What of an event decides how a run goes on; None: nothing."""
+    """The part of an event that decides how a run goes on; None if it has none."""
     match event:
         case happened.StepStarted():
             return event.step

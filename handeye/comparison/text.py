@@ -64,7 +64,7 @@ def _next(event: AnyEvent | None) -> str:
 
 
 def turning_words(turning: DecidingEvent | None) -> str:
-    """How a run continued."""
+    """A run's next deciding event, in words."""
     if turning is None:
         return "it has ended"
     if isinstance(turning.event, StepStarted):
@@ -85,7 +85,7 @@ def search_words(search: Search) -> str:
 
 
 def stop_words(stop: Stop) -> str:
-    """How a guarded motion ended."""
+    """The end of a guarded motion, in words."""
     if stop.guard is None or stop.value is None:
         return "was not stopped"
     unit = _UNITS.get(stop.guard)

@@ -39,7 +39,7 @@ VERBS: Final[Mapping[Capability, str]] = {
 
 
 class Entry(Record, frozen=True, kw_only=True):
-    """What a system says of itself."""
+    """A system's entry."""
 
     name: str  # checkpoints and traces name it
     title: str  # its name in sentences
@@ -100,7 +100,7 @@ def entry_named(name: str) -> Entry:
 
 
 def loaded(place: str) -> Any:
-    """What stands at `module:NAME`."""
+    """The object at `module:NAME`."""
     module, _, name = place.partition(":")
     return getattr(import_module(module), name)
 

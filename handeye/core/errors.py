@@ -54,7 +54,7 @@ class Taken(CannotWrite):
 
 
 class Refused(InvalidInput):
-    """What is asked for is understood, but this machine, system or state does not do it."""
+    """A valid request that this machine, system or state cannot carry out."""
 
 
 class PhysicsFailed(HandeyeError):

@@ -37,7 +37,7 @@ class Size:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExpectedDetection:
-    """How a run with a fault of usual size, present from the start, should end."""
+    """The expected end of a run with a fault of usual size, present from the start."""
 
     errors: tuple[int, ...] = ()  # errors that identify it
     calls: tuple[str, ...] = ()  # operator messages that identify it

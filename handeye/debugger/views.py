@@ -33,7 +33,7 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunVie
 
 
 def task_views(runner: Runner) -> tuple[TaskView, ...]:
-    """Where each task stands; empty where tasks have no names, as of a system that has only one."""
+    """The place of each task; empty if tasks have no names, as in a system with only one."""
     steps = runner.listing.steps
     return tuple(
         TaskView(

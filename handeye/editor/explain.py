@@ -118,7 +118,7 @@ def example(code: str) -> tuple[Source, Diagnostic | None]:
 
 @dataclass(frozen=True, slots=True)
 class Remedy:
-    """What a script can do about an error, and a text that does it."""
+    """A script's remedy for an error, with an example."""
 
     advice: str
     example: str

@@ -199,7 +199,7 @@ Examination = Callable[[Picture, Picture, View, Part, Pose2D], Found | Failure]
 def _compared(
     run: ExecutionContext, operation: Comparison, number: int, examine: Examination[Found]
 ) -> Found | Fault | None:
-    """What an examination of two pictures, earlier first, finds, or an error with that number; None without vision."""
+    """The finding of an examination of two pictures, earlier first, or error `number`; None without vision."""
     if "vision" in run.without:
         return None
     before, after = run.state.shots.get(operation.before), run.state.shots.get(operation.after)

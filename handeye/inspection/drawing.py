@@ -119,7 +119,7 @@ def _path(points: tuple[Point, ...]) -> str:
 
 
 def _towards(here: Point, there: Point) -> Point:
-    """Where the rounding of a corner ends, towards another point."""
+    """The end of the rounding of a corner, towards another point."""
     dx, dy = there[0] - here[0], there[1] - here[1]
     size = abs(dx) + abs(dy)
     share = min(RADIUS, size / 2) / size if size else 0.0

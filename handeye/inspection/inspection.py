@@ -52,7 +52,7 @@ def _dependence(program: Program, key: Key, level: bool, steps: frozenset[int]) 
 
 
 def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
-    """What a motion or look depends on, and whether only horizontally; `kept` are positions that a HERE defines."""
+    """Values that a motion or look needs, and whether only horizontally; `kept` are positions that a HERE defines."""
     found: list[tuple[Key, bool]] = []
     for kind, name, level in operation.reads if operation.family in ("motion", "sight") else ():
         if kind in ("difference", "search"):

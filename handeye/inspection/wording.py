@@ -64,12 +64,12 @@ _MET: Final[dict[type[g.Guard], Callable[[Any], str]]] = {
 
 
 def stops(guards: g.Guards) -> str:
-    """What ends a guarded motion, and the error if nothing does."""
+    """The guards that end a motion, and the error if none does, in words."""
     return f"stops {' or '.join(_MET[type(guard)](guard) for guard in guards)}, else error {g.unmet(guards)}"
 
 
 def conditions(operation: AnyOperation) -> tuple[str, ...]:
-    """What guards an operation, and how it uses force."""
+    """The guards of an operation and its use of force, in words."""
     guarded = (stops(operation.guards),) if operation.guards else ()
     said = _CONDITIONS.get(type(operation))
     return guarded if said is None else (*guarded, *said(operation))

@@ -22,7 +22,7 @@ class Finding:
     relation: Relation  # how the value must stand to its limit; it may reach it
     limit: float
     unit: str
-    caution: bool = False  # if it is not `ok`, people are told, and the work may be right all the same
+    caution: bool = False  # if not `ok`, only a warning: the work may still be right
 
     @property
     def refuses(self) -> bool:
@@ -36,7 +36,7 @@ class Finding:
 
     @property
     def beyond(self) -> float:
-        """How far the value is on the wrong side of its limit, in `unit`; negative on the right one."""
+        """Distance of the value beyond its limit, in `unit`; negative within it."""
         return self.value - self.limit if self.relation == "at most" else self.limit - self.value
 
 
@@ -62,7 +62,7 @@ def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
 
 
 def worse(one: Findings, other: Findings) -> Findings:
-    """Of two looks at the same points, the less right finding of each."""
+    """The worse finding on each point of two looks."""
     return {
         name: max(found, other[name], key=lambda finding: (not finding.ok, finding.beyond))
         for name, found in one.items()

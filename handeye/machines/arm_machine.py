@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HandlingLimits:
-    """How fast an arm may move what it holds, and what its finger may feel. Tuples have a number for each axis."""
+    """Limits of speed with a held object, and of force at the finger. Tuples have a number for each axis."""
 
     acceleration: tuple[float, ...]  # m/s2 and rad/s2
     guarded_speed: tuple[float, ...]  # m/s and rad/s of a guarded move

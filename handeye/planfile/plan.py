@@ -35,5 +35,5 @@ class Plan(Record, frozen=True, kw_only=True):
 
     @property
     def joint_counts(self) -> tuple[int, ...]:
-        """How many joints the arm has by the positions of its motions: one number, if the plan is sound."""
+        """Numbers of joints in the positions of its motions: just one if the plan is sound."""
         return tuple(sorted({len(knot) for motion in self.motions.values() for knot in motion.knots}))

@@ -67,4 +67,4 @@ class TvCamera(ABC):
     @property
     @abstractmethod
     def renderer(self) -> Renderer:
-        """How its pictures are made."""
+        """The renderer of its pictures."""

@@ -33,7 +33,7 @@ class SystemEvent(Event, frozen=True, kw_only=True):
     importance: ClassVar[Importance] = "info"
 
     def sentence(self, measures: Measures) -> str:
-        """What happened, without the time, in the units of the system's task."""
+        """The event as a sentence, without the time, in the units of the system's task."""
         raise NotImplementedError
 
 

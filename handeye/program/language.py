@@ -33,7 +33,7 @@ class OwnLanguage(ABC):
 
     @abstractmethod
     def check(self, source: Source) -> list[Diagnostic]:
-        """What there is to say about a text; nothing moves."""
+        """Diagnostics on a text; nothing moves."""
 
     def formatted(self, text: str) -> str:
         """The text in its usual form; raises Refused if there is none."""

@@ -8,7 +8,7 @@ from handeye.core.record import Record, Vector3
 from handeye.program.guards import Bounds, Guards
 
 Kind = Literal["position", "part", "target", "picture", "difference", "counter", "search", "goal", "travel"]
-"""What a run remembers.
+"""Kinds of values that a run remembers.
 
 A target is a position or part; `goal` is that of the last Move, `travel` of the last Change.
 """
@@ -102,7 +102,7 @@ class Operation(
 
     @property
     def undoes(self) -> int:
-        """How often, at most, it reverses its stage and starts it anew."""
+        """Maximum number of times that it reverses its stage and starts it anew."""
         return 0
 
     @property

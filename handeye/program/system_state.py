@@ -11,7 +11,7 @@ Natural = Annotated[int, msgspec.Meta(ge=0)]
 
 
 class TaskPlace(NamedTuple):
-    """Where one task of a system stands."""
+    """The place of one task of a system."""
 
     task: str  # empty: the only one
     step: int  # the step that it does next
@@ -28,5 +28,5 @@ class SystemState(MutableRecord, kw_only=True):
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """Where each unfinished task stands, in order; that at `at` goes on next. A system of several overrides it."""
+        """The place of each unfinished task, in order; that at `at` goes on next. A system of several overrides it."""
         return () if self.at is None else (TaskPlace("", self.at),)

@@ -173,7 +173,7 @@ _KINDS: Final = {
 
 
 def unfit(error: msgspec.ValidationError) -> str:
-    """What does not fit, and where, as the rest of a sentence; parsed from `msgspec`'s message."""
+    """The mismatch and its place, as the rest of a sentence; parsed from `msgspec`'s message."""
     said, _, where = str(error).partition(" - at `$")
     where = where.rstrip("`").lstrip(".")
     about = f"{where}: " if where else ""

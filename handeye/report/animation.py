@@ -8,7 +8,7 @@ from handeye.report.recorded import RecordedRun
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Animation:
-    """What the player needs, compressed."""
+    """The player's data, compressed."""
 
     scene: bytes
     tracks: bytes

@@ -38,7 +38,7 @@ class Photograph:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PrintSize:
-    """How photographs are made."""
+    """Size and quality of photographs."""
 
     width: int
     height: int

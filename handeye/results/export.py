@@ -39,7 +39,7 @@ def scene_files(exhibit: ExportedState) -> dict[str, bytes]:
 
 
 def told(exhibit: ExportedState) -> dict[str, str]:
-    """What the files of an exhibit tell programs, by name."""
+    """Metadata for the files of an exhibit, by name."""
     return {
         "moment": exhibit.moment,
         "shows": shows(exhibit),
@@ -49,7 +49,7 @@ def told(exhibit: ExportedState) -> dict[str, str]:
 
 
 def shows(exhibit: ExportedState) -> str:
-    """What an exhibit shows, as a piece of a sentence."""
+    """The subject of an exhibit, as part of a sentence."""
     world = f"the world of {exhibit.world}"
     if exhibit.moment == "drawn":
         return f"{world}, as it is drawn, before anything happened"
@@ -91,7 +91,7 @@ class ExportedSolids:
 
     file: bytes  # GLB
     solids: int
-    open: tuple[str, ...]  # Names of those whose surface is not closed
+    open: tuple[str, ...]  # names of bodies whose surface is not closed
     weighed: tuple[WeighedBody, ...]
     """Bodies of which the density is known."""
 
@@ -113,7 +113,7 @@ def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
 
 
 def checks(exported: ExportedSolids) -> Iterator[str]:
-    """What can be said of the solids, a line each."""
+    """Remarks on the solids, a line each."""
     count = counted(exported.solids, "solid")
     yield f"{count}, not closed: {', '.join(exported.open)}" if exported.open else f"{count}, all closed"
     right = [body for body in exported.weighed if agrees(body)]
@@ -140,7 +140,7 @@ Shown = Callable[[], ExportedState]
 
 
 class Weight(Record, frozen=True, kw_only=True):
-    """What a body of known metal weighs, kg."""
+    """The weight of a body of known metal, kg."""
 
     body: str
     by_volume: float
@@ -155,15 +155,15 @@ class Export(Record, frozen=True, kw_only=True):
     moment: MomentKind
     """`drawn` before the first step, `final` after the end of the program, `unfinished` in between."""
     shows: str
-    """What it shows, for people."""
+    """Caption for people."""
     world: WorldSpec
     solids: int | None = None
-    """How many there are; None: it is no GLB file."""
+    """Number of solids; None if it is not a GLB file."""
     open: tuple[str, ...] = ()
     """Names of those whose surface is not closed."""
     weights: tuple[Weight, ...] = ()
     remarks: tuple[str, ...] = ()
-    """What the solids are found to be, a line each."""
+    """Remarks on the solids, a line each."""
 
 
 def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:

@@ -75,7 +75,7 @@ def _reported(kind: FaultKind, catalogue: Catalogue) -> FaultReport:
 
 
 def _must(expected: ExpectedDetection) -> str:
-    """What must happen with a fault, a sentence."""
+    """The expected detection of a fault, as a sentence."""
     errors = " or ".join(f"{number} ({ERRORS[number]})" for number in expected.errors)
     ways = [
         *(["before the first stage"] if expected.at_setup else []),

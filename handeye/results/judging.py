@@ -30,7 +30,7 @@ def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Fi
 
 
 def findings_so_far(runner: Runner) -> Findings:
-    """What the task's referee finds of the work as it stands, which need not be done."""
+    """The referee's findings on the work as it stands, finished or not."""
     return runner.task.judge(runner.cell.truth)
 
 

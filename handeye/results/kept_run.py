@@ -42,7 +42,7 @@ class KeptRun:
 
 
 def kept_run(path: Path) -> KeptRun:
-    """What the folder of a run tells of it; raises InvalidInput if it cannot be read, or the run has not begun."""
+    """A run as its folder records it; raises InvalidInput if it cannot be read, or the run has not begun."""
     faults = []
     if (path / RESULT).exists():
         result = read_result(path / RESULT)
@@ -139,7 +139,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
 
 
 def _host(path: Path) -> tuple[HostSeconds, list[str]]:
-    """What a run has cost the host, as far as that is recorded, and what is wrong with the record."""
+    """The host time of a run, as far as recorded, and the flaws of the record."""
     try:
         return read_host_seconds(path / HOST) or HostSeconds(), []
     except InvalidInput as fault:
@@ -153,7 +153,7 @@ def _call(events: Sequence[AnyEvent]) -> OperatorCalled | None:
 
 
 def _message(events: Sequence[AnyEvent], call: OperatorCalled | None) -> str:
-    """How a run stands that has left no result, without a full stop."""
+    """The status of a run without a result, as a sentence without a full stop."""
     last = events[-1]
     when = f"at {last.time - beginning(events):.1f} s"
     if call is not None:

@@ -98,7 +98,7 @@ def timing(result: Result) -> Table:
 
 
 def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
-    """What the computer takes, and around it what passes on the cell's clock."""
+    """Rows of the timing table: time on the computer, between times on the cell's clock."""
     t = result.timing
     if t.planning_cpu_s:  # the plan may have been there already
         yield "planning phase (processor)", t.planning_cpu_s, then.get("planning")
@@ -211,5 +211,5 @@ def _apart(result: Result) -> Text:
 
 
 def wrong_points(result: Result) -> list[str]:
-    """What the referee found not to be as it should, a sentence each."""
+    """The referee's failed findings, a sentence each."""
     return [check.sentence for check in result.checks if check.refuses]

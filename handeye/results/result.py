@@ -114,7 +114,7 @@ class CameraReport(Record, frozen=True, kw_only=True):
 
     @property
     def used(self) -> bool:
-        """Whether it was calibrated."""
+        """True if it was calibrated."""
         return self.residual_in is not None
 
 
@@ -146,7 +146,7 @@ class Result(Record, frozen=True, kw_only=True):
     camera: CameraReport
     versions: dict[str, str]
     warnings: tuple[str, ...] = ()
-    """What in the run may be other than it looks, a sentence each."""
+    """Reasons to doubt the result, a sentence each."""
     limits: dict[str, float] | UnsetType = UNSET
     """Limits given in place of the referee's own, by the names of its findings."""
     replaced: dict[str, str] | UnsetType = UNSET
@@ -172,7 +172,7 @@ class Result(Record, frozen=True, kw_only=True):
 
     @property
     def cautions(self) -> tuple[str, ...]:
-        """What the referee found that is not as it should be and does not make the work wrong, a sentence each."""
+        """The referee's warnings, which do not make the work wrong, a sentence each."""
         return tuple(check.told for check in self.checks if not check.ok and check.caution)
 
     @property

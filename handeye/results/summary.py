@@ -148,7 +148,7 @@ def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timin
 
 
 def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
-    """How long (s) the camera's mechanism had been busy by the cell's clock (s) while the arm did not wait for it."""
+    """Time (s) for which the camera's mechanism was busy up to `clock` (s) without the arm waiting for it."""
     ready = busy = 0.0
     for event in events:
         if isinstance(event, CameraStarted):

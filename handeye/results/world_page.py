@@ -100,7 +100,7 @@ def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
 
 
 def _how(quantity: QuantityReport) -> str:
-    """How a quantity is distributed."""
+    """The distribution of a quantity, in words."""
     unit = quantity.unit and f" {quantity.unit}"
     about = f" about {quantity.nominal:g}{unit}" if quantity.nominal else ""
     match quantity.spread:

@@ -46,7 +46,7 @@ class Operator(Protocol):
     """A person or a rule that says how to go on."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """How to go on with a run that called the operator; `refused`: why the last answer was impossible."""
+        """The operator's answer to a call of a run; `refused`: why the last answer was impossible."""
 
 
 @dataclass(frozen=True, slots=True)

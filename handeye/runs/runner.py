@@ -141,7 +141,7 @@ class Runner:
 
     @property
     def context(self) -> ExecutionContext:
-        """What a plan of motions is carried out with; raises InvalidInput if the system follows none."""
+        """Context in which a plan of motions is executed; raises InvalidInput if the system executes none."""
         if self.system.context is None:
             raise refusal(self.setup.system, "plans")
         return self.system.context
@@ -177,7 +177,7 @@ class Runner:
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """Where each task that has not ended stands; that of `at` goes on next."""
+        """The place of each unfinished task; that of `at` goes on next."""
         return self.system.state.places
 
     @property

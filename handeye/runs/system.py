@@ -206,7 +206,7 @@ class RunningSystem(Protocol):
 
     @property
     def context(self) -> ExecutionContext | None:
-        """What a plan of motions is carried out with; None: it follows none."""
+        """Context in which a plan of motions is executed; None if the system executes none."""
         return None
 
     @property
@@ -272,7 +272,7 @@ class RunCallbacks:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StepperWords:
-    """How the stepper's manual speaks of the runs of a system."""
+    """The words of the stepper's manual for the runs of a system."""
 
     about: tuple[str, ...] = (
         "The program is carried out a step at a time; the arrow stands before the next one.",
@@ -293,7 +293,7 @@ PLAIN: Final[Topics] = {
 
 
 class System(ABC):
-    """What a system offers: how its plans are written and read, what its state is, how it is built and spoken of."""
+    """A system: how its plans are written and read, its state, how it is built, and its words."""
 
     name: str  # its entry's
     plan: type[Record]
@@ -349,7 +349,7 @@ class System(ABC):
 
     @property
     def topics(self) -> Topics:
-        """What of a paused run can be shown."""
+        """The topics of a paused run that can be shown."""
         return PLAIN
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:

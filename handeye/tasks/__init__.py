@@ -32,7 +32,7 @@ _HINT: Final = (
     "known to the Python program that calls `handeye.tasks.register`)"
 )
 Kind = Literal["ours", "registered", "others"]
-"""Where tasks come from: handeye, this program or `--task`, entry points."""
+"""The source of a task: handeye, this program or `--task`, entry points."""
 _REGISTERED: Final[dict[str, AnyTask]] = {}
 _WORDS: Final[dict[str, str]] = {}  # what `--task` said of those that it has made known, by their names
 
@@ -137,7 +137,7 @@ def of_plans(kind: Kind) -> Iterator[Task]:
 
 
 def _ours() -> dict[str, str]:
-    """Where the tasks of handeye and those of systems are found, by name."""
+    """The import places of handeye's own tasks and those of systems, by name."""
     return _BUILT_IN | {name: place for entry in entries().values() for name, place in entry.tasks.items()}
 
 

@@ -48,4 +48,4 @@ class InsertionTask(Task):
 
     @abstractmethod
     def witnessed(self, cell: SimulatedCell) -> InsertionTruth:
-        """What the witness in a cell of this task has seen so far."""
+        """The truth so far, by the witness in a cell of this task."""

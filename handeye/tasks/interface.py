@@ -40,7 +40,7 @@ class CameraSetup(Record, frozen=True, kw_only=True):
 
 
 class HistoricalTiming(Record, frozen=True, kw_only=True):
-    """How long the same work took in its day, s."""
+    """Times of the same work in the period, s."""
 
     year: int
     program: str  # the program that these are the times of
@@ -77,7 +77,7 @@ class Words(Record, frozen=True, kw_only=True):
 
 
 class AnyTask(ABC):
-    """What every task has, whatever kind of system does it: worlds, and a referee."""
+    """A task of any kind of system: worlds, and a referee."""
 
     name: str
     words: Words
@@ -100,7 +100,7 @@ class AnyTask(ABC):
         """The quantities in which worlds differ; some seeds may stand for worlds of another make."""
 
     def faults(self, seed: int) -> Catalogue:
-        """What can be broken in the world of a seed; by default nothing."""
+        """The faults possible in the world of a seed; none by default."""
         return Catalogue()
 
     @abstractmethod
@@ -134,7 +134,7 @@ class AnyTask(ABC):
 
     @property
     def judges_apart(self) -> bool:
-        """Whether its referee looks at what the arm has undone."""
+        """True if its referee judges work that the arm has undone."""
         return type(self).judge_apart is not AnyTask.judge_apart
 
 

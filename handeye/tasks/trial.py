@@ -9,7 +9,7 @@ from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 
 Known = Literal["lamp", "sightings", "drawn", "true"]
-"""How the camera is known: calibrated with the arm's lamp as in a run, by simulated sightings of a lamp, as drawn, or
+"""Camera calibration: made with the arm's lamp as in a run, by simulated sightings of a lamp, as drawn, or
 exactly."""
 
 
@@ -50,5 +50,5 @@ class Trial(ABC, Generic[A]):
         """Counts over attempts, of which there is at least one."""
 
     def outcome(self, attempt: A) -> Literal["right", "missed", "wrong"]:
-        """How an attempt counts: by default as right, unless something wrong was taken for right."""
+        """The outcome of an attempt: by default right, unless something wrong was taken for right."""
         return "wrong" if self.count([attempt]).wrong else "right"

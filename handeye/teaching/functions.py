@@ -53,7 +53,7 @@ def planned(
 
 
 def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
-    """What is wrong with a line of a text, or with what it requires, that no further line can put right."""
+    """Mistakes in a line of a text, or in its requirements, that no further line can put right."""
     found = []
     for diagnostic in checked.diagnostics:
         text, offset = checked.source.find(diagnostic.primary.span.start)

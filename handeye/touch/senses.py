@@ -1,4 +1,4 @@
-"""What sensors can plausibly show: their limits, and models of the gap between closed fingers.
+"""Plausible sensor readings: their limits, and models of the gap between closed fingers.
 
 Limits allow for twice the stated errors of the devices (the variation tables of the tasks), as worlds of the high level
 have.

@@ -44,7 +44,7 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
 
 
 def level_of(event: Event) -> Log.Level.ValueType | None:
-    """How much an event matters; None: no person would log it."""
+    """Log level of an event; None if it is not worth logging."""
     return _IMPORTANCE[event.importance] if isinstance(event, SystemEvent) else LEVELS.get(type(event))
 
 
@@ -81,7 +81,7 @@ def inches(vector: Sequence[float], places: int = 2) -> str:
 
 
 def renderer_name(renderer: Renderer) -> str:
-    """How pictures are made: `OpenGL (EGL)`, `ray casting`, `none`, `the caller's code (fog.Foggy)`."""
+    """Name of a renderer: `OpenGL (EGL)`, `ray casting`, `none`, `the caller's code (fog.Foggy)`."""
     named = {"opengl": "OpenGL", "rays": "ray casting", "none": "none", "replaced": "the caller's code"}[
         renderer.method
     ]
@@ -89,7 +89,7 @@ def renderer_name(renderer: Renderer) -> str:
 
 
 def sentence(event: Event, measures: Measures = INCHES) -> str:
-    """What happened, without the time; `measures` are for the end of a step and the system's own events."""
+    """An event as a sentence, without the time; `measures` are for the end of a step and the system's own events."""
     match event:
         case happened.RunStarted():
             pictures = "" if event.camera.method == "none" else f", pictures by {renderer_name(event.camera)}"

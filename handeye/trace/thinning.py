@@ -32,7 +32,7 @@ FELT: Final = {
 }  # allowed deviation of the reading of a guard: N, N m, or switches
 LONGEST_GAP_S: Final = 10.0  # between two periods, whatever stands still: the second hand of a clock goes on
 _NOWHERE: Final = np.array([0, 0, -1e3, 1, 0, 0, 0], dtype=np.float64)
-"""Where a body is that is not there: far from where any is."""
+"""Pose of an absent body, far from all others."""
 
 
 def kept_periods(trace: Trace) -> Rows:

@@ -100,7 +100,7 @@ class Trace:
 
     @property
     def poses(self) -> dict[str, Poses]:
-        """Where each body was, by its name, shape (n, 7): place in W (m), then a unit quaternion w, x, y, z.
+        """Poses of each body by name, shape (n, 7): place in W (m), then a unit quaternion w, x, y, z.
 
         NaN where a body was not there, as a screw in its thread is not before it is driven.
         """
@@ -141,7 +141,7 @@ class Trace:
 
     @cached_property
     def channels(self) -> tuple[ChannelCurve, ...]:
-        """What machines sensed on channels of their own, each component against time; none of a planned program."""
+        """Readings of the machines' own channels, each component against time; empty for a planned program."""
         return self._read(lambda messages: read_channels(m for m in messages if m.topic == MACHINES))
 
     @cached_property

@@ -15,7 +15,7 @@ Key = tuple[str, int, int]  # Condition, seed, and which of the trials in that w
 
 
 class Difference(Record, frozen=True, kw_only=True):
-    """How a measure differs over the pairs of which both trials are right."""
+    """The difference of a measure over the pairs in which both trials are right."""
 
     pairs: int
     more: float  # Median of how much more it is in this batch than in the first

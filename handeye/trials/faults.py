@@ -22,7 +22,7 @@ from handeye.trials.assembly import brakes_hold, run_plan
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
 Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "silent"]
-"""How a run with a fault ended: with a right pump, as it may; stopped, with brakes on, by an error that names the
+"""The outcome of a run with a fault: with a right pump, as it may; stopped, with brakes on, by an error that names the
 fault, in a stage where that is right; likewise by another one, or in another stage; with a right pump, although the
 fault should have been noticed; stopped, and the brakes were not on; with a wrong pump that the program took for right.
 """
@@ -167,7 +167,7 @@ def trial_of(
 
 
 def outcome(expected: ExpectedDetection, result: Result, *, braked: bool) -> Outcome:
-    """How a run ended that should have ended as expected; `braked`: the brakes were on when it had."""
+    """The outcome of a run with a fault; `braked`: the brakes were on at its end."""
     if result.exit_code == 3:
         return "silent"
     if result.exit_code == 0:

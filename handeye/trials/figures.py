@@ -58,7 +58,7 @@ def signed_rank(differences: Sequence[float]) -> float:
 
 
 class Spread(Record, frozen=True, kw_only=True):
-    """How the values of a measure are spread."""
+    """The distribution of the values of a measure."""
 
     n: int
     median: float
@@ -180,7 +180,7 @@ def _of_condition(sweep: Sweep[R], name: str, rows: Sequence[R]) -> ConditionFig
 
 
 def spread(values: Sequence[float]) -> Spread:
-    """How values are spread; there is at least one."""
+    """The distribution of one or more values."""
     median, p95, most = np.percentile(values, [50, 95, 100]).round(6).tolist()
     return Spread(n=len(values), median=median, p95=p95, most=most)
 

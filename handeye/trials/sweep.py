@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from handeye.trials.folder import BatchFolder
 
 Ended = Literal["ended", "raised", "killed", "simulated limit", "wall limit", "not built"]
-"""How a trial ended: by itself; by an exception; because its process was killed; at a limit of simulated seconds, or of
+"""A trial's end: by itself; by an exception; because its process was killed; at a limit of simulated seconds, or of
 the host's; before there was anything to try it on."""
 Standing = Literal["right", "wrong", "silent", "uncounted"]
-"""How an outcome counts: a success; a failure; a failure that was taken for a success; not at all."""
+"""The class of an outcome: a success; a failure; a failure that was taken for a success; not at all."""
 
 FAILED: Final = "failed"  # Outcome of a trial that broke off
 GRACE: Final = 1.1
@@ -78,7 +78,7 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def stage(self) -> str:
-        """Where a failed trial failed, if the kind can say."""
+        """The stage in which a failed trial failed; empty if unknown."""
         return ""
 
     @property
@@ -175,7 +175,7 @@ class Sweep(Generic[R]):
     """Several trials share a world: a seed is not that of trial 0 and the number of the trial."""
 
     def standing(self, row: R) -> Standing:
-        """How a trial counts."""
+        """The class of a trial's outcome."""
         return "wrong" if row.broken_off else self.outcomes[row.outcome]
 
 

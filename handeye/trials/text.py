@@ -72,7 +72,7 @@ def _rates(sweep: Sweep[R], conditions: Sequence[ConditionFigures]) -> PlainTabl
 
 
 def _measures(figures: "Sequence[ConditionFigures | Figures]") -> PlainTable:
-    """How measures are spread: by condition, or of all trials."""
+    """Table of the distributions of measures, by condition or over all trials."""
     table = PlainTable(("measure",), "trials", "median", "95 %", "most")
     for each in figures:
         name = f"{each.condition}: " if isinstance(each, ConditionFigures) else ""
@@ -103,7 +103,7 @@ def failures(found: Figures) -> Iterator[str]:
 
 
 def verdict(sweep: Sweep[R], found: Figures) -> str:
-    """How many trials are right, and how sure that is."""
+    """The number of right trials, with its confidence limits, as a sentence."""
     wrong = [name for name, standing in sweep.outcomes.items() if standing == "wrong"]
     counts = [
         f"{found.silent_failures} silent failures",
@@ -123,7 +123,7 @@ def verdict(sweep: Sweep[R], found: Figures) -> str:
 
 
 def _place(stage: str, line: str | None = None) -> str:
-    """Where something failed, with what joins it to why; empty if that is not known."""
+    """The place of a failure, ready to be joined to its cause; empty if unknown."""
     named = f"“{stage}”" if stage not in ("", "referee") else stage
     return f"{named}{f', line {line}' if line else ''}: " if named else ""
 

@@ -50,7 +50,7 @@ def walk(
 
 
 def _first(line: list[float], polarity: Polarity, step: float, beyond: float) -> tuple[int, int | None]:
-    """Where a line first rises by `step` to at least `beyond`, and where near there most; its end, None if never."""
+    """Indices where a line first rises by `step` to at least `beyond`, and most near there; (end, None) if never."""
     rise, places = _rise(line, 0), len(line) - 2 * SPAN + 1
     entering = [*line[2 * SPAN :], 0.0]  # none enters behind the last place
     for i, (left, passed, entered) in enumerate(zip(line, line[SPAN:], entering, strict=False)):

@@ -21,7 +21,7 @@ GraspLine = tuple[tuple[float, float], tuple[float, float]]  # two ends (u, v)
 
 
 def grasp_line(view: View, X_WT: Pose, gap: float, z: float) -> GraspLine | None:
-    """Where fingers `gap` (m) apart cross height `z` (m) straight below a hand; None unless all in view."""
+    """The line in which fingers `gap` (m) apart cross height `z` (m) below a hand; None unless all in view."""
     ends = X_WT[:3, 3] + np.array([[-0.5], [0.5]]) * gap * X_WT[:3, 1]
     ends[:, 2] = z
     (u, v), (across, down) = view.project(ends).tolist()

@@ -28,7 +28,7 @@ class Scan:
 
     @property
     def points(self) -> int:
-        """How many points have been read, each counted once."""
+        """Number of points read, each counted once."""
         return int(np.count_nonzero(self.read))
 
     def open(self) -> None:
@@ -55,7 +55,7 @@ class Scan:
         return np.asarray((self._heights(places) > 0).all(axis=1))
 
     def runs(self, starts: Array, directions: Array) -> tuple[Array, Array]:
-        """How far rays may go back and ahead within the window, points, shape (n,) each."""
+        """Lengths of rays back and ahead within the window, points, shape (n,) each."""
         heights, slopes = self._heights(starts), directions @ self.sides[:, :2].T
         back, ahead = np.full((2, *heights.shape), np.inf)
         np.divide(heights, -slopes, out=ahead, where=slopes < -1e-9)
@@ -65,7 +65,7 @@ class Scan:
         return back.min(axis=1), nearest
 
     def run(self, u: int, v: int, du: int, dv: int) -> tuple[int, int]:
-        """How many points one ray may go back and ahead; (0, -1) from a start outside the window."""
+        """Lengths of one ray back and ahead, points; (0, -1) from a start outside the window."""
         back = ahead = math.inf
         for a, b, c in self._lines:
             height, slope = a * u + b * v + c, a * du + b * dv

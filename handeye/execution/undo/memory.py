@@ -60,7 +60,7 @@ def remember(state: ExecutionState, found: Memory) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateBefore:
-    """What a step may change, as it was before."""
+    """The state that a step may change, before it."""
 
     gap: float
     fingers: float

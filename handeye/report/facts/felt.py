@@ -1,4 +1,4 @@
-"""What the hand felt in the guarded motions of a run."""
+"""Forces and moments at the hand in the guarded motions of a run."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ class MetGuard(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class GuardedMotion:
-    """What a guard looked at while a motion went on, in n servo periods."""
+    """The quantity that a guard watched during a motion of n servo periods."""
 
     stage: str
     step: StepStarted
@@ -45,7 +45,7 @@ def guarded_motions(run: RecordedRun) -> tuple[GuardedMotion, ...]:
 
 
 def lost_trips(run: RecordedRun, motions: Sequence[GuardedMotion]) -> int:
-    """How many guards were met in motions of which the trace holds nothing."""
+    """Number of guards met in motions that the trace does not hold."""
     met = sum(isinstance(event, GuardTripped) for event in run.trace.events)
     return met - sum(motion.trip is not None for motion in motions)
 

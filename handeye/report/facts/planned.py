@@ -62,7 +62,7 @@ def _ends(run: RecordedRun) -> Iterator[MotionEnd]:
 
 
 def _off(step: DoneStep) -> Array | None:
-    """Where the hand is off its planned end, shape (3,), m; None: the step moved nothing, or did not end."""
+    """Offset of the hand from its planned end, shape (3,), m; None if the step moved nothing or did not end."""
     last = step.events[-1] if step.finished else None
     hand, planned = getattr(last, "hand", None), getattr(last, "planned", None)
     return None if hand is None or planned is None else np.subtract(hand, planned)
@@ -123,7 +123,7 @@ def _search(run: RecordedRun, tries: list[tuple[StepStarted, AnyEvent]]) -> Sear
 
 
 class Mover(StrEnum):
-    """What a goal is moved by."""
+    """Kinds of causes that move a goal."""
 
     SAVE = "saved in"
     LOOK = "seen in"
@@ -132,7 +132,7 @@ class Mover(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
-    """What moved a goal: a difference that was saved, a part that was seen, or the place that a search was at."""
+    """The cause of a goal's move: a saved difference, a part that was seen, or the place of a search."""
 
     name: str
     by: Mover
@@ -199,7 +199,7 @@ def _causes(
     known: Mapping[tuple[Mover, str], Cause],
     search: _Search,
 ) -> Iterator[Cause]:
-    """What moved a goal: the look at its part, for what nothing else explains; differences, and the search."""
+    """The causes of a goal's move: differences, the search, and the look at its part for the remainder."""
     restored = [event for event in step.events if isinstance(event, Restored)]
     rest = np.subtract(adjusted.shift, np.sum([[0, 0, 0], *(event.difference for event in restored)], axis=0))
     searched = _concerns_search(_operation(run, step).reads) and search.cause is not None
@@ -219,5 +219,5 @@ def _concerns_search(uses: Iterable[Use]) -> bool:
 
 
 def _operation(run: RecordedRun, step: DoneStep) -> Operation:
-    """What a step does."""
+    """The operation of a step."""
     return run.program.steps[step.started.step].operation

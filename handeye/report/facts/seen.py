@@ -1,4 +1,4 @@
-"""What the camera saw: each picture that a run took, and what was found in it."""
+"""The pictures that a run took, with the findings in each."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ def seen_pictures(run: RecordedRun) -> tuple[SeenPicture, ...]:
 
 
 def lost_pictures(run: RecordedRun) -> int:
-    """How many pictures were taken that the trace does not hold."""
+    """Number of pictures that the trace does not hold."""
     taken = sum(isinstance(event, PictureTaken) for event in run.trace.events)
     return taken - len(run.trace.pictures)
 
@@ -66,7 +66,7 @@ def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
 
 
 def _findings(run: RecordedRun) -> dict[float, list[Finding]]:
-    """What the steps found in each picture, by the time of the cell's clock at which it was taken."""
+    """The steps' findings in each picture, by the time on the cell's clock at which it was taken."""
     found: dict[float, list[Finding]] = {}
     taken: dict[str, float] = {}
     for step in done_steps(run.trace.events):

@@ -1,4 +1,4 @@
-"""What a run was told by its senses, at a moment and event by event, and told people."""
+"""Sensor readings of a run at a moment, and its events with their sentences."""
 
 from dataclasses import dataclass
 from typing import Final, NamedTuple
@@ -56,7 +56,7 @@ def told(run: RecordedRun) -> tuple[CaptionedEvent, ...]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Senses:
-    """What hand and fingers told in a servo period."""
+    """Sensor readings of hand and fingers in a servo period."""
 
     gap: float  # Opening of the fingers, m
     fingers: tuple[bool, bool]
@@ -64,7 +64,7 @@ class Senses:
 
 
 def senses_at(run: RecordedRun, seconds: float) -> Senses | None:
-    """What the senses told at a time since the run began, if recorded; raises InvalidInput if that is damaged."""
+    """Sensor readings at a time (s) since the run began, None if not recorded; raises InvalidInput if damaged."""
     until = nanoseconds(run.trace.head.time + seconds)
     told = [message for message in run.trace.messages if message.topic == HAND and message.time <= until]
     if not told:

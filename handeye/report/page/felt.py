@@ -1,4 +1,4 @@
-"""What the hand felt in guarded motions, and what machines sensed on channels of their own, against time."""
+"""Plots against time: forces at the hand in guarded motions, and the machines' own channels."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from enum import StrEnum
@@ -20,7 +20,7 @@ _TOP, _BOTTOM = 14.0, HIGH - 16.0
 
 
 class How(StrEnum):
-    """How a trace tells what was felt, as a sentence."""
+    """Sentences on how a trace records forces."""
 
     RECORDED = ""
     THINNED = (
@@ -67,7 +67,7 @@ def _figure(motion: GuardedMotion) -> Markup:
 
 
 def _said(motion: GuardedMotion) -> str:
-    """What came of the guard."""
+    """The outcome of the guard."""
     limit = felt(motion.guard, motion.limit)
     if motion.trip is not None:
         return f"{_short(motion.guard, motion.trip.value)}; guard {limit}"

@@ -11,7 +11,7 @@ def clock(seconds: float) -> str:
 
 
 def duration(seconds: float) -> str:
-    """How long something took, to the second."""
+    """A duration in words, to the second."""
     return clock(round(seconds))
 
 
@@ -29,7 +29,7 @@ def millimetres(length: float) -> str:
 
 
 def felt(kind: GuardKind, value: float) -> str:
-    """What a guard looks at, with its unit, as SI and as the language has it."""
+    """The value that a guard watches, in SI and in the units of the language."""
     match kind:
         case GuardKind.FORCE | GuardKind.AGAINST:
             return f"{value:z.1f} N ({value / OUNCE_FORCE:.4g} oz)"

@@ -1,4 +1,4 @@
-"""What the script of the page needs to know of the run: steps, stages and captions by their times."""
+"""Data for the script of the page: steps, stages and captions by their times."""
 
 from collections.abc import Sequence
 from typing import Any

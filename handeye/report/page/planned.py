@@ -110,7 +110,7 @@ def _grid(decades: Sequence[float], y: _Decades) -> Iterator[Markup]:
 
 
 def _bands(stages: Sequence[Stage], origin: float, x: Scale) -> Iterator[Markup]:
-    """Where stages begin, by their numbers."""
+    """Marks at the starts of stages, with their numbers."""
     for number, stage in enumerate(stages, 1):
         at = x(stage.begin - origin)
         yield rule(at, 12, at, _HIGH - _FOOT + 6, class_="grid")

@@ -1,4 +1,4 @@
-"""What the run hangs on: its world, its plan, its versions, and the command that carries it out again."""
+"""The conditions of the run: its world, its plan, its versions, and the command that carries it out again."""
 
 from collections.abc import Iterator
 
@@ -49,7 +49,7 @@ def _again(run: RecordedRun) -> Iterator[Markup]:
 
 
 def facts(run: RecordedRun) -> Markup:
-    """What the run hangs on, a line each."""
+    """The conditions of the run, a line each."""
     head = run.trace.head
     rows: list[tuple[str, Content]] = [*_overrides(run)]
     rows += [

@@ -1,4 +1,4 @@
-"""What the referee measured, against its limits."""
+"""The referee's measurements against their limits."""
 
 from collections.abc import Iterable, Iterator
 from typing import Final
@@ -74,7 +74,7 @@ def _mark(check: Check) -> tuple[Markup]:
 
 
 def used(check: Check) -> float | None:
-    """How much of its limit a value uses, 1 if all of it; None: it is a count, or there is nothing to use."""
+    """Share of its limit that a value uses; None for a count, or a limit that leaves no room."""
     if check.unit not in UNITS or check.limit == 0:
         return None
     if check.relation == "at least" and check.limit > 0:

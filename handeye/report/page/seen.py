@@ -1,4 +1,4 @@
-"""What the camera saw: each picture as it was, with what was found in it drawn over it."""
+"""The camera's pictures, with the findings drawn over them."""
 
 import struct
 import zlib
@@ -68,7 +68,7 @@ def figure(seen: SeenPicture, name: str) -> Markup:
 
 
 def _told(finding: Finding) -> str:
-    """What was found, or why not."""
+    """The finding, or why there is none."""
     if isinstance(finding, ErrorRaised):
         return f"error {finding.number}: {error_sentence(finding.number, finding.cause)}"
     return sentence(finding)

@@ -1,4 +1,4 @@
-"""What the run took, stage by stage, and beside 1973."""
+"""The times of the run, stage by stage, beside those of 1973."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -69,7 +69,7 @@ def _row(
 
 
 def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
-    """What the table leaves out."""
+    """Remarks on what the table leaves out."""
     yield "Minutes and seconds on the cell’s clock."
     friction = sum(event.seconds for event in run.trace.events if isinstance(event, FrictionMeasured))
     calibration = run.trace.head.time - friction

@@ -79,7 +79,7 @@ def verdict(
 
 
 def _said(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
-    """What there is to say below the title."""
+    """The sentences below the title."""
     yield from why(outcome)
     yield from _broken(run)
     if outcome.ended:
@@ -92,7 +92,7 @@ def _said(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) ->
 
 
 def _unseen(run: RecordedRun) -> Iterator[Markup]:
-    """What of the run the page cannot show."""
+    """The gaps of the page."""
     if run.begins > 0:
         yield note(
             f"This run was taken up from a checkpoint: its trace begins at {clock(run.begins)}. What happened before "
@@ -103,7 +103,7 @@ def _unseen(run: RecordedRun) -> Iterator[Markup]:
 
 
 def _course(run: RecordedRun) -> Iterator[str]:
-    """How far the run came and how long it took."""
+    """Progress and duration of the run."""
     steps = counted(sum(isinstance(event, StepStarted) for event in run.trace.events), "step")
     stages = counted(len(run.trace.stages), "stage")
     yield f"{steps} in {stages}, {duration(run.ends)} min on the cell’s clock."
@@ -113,7 +113,7 @@ def _course(run: RecordedRun) -> Iterator[str]:
 
 
 def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
-    """What the referee said of work that is right."""
+    """The referee's verdict on work that is right."""
     if run.result is None or not run.result.referee or not outcome.good:
         return
     shares = [(share, check) for check in run.result.referee.values() if (share := used(check)) is not None]
@@ -127,7 +127,7 @@ def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
 
 
 def _broken(run: RecordedRun) -> Iterator[Markup]:
-    """What of its world was broken on purpose."""
+    """The faults of the run's world."""
     for name, meaning in told_faults(run):
         told = element("code", name)
         yield element(
@@ -183,7 +183,7 @@ def _called(call: OperatorCalled) -> str:
 
 
 def _finding(check: Check) -> str:
-    """What the referee found wrong, as a sentence."""
+    """A failed finding as a sentence."""
     right = f"right is {check.relation} {check.limit:.3g} {check.unit}"
     return f"{_capital(check.subject)}: {check.value:.3g} {check.unit}; {right}."
 
@@ -193,7 +193,7 @@ def _capital(words: str) -> str:
 
 
 def where(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
-    """How far the run came, the line at which it stands, and what the senses said last."""
+    """The progress of the run, its current line, and the last sensor readings."""
     line = "" if outcome.step is None else f"Line {outcome.step.place}, "
     done = {stage.name for stage in run.trace.stages if stage.status == "done"}
     at = to_moment(outcome.time, exact_clock(outcome.time))
@@ -205,7 +205,7 @@ def where(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) ->
 
 
 def _senses(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
-    """What the senses said last."""
+    """The last sensor readings."""
     rows = [(exact_clock(each.time), sentence(each.event)) for each in told if _tells(each, run, outcome)][
         -_SAID:
     ]

@@ -55,7 +55,7 @@ def scene_bytes(trace: Trace) -> bytes:
 
 
 def tracks_bytes(trace: Trace) -> bytes:
-    """Where everything that is seen was in a run, and its clock, compressed."""
+    """The tracks of all visible bodies in a run, and its clock, compressed."""
     begin, end = trace.covers
     return tracks.tracks_bytes(
         shown_poses(trace),

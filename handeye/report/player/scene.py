@@ -1,4 +1,4 @@
-"""What a page needs to draw a scene: surfaces, materials, names, views, lamp."""
+"""Data for drawing a scene on a page: surfaces, materials, names, views, lamp."""
 
 import re
 from collections.abc import Sequence
@@ -48,7 +48,7 @@ class Palette:
 
     @property
     def grains(self) -> int:
-        """How many there are."""
+        """Their number."""
         return len(self._grains)
 
     def picture(self) -> bytes:
@@ -74,7 +74,7 @@ class Palette:
         return (*(round(float(c) ** 2.2, 4) for c in colour), round(own, 3))
 
     def _gloss(self, shape: int) -> Row:
-        """How metallic it is, and its roughness."""
+        """Metalness and roughness of a shape."""
         material = self.model.geom_matid[shape]
         if material < 0:
             return 0.0, 1.0
@@ -130,7 +130,7 @@ class Names:
     model: Any
 
     def body(self, number: int) -> str:
-        """What people call a body: as the scene tells, or its name in words: `pin 0`."""
+        """Display name of a body: the scene's own, or its name in words: `pin 0`."""
         name = self.model.body(number).name
         stem = name.rstrip("0123456789")
         if name in self._called:
@@ -138,7 +138,7 @@ class Names:
         return _words(self._called.get(stem, stem) + name.removeprefix(stem))
 
     def part(self, shape: int) -> str:
-        """What people call a shape of the world: its name without its number, or what it is made of."""
+        """Display name of a shape of the world: its name without its number, or its material."""
         material = self.model.geom_matid[shape]
         made = self.model.material(material).name if material >= 0 else "something"
         return _words((self.model.geom(shape).name or made).rstrip("0123456789"))
@@ -240,7 +240,7 @@ def views(model: Any) -> list[dict[str, Any]]:
 
 
 def lamp(model: Any) -> dict[str, list[float]]:
-    """Where the lamp is, and the point that it lights, m."""
+    """Positions of the lamp and of the point that it lights, m."""
     middle = np.array(model.stat.center)
     return {"eye": rounded(middle + model.stat.extent * _LAMP), "at": rounded(middle * [1, 1, 0])}
 
@@ -254,7 +254,7 @@ def _camera(model: Any, number: int) -> dict[str, Any]:
 
 
 def _distance(model: Any, eye: Array, forward: Array) -> float:
-    """How far along its line of sight a camera looks: to the height of the middle of the scene."""
+    """Distance (m) along a camera's line of sight to the height of the middle of the scene."""
     drop = eye[2] - model.stat.center[2]
     return float(-drop / forward[2]) if drop > 0 and forward[2] < -0.1 else float(model.stat.extent)
 

@@ -93,7 +93,7 @@ def creased(points: Array, triangles: NDArray[Any]) -> Surface:
 
 
 def _distinct(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Where each row is met first, in that order, and for every row the number of the one it is equal to."""
+    """Indices of distinct rows in order of first occurrence, and for every row the number of its distinct row."""
     _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
     order = np.argsort(first)
     rank = np.empty_like(order)

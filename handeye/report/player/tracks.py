@@ -1,4 +1,4 @@
-"""What a page needs to show where every body was: their tracks, and the clock."""
+"""Data for showing every body's motion on a page: tracks, and the clock."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -60,7 +60,7 @@ def _needed(poses: Array) -> Rows:
 
 
 UNIT: Final = 0x1FFF
-"""What 1 is in a quaternion: it turns by .01 degrees at most when it is rounded. The script knows it too."""
+"""The value of 1 in a quaternion: rounding turns it by .01 degrees at most. The script has it too."""
 
 
 def tracks_bytes(

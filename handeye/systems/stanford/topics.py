@@ -1,4 +1,4 @@
-"""What the stepper shows of a run of a plan: sensor values and the executor's state."""
+"""The stepper's views of a run of a plan: sensor values and the executor's state."""
 
 import math
 from typing import Final

@@ -1,4 +1,4 @@
-"""What commands and editors are answered about scripts of lines typed at TRIG, and programs that W has written."""
+"""The language service for scripts of lines typed at TRIG, and for programs that W has written."""
 
 from typing import Final
 

@@ -60,7 +60,7 @@ class TrigSession:
 
     @property
     def hand(self) -> tuple[float, float, float]:
-        """Where the hand was told to be: X, Y and Z of the paper's arm, mm."""
+        """Commanded position of the hand: X, Y and Z of the paper's arm, mm."""
         x, y, z, *_ = self._session.arm.here().measures()
         return x, y, z
 

@@ -31,7 +31,7 @@ WEDGES: Final = 24
 PUSH: Final = "push"
 """Sensor of the force of the plate on the pin, which no device reads: the resultant of all their contacts, N, W."""
 _NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
-"""What the sensor measures: the force, of all contacts (their resultant), one of them."""
+"""The measured quantity: the force, of all contacts (their resultant), one of them."""
 _RIM: Final = 0.070  # radius of the face around the hole, m
 _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
 """Classes of shapes that rub as the world's parts do."""

@@ -1,1 +1,1 @@
-"""What cells with the Stanford arm share: the arm as it was built, with its errors; dimensions; shapes of metal."""
+"""The parts that cells with the Stanford arm share: the arm as built, with its errors; dimensions; shapes of metal."""

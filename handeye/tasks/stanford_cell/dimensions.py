@@ -18,7 +18,7 @@ Point = tuple[float, float]
 PARK: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [
     DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE
 ]  # fmt: skip
-"""Where the arm is parked: hand at (20, 28, 8) in, pointing down. Layout study, section 2."""
+"""Joint positions of the parked arm: hand at (20, 28, 8) in, pointing down. Layout study, section 2."""
 
 UNITS: Final = {
     "in": INCH,

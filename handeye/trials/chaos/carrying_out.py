@@ -44,7 +44,7 @@ class Answers:
     before: int  # Answers that were given before the schedule began
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """How to go on; what is refused counts as abort."""
+        """The answer to a call; a refused answer counts as abort."""
         given = sum(isinstance(event, OperatorAnswered) for event in runner.events) - self.before
         return "abort" if refused or given >= len(self.answers) else self.answers[given]
 

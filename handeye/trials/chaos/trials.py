@@ -264,7 +264,7 @@ def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: AnyTask) ->
 
 
 def _sentence(row: ChaosRow) -> str:
-    """What did not hold in a schedule that fails, and the command that shows it again."""
+    """The violations of a failing schedule, and the command that reproduces it."""
     if row.drawn is None:
         return f"{row.condition}: {row.detail}"
     if row.shrunk is None:

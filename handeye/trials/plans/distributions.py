@@ -1,4 +1,4 @@
-"""How quantities of trials are spread: times of stages, places of searches, margins to the referee's limits."""
+"""Distributions of quantities over trials: times of stages, places of searches, margins to the referee's limits."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
@@ -36,7 +36,7 @@ class SearchPlaces(Record, frozen=True, kw_only=True):
 
 
 class Margin(Record, frozen=True, kw_only=True):
-    """How far a finding of the referee stays within its limit, over the trials that were judged; in its unit."""
+    """Margin of a finding to its limit over the judged trials, in its unit."""
 
     finding: str
     unit: str
@@ -140,7 +140,7 @@ def margins(rows: Sequence[Row]) -> tuple[Margin, ...]:
 
 
 def margin_of(check: Check) -> float:
-    """How far a finding is within its limit, in its unit; negative: beyond it."""
+    """Margin of a finding to its limit, in its unit; negative beyond it."""
     return check.limit - check.value if check.relation == "at most" else check.value - check.limit
 
 

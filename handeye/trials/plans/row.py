@@ -1,4 +1,4 @@
-"""What is kept of one trial of a planned program, its contact operations and searches included."""
+"""The record of one trial of a planned program, with its contact operations and searches included."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final

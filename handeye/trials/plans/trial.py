@@ -56,7 +56,7 @@ class Trial:
 
     @property
     def settings(self) -> dict[str, str]:
-        """What else decides them, by what it is called."""
+        """Further settings that determine the trials, by name."""
         return {}
 
     def __call__(self, case: Case) -> list[Row]:
@@ -72,7 +72,7 @@ class Trial:
         return [Row(trial=number, seed=case.seed, condition=case.condition, **found)]  # type: ignore[arg-type]
 
     def _facts(self, world: WorldSpec, timer: HostTimer, watch: "Watch") -> dict[str, object]:
-        """What a row tells of a trial that no exception broke off."""
+        """The fields of a trial that raised no exception."""
         done = run_plan(
             self.plan,
             world=world,
@@ -99,7 +99,7 @@ def events_digest(events: list[AnyEvent]) -> str:
 
 
 def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
-    """What a row tells of any run."""
+    """The fields that the row of any run has."""
     steps = [event for event in done.runner.events if isinstance(event, StepStarted)]
     return {
         "ended": ended,

@@ -38,7 +38,7 @@ Seed = Annotated[WholeNumber, Parameter(help="The world: how far off people teac
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KeptOptions:
-    """What to keep of a job."""
+    """Options for the records of a job."""
 
     out: Annotated[
         Path | None,

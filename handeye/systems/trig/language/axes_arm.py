@@ -151,7 +151,7 @@ class AxesArm(TrigArm):
         self._wait(self._limits.grasping)
 
     def _obstacle(self, tare: Array, speed: Array, limit: float) -> Obstacle | None:
-        """What stops the arm: a force over `limit` (N) beyond `tare`, or an axis left behind; `speed` is (n,)."""
+        """The obstacle in the way: a force over `limit` (N) beyond `tare`, or an axis left behind; `speed` is (n,)."""
         found = self._resistance(tare, limit) or self._left_behind(speed)
         if found is not None:
             self._stand()

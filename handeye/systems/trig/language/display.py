@@ -298,7 +298,7 @@ def _row(pane: _Pane, row: int, columns: range) -> Line:
 
 
 def _filled(room: int, column: int, elbow: Elbow | None, symbols: Symbols) -> tuple[Style, str]:
-    """What follows a step: blanks, or the line to the right."""
+    """The text after a step: blanks, or the line to the right."""
     if elbow is None or not elbow.start <= column <= elbow.end:
         return "", " " * room
     if column == elbow.end:
