@@ -36,7 +36,8 @@ class ToolAxes(Axes):
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
         """Take an arm that is held where it is; goals may be `reach` (m) from the origin of W, if it gets there."""
         self.name, self._drive = name, drive
-        self._goal = self._pose(drive.state.q)
+        self._start = self._goal = self._pose(drive.state.q)  # set-points before and at the end of a period
+        self._put_at = 0.0  # s
         self._motion: Motion[Outcome] | None = None
         gap, grip = drive.arm.hand.gap_max, drive.arm.hand.grip
         self._specs = (
@@ -60,7 +61,8 @@ class ToolAxes(Axes):
     def tare(self) -> None:
         """Hold still for some periods, and take what is felt then as no force."""
         self._finish()
-        self._drive.zero()
+        self._goal = self._start if self._motion is not None else self._goal
+        self._end(self._drive.zero())
 
     def read(self) -> AxesReading:
         self._finish()
@@ -77,24 +79,28 @@ class ToolAxes(Axes):
         if not np.isfinite(goal).all():
             raise BadArgument("a goal of an axis is not a finite number")
         self._finish()
+        self._start = (
+            self._start if self._motion is not None else self._goal
+        )  # else the last goal is replaced
         most = np.array([spec.speed for spec in self._specs[:-1]]) * self.period
-        way = goal[:-1] - self._goal
+        way = goal[:-1] - self._start
         way[3:] = (way[3:] + pi) % (2 * pi) - pi
-        self._goal = self._goal + np.clip(way, -most, most)
+        self._goal = self._start + np.clip(way, -most, most)
         self._drive.state.gap = float(goal[-1])
         self._motion = self._drive.shifting(self._drive.dynamics(), hand(*self._goal), feeling=True)
-        try:
-            next(self._motion)
-        except StopIteration as end:
-            self._end(end.value)
+        self._put_at = self._drive.cell.clock.now
+        self._go_on(self._motion)
 
     def _finish(self) -> None:
-        """Take in what the arm felt in the period that has passed."""
-        if self._motion is not None:
-            try:
-                next(self._motion)
-            except StopIteration as end:
-                self._end(end.value)
+        """Take in what the arm felt in the period that has passed, if one has."""
+        if self._motion is not None and self._drive.cell.clock.now > self._put_at:
+            self._go_on(self._motion)
+
+    def _go_on(self, motion: Motion[Outcome]) -> None:
+        try:
+            next(motion)
+        except StopIteration as end:
+            self._end(end.value)
 
     def _end(self, outcome: Outcome) -> None:
         self._motion = None

@@ -51,6 +51,21 @@ def test_a_tool_goes_no_faster_than_its_axes_and_is_refused_what_it_cannot_reach
         go(axes, cell, here - 1.4 * ALONG[2], 0.2)
 
 
+def test_goals_and_readings_between_which_no_time_passes_are_those_of_one_period() -> None:
+    cell, once = FakeCell(np.array(PARK)).devices, FakeCell(np.array(PARK)).devices
+    axes, plain = tool(cell), tool(once)
+    here = axes.read().q
+    for _ in range(10):
+        before = axes.read().q
+        axes.put(here)
+        axes.put(here + 0.2 * ALONG[0])
+        assert (axes.read().q == before).all()
+        plain.put(here + 0.2 * ALONG[0])
+        cell.clock.advance(axes.period)
+        once.clock.advance(axes.period)
+    assert axes.read().q.tolist() == plain.read().q.tolist()
+
+
 @pytest.mark.slow
 def test_a_guarded_descent_stops_on_the_table_near_its_limit() -> None:
     simulated = build_cell(PumpWorld.nominal(), camera="ray")
