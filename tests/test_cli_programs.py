@@ -46,7 +46,9 @@ def test_a_file_of_the_name_wins_and_a_folder_does_not(command: Command) -> None
     ("words", "said"),
     [
         ("run water_pmup", "water_pmup: there is no such file, and no program is called so; did you mean"),
-        ("run palletise", "the task `palletise`: TRIG cannot follow a plan of motions"),
+        ("run palletise", "the task `palletise`: TRIG cannot follow a plan of motions: its programs are taught in the "
+         "world they work in; `handeye trig palletise`, "),
+        ("trig palletise --task bucket", "`trig palletise` has no option `--task` (see"),
         (
             "check insertion --task water_pump",
             "the program `insertion` is of the task `insertion`, not of `water_pump`; leave --task out",
@@ -65,6 +67,24 @@ def test_what_cannot_be_taken_is_told_in_a_sentence(command: Command, words: str
     code, out, err = command(*words.split())
     assert (code, out) == (2, "")
     assert err.startswith(f"handeye: {said}")
+
+
+def test_no_plan_has_a_module_imported(command: Command) -> None:
+    Path("exits.py").write_text("raise SystemExit(7)", encoding="utf-8")
+    command("plan", "insertion", "-o", "plan.json")
+    text = (
+        Path("plan.json").read_text(encoding="utf-8").replace('"task": "insertion"', '"task": "exits:TASK"')
+    )
+    Path("plan.json").write_text(text, encoding="utf-8")
+    for words in (
+        ("run", "plan.json", "--out", "run"),
+        ("trials", "assembly", "--n", "1", "--plan", "plan.json"),
+    ):
+        code, _, err = command(*words)
+        assert (code, err[:40]) == (2, "handeye: no task is called `exits:TASK`;")
+    assert not Path("run").exists()
+    code, _, err = command("world", "--task", "exits:TASK")
+    assert (code, err) == (2, "handeye: the task `exits:TASK` cannot be imported: SystemExit: 7\n")
 
 
 @pytest.mark.parametrize(

@@ -46,8 +46,10 @@ ARITHMETIC = {
 MAKERS = {
     "__init__": {"importlib.import_module"},  # a name of the API when it is used
     "cell.opengl": {"importlib"},  # one of two libraries of OpenGL, whichever is there
-    "core.entries": {"importlib.import_module", "importlib.metadata"},  # a system when it is asked for
-    "tasks.__init__": {"importlib.import_module"},  # a task when it is asked for
+    "core.entries": {
+        "importlib.import_module",
+        "importlib.metadata",
+    },  # a system or task when it is asked for
     "core.versions": {"importlib.metadata.version"},
 }
 """Modules that name another one at run time, and by which means."""

@@ -5,6 +5,8 @@ from typing import Final
 from cyclopts import App
 from cyclopts.command_spec import CommandSpec
 
+from handeye.core.entries import loaded
+
 COMMANDS: Final = """
 assemble = runs:assemble: Assemble the water pump, or do another task with its own program: plan, work, judge.
 run = runs:run: Carry out a plan in the work cell of its task, or stages of it, or step by step.
@@ -63,6 +65,7 @@ class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
         """Import the command. Its own help is its docstring: the sentence is for lists, which do not import it."""
         self.help = None
+        loaded(self.import_path, "the command at ")
         return super().resolve(parent_app)
 
 

@@ -64,7 +64,8 @@ def faults(
         return _list(catalogue, kinds, json=options.json)
     options.check()
     plan = plan_or_own(None, world.task)
-    given = usual(catalogue, kinds, None if stage is None else stage_of(plan.program)(stage))
+    first = None if stage is None else stage_of(plan.program)(stage)
+    given = usual(catalogue, kinds, first, len(plan.program.stages))
     return carry_out_sweep(
         FAULTS,
         FaultWork(plan=plan, world=spec, faults=given, camera=camera),

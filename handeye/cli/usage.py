@@ -33,7 +33,7 @@ def _fault(error: CycloptsError, command: str) -> str:
             return f"there is no {'option' if option else 'command'} {quoted(word)}{_meant(word, alike)}"
         case UnknownOptionError(token=token, argument_collection=known):
             name = token.keyword or token.value
-            options = (each for argument in known for each in argument.names if each.startswith("-"))
+            options = (each for one in known if one.parse for each in one.names if each.startswith("-"))
             return f"{command} has no option {quoted(name)}{_meant(name, options)}"
         case RepeatArgumentError(token=token):
             return f"{token.keyword} is given more than once"

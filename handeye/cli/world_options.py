@@ -11,7 +11,7 @@ from handeye.core.errors import BadArgument
 from handeye.core.variation import WorldSpec, checked_seed
 from handeye.core.world_options import StageNumber, faults, from_start_only, overrides
 from handeye.program.senses import SENSES, Sense
-from handeye.tasks import DEFAULT, any_task, named
+from handeye.tasks import DEFAULT, any_task, named, option
 
 if TYPE_CHECKING:
     from handeye.runs.system import Listing
@@ -66,8 +66,8 @@ class ErrorOptions:
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
-        """The same for the task of a name."""
-        return replace(self, task=name)
+        """The same for the task that a plan or run records; what is written there never has a module imported."""
+        return replace(self, task=any_task(name).name)
 
     def spec(self, seed: int) -> WorldSpec:
         """The world of a seed with these errors; raises InvalidInput if there is no such seed, name, unit or value."""
@@ -101,7 +101,7 @@ class ErrorOptions:
 
     def words(self) -> list[str]:
         """The options as they would be typed."""
-        task = [] if self.task is None else ["--task", self.task]
+        task = [] if self.task is None else option(self.task) or ("--task", self.task)
         level = [] if self.level == "nominal" else ["--level", self.level]
         without = [word for names in self.without or () for word in ("--without", names)]
         return [
@@ -110,6 +110,14 @@ class ErrorOptions:
             *without,
             *(word for setting in self.settings or () for word in ("--set", setting)),
         ]
+
+
+@Parameter(name="*", group=WORLD)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OwnErrorOptions(ErrorOptions):
+    """The same where the command says which task it is."""
+
+    task: Annotated[str | None, Parameter(parse=False)] = None
 
 
 @Parameter(name="*", group=WORLD)
@@ -183,3 +191,4 @@ def stage_of(listing: "Listing") -> StageNumber:
 
 ANY_WORLD: Final = WorldOptions()
 ANY_ERRORS: Final = ErrorOptions()
+ANY_OWN_ERRORS: Final = OwnErrorOptions()

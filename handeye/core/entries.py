@@ -10,10 +10,11 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, Final, Literal
 
+import msgspec
 from msgspec import field
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import BadFile, NoSuchName, Refused
+from handeye.core.errors import BadFile, HandeyeError, NoSuchName, Refused
 from handeye.core.record import Record
 
 GROUP: Final = "handeye.systems"  # the entry-point group in which packages from elsewhere name their entries
@@ -74,15 +75,20 @@ def _installed() -> list[Entry]:
         _found.extend(loaded(place) for place in OWN)
         for name, place in entry_points(GROUP).items():
             try:
-                entry = loaded(place)
-            except Exception as error:
-                _broken[name] = f"{type(error).__name__}: {error}"
-                continue
-            if isinstance(entry, Entry):
-                _found.append(entry)
-            else:
-                _broken[name] = f"its entry point leads to {entry!r}, which is no Entry"
+                _found.append(_sound(loaded(place)))
+            except (HandeyeError, msgspec.ValidationError) as error:
+                _broken[name] = str(error)
     return _found
+
+
+def _sound(entry: object) -> Entry:
+    """An entry with fields of the right types that takes no other's name; raises BadFile or msgspec.ValidationError."""
+    if not isinstance(entry, Entry):
+        raise BadFile(f"its entry point leads to {entry!r}, which is no Entry")
+    msgspec.convert(msgspec.to_builtins(entry), Entry)
+    if entry.name in (other.name for other in _found):
+        raise BadFile(f"there is a system called {quoted(entry.name)} already")
+    return entry
 
 
 _found: Final[list[Entry]] = []
@@ -99,10 +105,16 @@ def entry_named(name: str) -> Entry:
     return known[name]
 
 
-def loaded(place: str) -> Any:
-    """The object at `module:NAME`."""
+def loaded(place: str, what: str = "") -> Any:
+    """The object at `module:NAME`; raises BadFile, with `what` before its place, if it cannot be imported."""
     module, _, name = place.partition(":")
-    return getattr(import_module(module), name)
+    try:
+        return getattr(import_module(module), name)
+    except HandeyeError:
+        raise
+    except (Exception, SystemExit) as error:
+        said = " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
+        raise BadFile(f"{what}{quoted(place)} cannot be imported: {said}") from error
 
 
 def entry_of_file(name: str) -> tuple[Entry | None, str]:

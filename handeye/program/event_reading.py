@@ -23,18 +23,18 @@ def own_kinds(system: str) -> tuple[type[SystemEvent], ...]:
 
 @cache
 def _at(place: str) -> tuple[type[SystemEvent], ...]:
-    """The kinds at `module:NAME`; raises BadArgument if they cannot be loaded, written as JSON and read back."""
+    """The kinds at `module:NAME`; raises InvalidInput if they cannot be loaded, written as JSON and read back."""
+    own: tuple[type[SystemEvent], ...] = loaded(place)
     try:
-        own: tuple[type[SystemEvent], ...] = tuple(loaded(place))
         taken = _COMMON & {kind.__name__ for kind in own}
         if not taken:
-            _decoder(own)
-            msgspec.json.schema(_union(own))
+            _decoder(tuple(own))
+            msgspec.json.schema(_union(tuple(own)))
     except Exception as error:
         raise BadArgument(f"{place} cannot be loaded: {type(error).__name__}: {error}") from error
     if taken:
         raise BadArgument(f"{place} calls a kind of event {min(taken)}, which all systems have")
-    return own
+    return tuple(own)
 
 
 def event_type(system: str) -> Any:

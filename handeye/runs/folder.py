@@ -189,10 +189,12 @@ class RunFolder(Observer):
 
     def discard(self) -> None:
         """Remove what `open_new` has made, if the run has not begun."""
-        if self._runner is not None or self._first is None:
+        if self._runner is not None:
             return
-        for path in (self.path / PLAN, self._first):
-            path.unlink(missing_ok=True)
+        if self._first is not None:
+            self._first.unlink(missing_ok=True)
+        if self._first is not None or self.path in self._made:
+            (self.path / PLAN).unlink(missing_ok=True)
         for folder in self._made:
             if not any(folder.iterdir()):
                 folder.rmdir()
@@ -216,8 +218,12 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFo
     if not all(os.access(place, os.W_OK) for place in (path, *inner)):
         raise CannotWrite(f"{path} cannot be written to")
     folder = RunFolder(path, made)
-    if not _holds_run(path):
-        folder.begin(start)
+    try:
+        if not _holds_run(path):
+            folder.begin(start)
+    except BaseException:
+        folder.discard()
+        raise
     return folder
 
 

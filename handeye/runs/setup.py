@@ -2,12 +2,12 @@
 
 import msgspec
 
-from handeye.core.entries import PLANNED, refusal
+from handeye.core.entries import PLANNED, entry_named, refusal
+from handeye.core.errors import BadFile
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.program.senses import Sense
-from handeye.tasks import DEFAULT
 
 
 class Setup(Record, frozen=True, kw_only=True):
@@ -25,8 +25,11 @@ class Setup(Record, frozen=True, kw_only=True):
 
     @property
     def task(self) -> str:
-        """Name of the task, which the plan records."""
-        return str(getattr(self.plan, "task", DEFAULT))
+        """Name of the task, which the plan records; raises BadFile if it records none."""
+        name = getattr(self.plan, "task", None)
+        if not isinstance(name, str):
+            raise BadFile(f"a plan of {entry_named(self.system).title} records no task")
+        return name
 
 
 def plan_of(setup: Setup) -> Plan:

@@ -149,6 +149,7 @@ class RunningSystem(Protocol):
     """A machine that can be stepped, kept and put back."""
 
     @property
+    @abstractmethod
     def state(self) -> SystemState:
         """All that it remembers: the record it lives in."""
 
@@ -167,6 +168,7 @@ class RunningSystem(Protocol):
         return ()
 
     @property
+    @abstractmethod
     def time(self) -> float:
         """Its clock, s."""
 
@@ -184,9 +186,11 @@ class RunningSystem(Protocol):
         """Why what it has prepared could not be kept for other runs."""
         return None
 
+    @abstractmethod
     def begin(self) -> Sequence[AnyEvent]:
         """Prepare the first step; the events that begin the run, `RunStarted` first. Raises Halted."""
 
+    @abstractmethod
     def step(self) -> None:
         """Do one step, the unit that is done again when it is interrupted. Raises Halted or PhysicsFailed."""
 
@@ -201,8 +205,9 @@ class RunningSystem(Protocol):
     def reverse(self, undoing: ReversalOrder) -> None:
         """From now on each step undoes one that was executed, the last first; raises InvalidInput without any."""
 
+    @abstractmethod
     def finish(self) -> bool:
-        """Close the account of the run; True if the program ended."""
+        """Emit `RunFinished`; True when the program came to its end."""
 
     @property
     def context(self) -> ExecutionContext | None:
@@ -236,6 +241,7 @@ class RunningSystem(Protocol):
         """Findings on what the program remembers, when all it did is undone."""
         return {}
 
+    @abstractmethod
     def restore(self, state: SystemState) -> None:
         """Go on from a copy of a state, its cell as it was then; raises InvalidInput if it does not fit the plan."""
 
@@ -251,7 +257,8 @@ class RunningSystem(Protocol):
         raise Refused("this system has no console to type at")
 
     def settables(self) -> Mapping[str, Settable]:
-        """Things that a person can set, by kind."""
+        """Things that a person can set, by kind; by default none."""
+        return {}
 
     def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
         """Set something; SI; raises InvalidInput if there is no such thing, or the value does not fit it."""

@@ -8,14 +8,13 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache
-from importlib import import_module
-from typing import Any, Final, Literal
+from typing import Final, Literal
 
 import numpy as np
 
 from handeye.arm import robots
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.entries import entries, entry_points, refusal
+from handeye.core.entries import entries, entry_points, loaded, refusal
 from handeye.core.errors import BadArgument, InvalidInput, NoSuchName, Refused
 from handeye.tasks.interface import AnyTask, Task
 
@@ -115,7 +114,10 @@ def known_any(name: str) -> AnyTask | None:
             raise BadArgument(f"the entry point {quoted(name)} gives a task called {quoted(found.name)}")
         register(found)
     for words in () if name in _REGISTERED else os.environ.get(ELSEWHERE, "").split():
-        register(_loaded(words))
+        try:
+            register(_loaded(words))
+        except InvalidInput as error:
+            raise BadArgument(f"the environment variable {ELSEWHERE}: {error}") from None
     return _REGISTERED.get(name)
 
 
@@ -153,14 +155,7 @@ def _loaded(words: str) -> AnyTask:
         raise BadArgument(f"a task is named as MODULE:NAME, such as my_task:TASK; {quoted(words)} is not")
     if module.partition(".")[0] != "handeye" and os.getcwd() not in sys.path:
         sys.path.append(os.getcwd())  # last: nothing there takes the place of what is installed
-    try:
-        found: Any = getattr(import_module(module), name)
-    except InvalidInput:
-        raise
-    except Exception as error:
-        raise BadArgument(
-            f"the task {quoted(words)} cannot be imported: {type(error).__name__}: {error}"
-        ) from error
+    found = loaded(words, "the task ")
     if not isinstance(found, AnyTask):
         raise BadArgument(
             f"{quoted(words)} is no task, which is an object of a class that is derived from handeye.Task"

@@ -142,9 +142,12 @@ class FaultWork:
         return [FaultRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
 
-def usual(catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None) -> dict[str, Fault]:
-    """Faults at their usual sizes, by how they would be typed; `stage`: where those set in that can."""
-    found = [kind.usual(None if kind.from_start else stage) for kind in kinds]
+def usual(
+    catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None, stages: int
+) -> dict[str, Fault]:
+    """Faults at their usual sizes, by how they would be typed; `stage`: where those set in that can, of so many."""
+    first = [None if kind.from_start else stage or min(kind.usual_stage or 0, stages) for kind in kinds]
+    found = [kind.usual(each or None) for kind, each in zip(kinds, first, strict=True)]
     return {catalogue.written(fault): fault for fault in found}
 
 

@@ -95,11 +95,13 @@ def failures(found: Figures) -> Iterator[str]:
     for failure in found.failures:
         place = _place(failure.stage, failure.line)
         condition = f", {failure.condition}" if failure.condition else ""
-        yield f"trial {failure.trial}, seed {failure.seed}{condition}: {failure.verdict}, {place}{failure.detail}"
+        told = ", ".join(filter(None, (failure.verdict, f"{place}{failure.detail}")))
+        yield f"trial {failure.trial}, seed {failure.seed}{condition}: {told}"
         if failure.command:
             yield f"  {failure.command}"
     for cause in found.causes:
-        yield f"{cause.count} of {found.n}: {_place(cause.stage)}{cause.cause}"
+        if told := f"{_place(cause.stage)}{cause.cause}":
+            yield f"{cause.count} of {found.n}: {told}"
 
 
 def verdict(sweep: Sweep[R], found: Figures) -> str:

@@ -156,3 +156,39 @@ def test_it_is_swept_like_every_system(shell: Shell, folder: Path) -> None:
     assert "3 of 3" in said
     assert (folder / "batch" / "figures.html").exists()
     shell("trials", "counting", "--n", "3", "--jobs", "1", "--out", "batch")
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        "exit(7)",
+        "Entry(name='bad', title=3, help='', system='', commands=None)",
+        "Entry(name='trig', title='', help='', system='')",
+    ],
+)
+def test_an_entry_that_is_not_sound_breaks_no_command(entry: str, tmp_path: Path) -> None:
+    info = tmp_path / "bad-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: bad\nVersion: 1.0\n", encoding="utf-8")
+    (info / "entry_points.txt").write_text("[handeye.systems]\nbad = bad:ENTRY\n", encoding="utf-8")
+    (tmp_path / "bad.py").write_text(
+        f"from handeye.core.entries import Entry\nENTRY = {entry}\n", encoding="utf-8"
+    )
+    asked = "from handeye.core.entries import entries, entry_named; print(entries()['trig'].title); entry_named('bad')"
+    said = subprocess.run(
+        [sys.executable, "-c", asked], capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(tmp_path)}
+    )  # fmt: skip
+    assert said.stdout == "TRIG\n"
+    assert "BadFile: the system `bad` cannot be loaded: " in said.stderr
+
+
+def test_a_plan_that_records_no_task_is_refused_and_leaves_no_folder(shell: Shell, folder: Path) -> None:
+    asked = (
+        "import toy_system, toy_commands; from pathlib import Path\n"
+        "class Bare(toy_system.Lines): task = None\n"
+        "toy_commands.compiled = lambda source: Bare(steps=toy_system.counting().steps)\n"
+        "toy_commands.toy(Path('two.toy'), out=Path('bare'))"
+    )
+    said, _ = begun(folder, "-c", asked).communicate()
+    assert said.endswith("BadFile: a plan of the counter machine records no task\n")
+    assert not (folder / "bare").exists()

@@ -37,6 +37,7 @@ def test_an_unknown_task_is_refused_with_the_nearest_name(
     name: str, sentence: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(tasks, "_REGISTERED", {})  # those of other tests
+    monkeypatch.setattr("handeye.core.entries._registered", {})
     with pytest.raises(
         InvalidInput,
         match=f"^{re.escape(sentence)} \\(one of your own is given as `--task MODULE:NAME`, comes by",

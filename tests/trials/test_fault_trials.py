@@ -29,6 +29,7 @@ from handeye.trials.faults import (
     chosen,
     outcome,
     trial_of,
+    usual,
     with_panic,
 )
 from handeye.trials.figures import figures
@@ -187,3 +188,8 @@ def test_the_panic_button_is_in_the_matrix_and_named_by_what_the_operator_is_tol
     assert "panic" in catalogue.matrix
     told = pause_sentence(Pause(kind="panic"))
     assert catalogue.kind("panic").expected.calls == (told,)
+
+
+def test_what_sets_in_with_a_later_stage_than_a_program_has_sets_in_with_its_last() -> None:
+    catalogue = with_panic(task("insertion").faults(0))
+    assert [*usual(catalogue, [catalogue.kind("panic")], None, 2)] == ["panic@2"]

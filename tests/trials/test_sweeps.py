@@ -20,6 +20,7 @@ from handeye.trials.figures import figures
 from handeye.trials.folder import head_of, read_batch, sweep_of
 from handeye.trials.plans.trial import ASSEMBLY
 from handeye.trials.sweep import carry_out, cases, processes
+from handeye.trials.text import failures
 
 ENTRY = Entry(
     name="coins", title="Coins", help="Throw coins.", system="toy_sweep:NONE", sweeps={"coins": "toy_sweep:COINS"}
@@ -61,6 +62,10 @@ def test_outcomes_count_as_their_kind_says_and_what_broke_off_counts_against_it(
     assert (found.measures["height, m"].n, found.measures["height, m"].most) == (2, 0.1)
     assert [(each.verdict, each.cause, each.command) for each in found.failures] == [
         ("tails", "", "again 1"), ("failed", "ValueError: there is no coin", "again 7"),
+    ]  # fmt: skip
+    assert [*failures(found)][::2] == [
+        "trial 0, seed 1: tails", "trial 0, seed 7: failed, ValueError: there is no coin",
+        "1 of 3: ValueError: there is no coin",
     ]  # fmt: skip
 
 

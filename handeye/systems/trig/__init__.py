@@ -10,7 +10,8 @@ ENTRY = Entry(
     can=("undo", "compare", "faults", "levels", "video", "chaos"),
     reasons={
         "python": "`handeye resume` goes on with one",
-        "plans": "its programs are taught in the world they work in; `handeye trig` carries them out",
+        "plans": "its programs are taught in the world they work in; `handeye trig palletise`, `handeye trig "
+        "bucket` and `handeye trig run FILE` carry them out",
     },
     commands="""
 trig = handeye.systems.trig.cli.commands:trig: TRIG (MIT, 1982): teach a program by doing, see it as it grows, run it backwards.

@@ -13,8 +13,7 @@ from handeye.cli.common import Json, WholeNumber, complain, note, notes, positiv
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.videos import drawing
-from handeye.cli.world_options import ANY_ERRORS, ErrorOptions, Faults, broken
-from handeye.core.diagnostics import quoted
+from handeye.cli.world_options import ANY_OWN_ERRORS, Faults, OwnErrorOptions, broken
 from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
@@ -75,7 +74,7 @@ def palletise(
     *,
     blocks: Annotated[WholeNumber, Parameter(help="In the stack, 0 to 20; the pallet takes 15.")] = 20,
     seed: Seed = 0,
-    errors: ErrorOptions = ANY_ERRORS,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
     fault: Faults = None,
     json: Json = False,
     kept: KeptOptions = NOTHING,
@@ -98,7 +97,7 @@ def palletise(
 def bucket(
     *,
     seed: Seed = 0,
-    errors: ErrorOptions = ANY_ERRORS,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
     fault: Faults = None,
     json: Json = False,
     kept: KeptOptions = NOTHING,
@@ -114,10 +113,8 @@ def bucket(
     return _work("bucket", _world("bucket", seed, errors, fault), None, kept, json=json)
 
 
-def _world(name: "JobName", seed: int, errors: ErrorOptions, fault: Faults) -> WorldSpec:
-    """The world of a job; raises InvalidInput if another task, or what its table lacks, is asked for."""
-    if errors.task not in (None, name):
-        raise BadArgument(f"this is the task {quoted(name)}; leave --task out")
+def _world(name: "JobName", seed: int, errors: OwnErrorOptions, fault: Faults) -> WorldSpec:
+    """The world of a job; raises InvalidInput if what its table lacks is asked for."""
     return broken(errors.of(name).spec(seed), fault, any_task(name))
 
 
@@ -241,7 +238,7 @@ def pallet_trials(
     interrupt: Annotated[
         bool, Parameter(help="Break each run off after a drawn number of steps, and undo it from there.")
     ] = False,
-    errors: ErrorOptions = ANY_ERRORS,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
     """Palletise in many worlds, and take everything back: how often it comes out right, and how far off blocks are.
