@@ -112,7 +112,7 @@ _MODULES = ("tasks", "trials", "vision")
 if not TYPE_CHECKING:  # who could not tell a wrong name otherwise
 
     def __getattr__(name: str) -> object:
-        """Load what a name stands for when it is first used."""
+        """Load the object of a public name on first use."""
         from importlib import import_module
 
         if name in _MODULES:

@@ -1,4 +1,4 @@
-"""Plans: what a script makes the arm do, as a value that shows itself."""
+"""Plans: a script's motions and actions as a value that shows itself."""
 
 import os
 from collections.abc import Sequence
@@ -108,7 +108,7 @@ class Plan:
 
     @property
     def digest(self) -> str:
-        """Sixteen hexadecimal digits that stand for the plan; runs and traces name it by them."""
+        """Sixteen hexadecimal digits that identify the plan in runs and traces."""
         return plan_digest(self.record)
 
     def save(self, path: FileName) -> Path:
@@ -207,7 +207,7 @@ def _for_task(made: Plan, task: str | None) -> Plan:
 
 
 def _check_untaught(made: object, taught: object) -> None:
-    """Raises InvalidInput if something is taught for what is planned already."""
+    """Raises InvalidInput if taught positions are given for a finished plan."""
     if taught is not None:
         raise BadArgument(f"{made} is a plan, which has its positions; nothing can be taught for it")
 

@@ -1,4 +1,4 @@
-"""A run in the hands of a Python program: it goes on, goes back, and tells where it stands."""
+"""A run controlled from Python: it goes on, goes back, and shows its state."""
 
 import os
 from collections.abc import Callable

@@ -42,7 +42,7 @@ class RunRequest:
 
     @property
     def of_task(self) -> str | None:
-        """Name of the task that was named, or whose world was given; None: neither."""
+        """Name of the task given, or of the given world's; None if neither was given."""
         return self.world.task if self.task is None and isinstance(self.world, World) else self.task
 
     @property
@@ -166,7 +166,7 @@ def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
 
 
 def _with_referee(setup: Setup, wanted: RunRequest) -> Setup:
-    """The same, judged by the caller's code or limits in the place of what judged it before."""
+    """The checkpoint, to be judged by the caller's code or limits instead of its former referee."""
     if "referee" in wanted.replaced:
         return msgspec.structs.replace(setup, limits={})
     if wanted.limits is None:

@@ -84,7 +84,7 @@ class Trace(recorded.Trace):
             raise CannotWrite(f"{file} is there already; overwrite=True replaces it") from None
 
     def _repr_html_(self) -> str:
-        """The report in a frame of its own, with what it weighs, or why there is none."""
+        """The report in its own frame, with its size, or why there is none."""
         try:
             file = _report(self)
         except InvalidInput as fault:

@@ -44,7 +44,7 @@ class JointSensors:
     """The sensors of n joints, behind lines called `potentiometer.N` and `tachometer.N`."""
 
     def __init__(self, errors: ArmErrors, noise: np.random.Generator, lines: SignalLines) -> None:
-        """Sensors that are off by errors and by what a generator draws."""
+        """Sensors with errors, and noise from a generator."""
         self._errors, self._noise, self._lines = errors, noise, lines
         self._joints = len(errors.offset)
         self._sigma = np.concatenate((errors.pot_noise, errors.tachometer_noise))

@@ -32,7 +32,7 @@ class Due(Record, frozen=True, kw_only=True):
 
 
 class BenchTime(Record, frozen=True, kw_only=True):
-    """The clock of a bench, and what it waits for."""
+    """The clock of a bench, and its pending events."""
 
     steps: int  # physics steps since it was switched on
     due: tuple[Due, ...] = ()  # in order

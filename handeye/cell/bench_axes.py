@@ -252,7 +252,7 @@ class BenchOutputs(Outputs, Mechanism[OutputsState]):
     kind = OutputsState
 
     def __init__(self, bench: Bench, name: str, outputs: Mapping[str, Callable[[float], None]]) -> None:
-        """Outputs by their names, with what is done as time passes about the value that each is set to."""
+        """Outputs by name, with the mechanism that acts on the value of each as time passes."""
         self.name, self._outputs = name, outputs
         self._values = dict.fromkeys(outputs, 0.0)
         bench.add(self)
@@ -269,7 +269,7 @@ class BenchOutputs(Outputs, Mechanism[OutputsState]):
         self._values[name] = float(value)
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """They have nothing of the scene."""
+        """Outputs have no part in the scene."""
 
     def before(self, seconds: float) -> None:
         for name, act in self._outputs.items():

@@ -1,4 +1,4 @@
-"""Errors of the devices of a cell: by how much each differs from what the controller believes of it."""
+"""Errors of the devices of a cell: the differences from the controller's model."""
 
 from dataclasses import dataclass
 from typing import Self

@@ -19,7 +19,7 @@ from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.pose import Array
 
 _TOLD: Final = "gloss/"
-"""Begins the names of the figures in which a scene tells how metallic and how rough a material is."""
+"""Prefix of the scene's numeric fields for the metalness and roughness of a material."""
 
 
 def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
@@ -91,7 +91,7 @@ class Lens:
 
     @staticmethod
     def looked_at(depth: NDArray[np.float32]) -> float:
-        """Distance (m) of what is in the middle of a picture through the middle of a lens, from its depth buffer."""
+        """Distance (m) of the object in the middle of a picture, from its depth buffer."""
         rows, columns = (
             slice(side // 2 - side // _MIDDLE, side // 2 + side // _MIDDLE + 1) for side in depth.shape
         )

@@ -31,10 +31,10 @@ class Mechanism(ABC, Generic[S]):
     """Fields of the MuJoCo model that it changes as it runs: they belong to the state of the cell."""
 
     def begin_stage(self, number: int) -> None:
-        """Let happen what is due with a stage of the program, by its number from 1, or was with one before it."""
+        """Apply the effects due at a stage of the program, by its number from 1, or at an earlier one."""
 
     def before(self, seconds: float) -> None:
-        """Do what is due before time passes (s)."""
+        """Prepare for a step of time (s)."""
 
     def rested(self, seconds: float) -> None:
         """More time (s) than that of `before` passes at once, because everything sleeps."""
@@ -58,4 +58,4 @@ class Mechanism(ABC, Generic[S]):
         """Put it into a state that has been checked."""
 
     def release(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Give up, in this model or a copy of it, whatever it does for speed only."""
+        """Give up optimisations for speed, in this model or a copy of it."""

@@ -64,14 +64,14 @@ class Photographer:
         return self._scene
 
     def exposed(self) -> Photograph:
-        """The picture of what was aimed at."""
+        """The picture of the target."""
         self._draw()
         rgb = np.zeros((self._viewport.height, self._viewport.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(rgb, None, self._viewport, self._drawing)
         return rgb[::-1]
 
     def depth(self) -> NDArray[np.float32]:
-        """The depth of what was aimed at, 0 at the near clipping plane and 1 at the far one, shape (height, width)."""
+        """The depth of the target, 0 at the near clipping plane and 1 at the far one, shape (height, width)."""
         self._draw()
         depth = np.zeros((self._viewport.height, self._viewport.width), dtype=np.float32)
         mujoco.mjr_readPixels(None, depth, self._viewport, self._drawing)

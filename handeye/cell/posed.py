@@ -12,7 +12,7 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Array
 
 TURNS: Final = "turns/"
-"""Begins the names of the figures in which a scene tells in how many seconds a body of the world turns once."""
+"""Prefix of the scene's numeric fields for the seconds in which a body of the world turns once."""
 
 
 def hand_poses(model: mujoco.MjModel, time: float) -> dict[str, Array]:

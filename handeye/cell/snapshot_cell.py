@@ -1,4 +1,4 @@
-"""A cell whose state can be kept and put back: a MuJoCo model, and mechanisms with states of their own."""
+"""A cell whose state can be saved and restored: a MuJoCo model, and mechanisms with their own states."""
 
 from collections.abc import Sequence
 from typing import Any, Final
@@ -18,7 +18,7 @@ INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
 
 class SnapshotCell:
-    """All that a run needs of a cell, whatever works in it: to keep it, to put it back, and to look at it."""
+    """A cell for a run of any system: its state can be saved, restored and viewed."""
 
     def __init__(
         self,
@@ -55,7 +55,7 @@ class SnapshotCell:
         return Renderer(method="none")
 
     def capture(self) -> CellState:
-        """All that the future of this cell depends on; `restore` puts it back, in this cell or its like."""
+        """The complete state of this cell; `restore` puts it back, in this cell or one like it."""
         physics = np.empty(mujoco.mj_stateSize(self._model, INTEGRATION))
         mujoco.mj_getState(self._model, self._data, physics, INTEGRATION)
         return CellState(

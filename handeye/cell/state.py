@@ -15,7 +15,7 @@ V = TypeVar("V", bound=Array | Sequence[float])
 
 
 class CellState(Record, frozen=True, kw_only=True):
-    """All that a cell's future depends on, besides its world and what is put out to it."""
+    """The complete state of a cell, besides its world and its inputs."""
 
     physics: Array  # MuJoCo's integration state; it begins with the time
     figures: dict[str, Array]  # the fields of the model that the mechanisms of the cell change, as numbers

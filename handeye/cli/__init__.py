@@ -77,7 +77,7 @@ def _carried_out() -> int:
 
 
 def _complained(sentence: object) -> int:
-    """The exit code of bad input, after saying what is wrong with it to whoever still listens."""
+    """Print the error, if standard error is still open; return the exit code of bad input."""
     with suppress(OSError):
         complain(sentence)
     return BAD_INPUT

@@ -102,7 +102,7 @@ notes = _Screen(stderr=True)
 
 
 def say(text: str, to: Console = screen, *, style: str | None = None, whole: bool = False) -> None:
-    """Print plain text, which may come from a file that nobody trusts.
+    """Print plain text, which may come from an untrusted file.
 
     On a terminal, lines are broken between words; `whole` ones, which people copy, where the terminal breaks them.
     """

@@ -63,7 +63,7 @@ def glb(
 
 
 def _told(written: "Export", *, json: bool) -> int:
-    """Tell what was written."""
+    """Report the written files."""
     return answer(written, (f"{written.path}: {written.shows}", *written.remarks), json=json)
 
 

@@ -73,7 +73,7 @@ class Job:
     report: bool = False
     referee: bool = False
     then: Sequence[Then] = ()
-    """What is done when the referee has found the work right, one after the other."""
+    """Actions after work that the referee finds right, in order."""
     planning_cpu_s: float = 0.0
 
 
@@ -119,7 +119,7 @@ class _Work:
         """The checkpoint that was saved last, outside the folder of the run."""
 
     def do(self) -> int:
-        """All of it; the exit code."""
+        """Carry out the job; return the exit code."""
         runner = self._built()
         if runner is None:
             return self._interrupted(None)

@@ -76,7 +76,7 @@ class PipedLines:
             yield line
 
     def come(self) -> str | None:
-        """Take a line that is there; None: there is none."""
+        """Take a waiting line; None if there is none."""
         try:
             line = self._lines.get_nowait()
         except Empty:

@@ -50,7 +50,7 @@ class SweepOptions:
         return None if self.out is None or self.out.suffix.lower() in (".html", ROWS) else self.out
 
     def check(self) -> None:
-        """Raises InvalidInput if what is wanted cannot be left when the trials have ended."""
+        """Raises InvalidInput if the results could not be written after the trials."""
         from handeye.trace.tables import check_tables
         from handeye.trials.page import PAGE
         from handeye.trials.tables import ROWS as TABLE
@@ -139,7 +139,7 @@ def _tell(
     title: str,
     more: Mapping[str, object],
 ) -> None:
-    """Leave page and tables, and tell the figures."""
+    """Write page and tables, and print the figures."""
     from handeye.trace.tables import csv_bytes, write_tables
     from handeye.trials.page import PAGE, sweep_page
     from handeye.trials.tables import ROWS as TABLE

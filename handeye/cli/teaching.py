@@ -39,7 +39,7 @@ Keep = Annotated[Path | None, Parameter(help="Save the cell at the end to this c
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CellOptions:
-    """The cell to work in, and what is known of it."""
+    """The cell to work in, and its faults and taught positions."""
 
     world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
     fault: Faults = None

@@ -35,7 +35,7 @@ Worldly = Annotated[WholeNumber, Parameter(name="--n", help="Worlds, from --seed
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AttemptOptions:
-    """How many attempts are made in which worlds, and by what camera."""
+    """Options for the number of attempts, their worlds and the camera."""
 
     n: Annotated[WholeNumber | None, Parameter(help="The same as COUNT.")] = None
     world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD

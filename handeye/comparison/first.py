@@ -30,7 +30,7 @@ from handeye.trace.records import RawMessage
 from handeye.trace.trace import Trace
 
 OF_A_PERIOD: Final = (JOINTS, HAND, MACHINES, FRAMES)
-"""Channels of what is recorded of each servo period."""
+"""Channels recorded in each servo period."""
 _SAID_TWICE: Final = (LOG, SCENE)
 """Channels that say nothing of their own: sentences of events, and how bodies look."""
 
@@ -196,7 +196,7 @@ def _place(run: RecordedRun, started: StepStarted | None) -> Place | None:
 
 
 def _recorded_otherwise(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | None:
-    """The first difference in what was recorded of the same step; None: none."""
+    """The first difference between recordings of the same step; None if there is none."""
     assert a is not None
     assert b is not None
     task = known(runs.a.trace.head.task)

@@ -36,7 +36,7 @@ class Place(Record, frozen=True, kw_only=True):
 
 @lru_cache(maxsize=4)
 def listing_of(run: RecordedRun) -> Listing:
-    """Stages and steps of what a run carried out."""
+    """Stages and steps of a run's program."""
     system, trace = system_named(run.trace.head.system), run.trace
     return system.listing(system.decode(trace.plan, f"the plan in {trace.name}"))
 

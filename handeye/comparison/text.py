@@ -36,7 +36,7 @@ _UNITS: Final[Mapping[GuardKind, str]] = {
 
 
 def same_words(found: Comparison) -> str:
-    """That two runs did the same, and how exactly."""
+    """A sentence that two runs did the same, and how exactly."""
     return "both did the same." if found.thinned else "both did the same, to the last bit."
 
 

@@ -30,7 +30,7 @@ class HandeyeError(Exception):
 
 
 class InvalidInput(HandeyeError):
-    """A file or an argument cannot be used, or what it asks for cannot be done."""
+    """A file or argument is unusable, or its request cannot be carried out."""
 
 
 class BadArgument(InvalidInput):
@@ -46,11 +46,11 @@ class BadFile(InvalidInput):
 
 
 class CannotWrite(InvalidInput):
-    """A file or a folder cannot be written, or holds what is not to be replaced."""
+    """A file or folder cannot be written, or has contents that must not be replaced."""
 
 
 class Taken(CannotWrite):
-    """A folder or file of the kind is there, and may not be replaced."""
+    """The folder or file exists already and may not be replaced."""
 
 
 class Refused(InvalidInput):

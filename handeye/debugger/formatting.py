@@ -64,7 +64,7 @@ def _standing(reply: Reply) -> str:
 
 
 def summary_lines(did: Sequence[StepSummary], most: int | None = None) -> list[str]:
-    """Tell what was done, as lines of text; of a long way the last `most`."""
+    """Summarize the executed steps as lines of text, at most the last `most`."""
     left_out = 0 if most is None else max(0, len(did) - most)
     head = [f"      … {left_out} lines before these" if left_out else ""][: left_out and 1]
     return head + [told_row(step) for step in did[left_out:]]
@@ -81,7 +81,7 @@ def told_row(step: StepSummary) -> str:
 
 
 def shown_lines(shown: RunViews) -> list[str]:
-    """Show what was asked for, as lines of text."""
+    """The answer to a `show` command, as lines of text."""
     lines: list[str] = []
     for field, tell in _LINES.items():
         value, title = getattr(shown, field), field.partition("_")[0]

@@ -57,7 +57,7 @@ class DebugSession:
 
     @property
     def program(self) -> Listing:
-        """Stages and steps of what is carried out."""
+        """Stages and steps of the program under way."""
         return self.runner.listing
 
     @property

@@ -63,7 +63,7 @@ class Stepper:
         return self._reply(line, told, happened)
 
     def meanwhile(self, line: str) -> Reply:
-        """Answer a line that is said while the run goes: refused, unless it is one that can be said then."""
+        """Answer a line given while the run goes; most commands are refused then."""
         line, happened = line.strip(), len(self.session.runner.events)
         try:
             command, rest = find(line)

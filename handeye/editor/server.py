@@ -55,7 +55,7 @@ class ArmServer(LanguageServer):
         )
 
     async def publish_own(self, uri: str, language: OwnLanguage) -> None:
-        """Tell the client what a system says about a text in its own language."""
+        """Send the client a system's diagnostics on a text in its own language."""
         text = self.workspace.get_text_document(uri)
         source, units = Source(name=uri, text=text.source), text.position_codec.client_num_units
         found = [

@@ -58,7 +58,7 @@ class ArmDrive(ServoLoop):
         return self._pass(self.shifting(here, X_WT))
 
     def zero(self) -> Outcome:
-        """Hold still, and take what is felt then as zero force. See `zeroing`."""
+        """Hold still, and take the force felt as zero. See `zeroing`."""
         return self._pass(self.zeroing())
 
     def hold(self, ticks: int) -> None:

@@ -59,7 +59,7 @@ class ToolAxes(Axes):
         return self._drive.period
 
     def tare(self) -> None:
-        """Hold still for some periods, and take what is felt then as no force."""
+        """Hold still for some periods, and take the force felt as zero."""
         self._finish()
         self._goal = self._start if self._motion is not None else self._goal
         self._end(self._drive.zero())

@@ -1,1 +1,1 @@
-"""Shows what is in a plan: stages and times, flow, and differences from another plan."""
+"""Shows the contents of a plan: stages and times, flow, and differences from another plan."""

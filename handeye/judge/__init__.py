@@ -1,1 +1,1 @@
-"""The referee: what it measures on the truth, and what it finds. What is right, and why, each task says."""
+"""The referee: its measurements on the truth, and its findings. Each task defines what is right, and why."""

@@ -30,7 +30,7 @@ class Finding:
         return not self.ok and not self.caution
 
     def limited(self, limit: float) -> "Finding":
-        """The same measurement against another limit, in the same unit; what does not keep to that one refuses."""
+        """The same measurement against another limit, in the same unit; beyond that one it refuses."""
         ok = self.value <= limit if self.relation == "at most" else self.value >= limit
         return replace(self, limit=limit, ok=ok, caution=False)
 

@@ -95,7 +95,7 @@ def write_plan(path: Path, plan: Plan) -> None:
 
 
 def plan_digest(plan: Plan) -> str:
-    """Sixteen hexadecimal digits that stand for a plan: of the bytes that `write_plan` writes."""
+    """Sixteen hexadecimal digits that identify a plan, from the bytes that `write_plan` writes."""
     return written_digest(encode(plan).encode())
 
 

@@ -83,7 +83,7 @@ class Axes(ABC):
         raise Refused(f"the power of {self.name} cannot be switched")
 
     def clear(self, channel: str) -> None:
-        """Let a latched channel show again what is sensed; raises InvalidInput if it has none of that name."""
+        """Release a latched channel to show its reading again; raises InvalidInput if it has none of that name."""
         raise NoSuchName(f"{self.name} has no latched channel {channel}")
 
 

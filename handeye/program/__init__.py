@@ -1,1 +1,1 @@
-"""The first waist: a checked program of no particular language, and what it believes of the cell."""
+"""The first waist: a checked program of no particular language, and its beliefs about the cell."""

@@ -38,7 +38,7 @@ class SystemEvent(Event, frozen=True, kw_only=True):
 
 
 class RunStarted(Event, frozen=True, kw_only=True):
-    """The working phase begins; all that the events after it depend on, but for what the operator does."""
+    """The working phase begins; has everything that determines later events except the operator's actions."""
 
     system: str = "program"  # the kind of system that carries it out
     program: str
@@ -255,7 +255,7 @@ class OperatorAnswered(Event, frozen=True, kw_only=True):
 
 
 class ExperimentMade(Event, frozen=True, kw_only=True):
-    """A person at the stepper changed what the program remembers (m, rad): the run is no longer the plan's alone."""
+    """A person at the stepper changed the program's memory (m, rad): the run no longer follows from the plan alone."""
 
     what: str  # `saved`, `position`, or another that the system has
     name: str

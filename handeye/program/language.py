@@ -27,7 +27,7 @@ class Language(Record, frozen=True, kw_only=True):
 
 
 class OwnLanguage(ABC):
-    """A language that a system has for files of its own: what commands and editors are answered about a text of it."""
+    """A system's language for its own files: answers to commands and editors about a text."""
 
     system: str
 

@@ -1,4 +1,4 @@
-"""Place in a listing: what every system remembers, whatever else it does."""
+"""The part of its state that every system has: its place in a listing."""
 
 from typing import Annotated, NamedTuple
 

@@ -108,7 +108,7 @@ def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
 
 
 def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
-    """Name, seconds on the cell's clock, and those of its day, if there are any; the one sum is of both parts."""
+    """Name, seconds on the cell's clock, and seconds in the period, if known; the one sum is of both parts."""
     t, sees = result.timing, result.camera.used
     if t.friction_s:
         yield "friction of the joints", t.friction_s, None
@@ -152,7 +152,7 @@ def clock(seconds: float) -> str:
 
 
 def referee(result: Result) -> Table:
-    """Tell what the referee measured on the finished work, and when it was undone."""
+    """The referee's measurements on the finished work, and after it was undone."""
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
     table.add_column("referee")
@@ -197,7 +197,7 @@ def verdict(result: Result) -> Text:
 
 
 def _apart(result: Result) -> Text:
-    """The last word on a run in which the arm has undone what it did."""
+    """The verdict on a run in which the arm has undone its work."""
     if result.apart is None:
         return Text("Undone as far as was asked for.", "bold")
     task = known_any(result.task)

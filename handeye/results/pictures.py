@@ -1,4 +1,4 @@
-"""The pictures that a run leaves: those the program took, with what it found in them, and the end."""
+"""The pictures that a run leaves: those the program took, with its findings, and the end."""
 
 from pathlib import Path
 from typing import Final
@@ -28,7 +28,7 @@ def annotated_png(system: RunningSystem, name: str) -> bytes:
 
 
 def annotated_webp(system: RunningSystem, name: str) -> bytes:
-    """The same as a small WebP file, for pages."""
+    """The annotated picture as a small WebP file, for pages."""
     image = _annotated(system, name)
     high = round(_WIDE * image.shape[0] / image.shape[1])
     small = cv2.resize(image, (_WIDE, high), interpolation=cv2.INTER_AREA)

@@ -1,4 +1,4 @@
-"""A recorded run with what its folder tells of it besides its trace."""
+"""A recorded run: its trace, and the other files of its folder."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from handeye.trace.trace import Trace
 
 
 def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> RecordedRun:
-    """A run of which the trace was read, with what its folder (`run`) tells besides."""
+    """A run from its trace, with the other files of its folder (`run`)."""
     result, remarks = _result(run)
     task = known(trace.head.task)
     views = () if task is None else task.photographs

@@ -16,7 +16,7 @@ from handeye.program.senses import Sense
 
 _LARGEST: Final = 1 << 24  # Bytes: thousands of times what a result has
 Status = Literal["done", "under way", "skipped", "stopped", "not reached", "undone"]
-"""How far a stage has come."""
+"""Status of a stage."""
 
 
 class Stage(Record, frozen=True, kw_only=True):
@@ -69,7 +69,7 @@ class Check(Record, frozen=True, kw_only=True):
     limit: float
     unit: str
     sentence: str
-    """All of it for people, but the value."""
+    """The finding as a sentence, without the value."""
     caution: bool = False
     """If not `ok`, only a warning: the work may still be right."""
 
@@ -94,11 +94,11 @@ class Check(Record, frozen=True, kw_only=True):
 
     @property
     def told(self) -> str:
-        """All of it for people."""
+        """The finding as a sentence."""
         return f"{self.sentence}: {self.value:.3g}"
 
     def limited(self, limit: float) -> "Check":
-        """The same measurement against another limit, in the same unit; what does not keep to that one refuses."""
+        """The same measurement against another limit, in the same unit; beyond that one it refuses."""
         facts = {name: getattr(self, name) for name in self.__struct_fields__ if name != "sentence"}
         return Check.of(Finding(**facts).limited(limit))
 
@@ -150,14 +150,14 @@ class Result(Record, frozen=True, kw_only=True):
     limits: dict[str, float] | UnsetType = UNSET
     """Limits given in place of the referee's own, by the names of its findings."""
     replaced: dict[str, str] | UnsetType = UNSET
-    """Parts that code of whoever began the run took the place of, with the names of that code."""
+    """Parts replaced by the caller's code, with the names of that code."""
     without: tuple[Sense, ...] | UnsetType = UNSET
     """Senses that the program did without."""
     apart: bool | UnsetType | None = UNSET
     """After a reversal: the referee's word whether everything lies where it was found; None: not asked, or not all of
     it is undone."""
     built: dict[str, Check] | UnsetType = UNSET
-    """Findings on what a job has built, as it was before it took that back: `referee` has those after."""
+    """Findings on a job's work before the job undid it; `referee` has those after."""
 
     @property
     def judged(self) -> bool | None:
@@ -203,7 +203,7 @@ def read_result(path: Path) -> Result:
 
 
 def restore_figures(findings: Any) -> None:
-    """Set figures of findings that JSON has as null, for what is not finite, to NaN."""
+    """Set figures of findings to NaN where JSON has null, which stands for a value that is not finite."""
     for check in findings.values() if isinstance(findings, dict) else ():
         for name in ("value", "limit"):
             if isinstance(check, dict) and name in check and check[name] is None:

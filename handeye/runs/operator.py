@@ -34,7 +34,7 @@ class Back(Record, frozen=True, kw_only=True):
 
 
 class Unwind(Record, frozen=True, kw_only=True):
-    """Have the arm undo what it did, to where a stage, given by its index, last began, and go on from there."""
+    """Have the arm undo steps back to the last start of a stage, given by its index, and go on from there."""
 
     stage: int
 

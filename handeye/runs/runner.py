@@ -271,7 +271,7 @@ class Runner:
     # -- going back -----------------------------------------------------------------------------------
 
     def rollback(self) -> None:
-        """Return the simulation to where the last step ended, whatever a step that was broken off has done."""
+        """Return the simulation to the end of the last complete step."""
         self._return_to(self.history[-1])
 
     def back_to(self, position: int, kept: Callable[[int], Checkpoint | None] = lambda _: None) -> None:

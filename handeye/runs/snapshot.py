@@ -1,4 +1,4 @@
-"""The complete state of a run between two steps, and what a run begins with."""
+"""The complete state of a run between two steps, and the start of a run."""
 
 from collections.abc import Iterable
 from typing import Annotated
@@ -23,7 +23,7 @@ class Snapshot(Record, frozen=True, kw_only=True):
 
 
 class Checkpoint(Record, frozen=True, kw_only=True):
-    """All that is needed to take up a run: here, on another day, on another computer."""
+    """Everything needed to take up a run again, on any day and any computer."""
 
     setup: Setup
     snapshot: Snapshot | None = None  # None: the run has not begun

@@ -102,7 +102,7 @@ class ExecutedStep(Protocol):
 
 
 class Listing(Protocol):
-    """Stages and steps of what a system carries out, and the source they were made from."""
+    """Stages and steps of a system's program, and the source they were made from."""
 
     @property
     def name(self) -> str:
@@ -183,7 +183,7 @@ class RunningSystem(Protocol):
 
     @property
     def unkept(self) -> str | None:
-        """Why what it has prepared could not be kept for other runs."""
+        """The reason why its preparation could not be kept for other runs."""
         return None
 
     @abstractmethod
@@ -238,7 +238,7 @@ class RunningSystem(Protocol):
         return {}
 
     def remembered(self) -> Findings:
-        """Findings on what the program remembers, when all it did is undone."""
+        """Findings on the program's memory after everything it did is undone."""
         return {}
 
     @abstractmethod
@@ -247,7 +247,7 @@ class RunningSystem(Protocol):
 
     @property
     def shown(self) -> Mapping[str, Any]:
-        """Its state, for people who look at it."""
+        """Its state, for display."""
         shown: dict[str, Any] = msgspec.to_builtins(self.state, enc_hook=np.ndarray.tolist)
         return shown
 
@@ -345,7 +345,7 @@ class System(ABC):
         return ()
 
     def order(self, plan: Any, state: Any, undoing: ReversalOrder) -> None:
-        """Let a state be one in which the arm undoes what it did; raises InvalidInput if there is nothing to undo."""
+        """Set a state to undo executed steps; raises InvalidInput if there is nothing to undo."""
         raise refusal(self.name, "undo")
 
     def calibration(self, state: Any) -> Calibration | None:

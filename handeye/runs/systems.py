@@ -37,7 +37,7 @@ def written(setup: Setup) -> bytes:
 
 
 def digest_of(setup: Setup) -> str:
-    """Sixteen hexadecimal digits that stand for what is carried out."""
+    """Sixteen hexadecimal digits that identify the program carried out."""
     return written_digest(written(setup))
 
 

@@ -52,7 +52,7 @@ class Answer:
 
     @property
     def stopped(self) -> str | None:
-        """Why the arm pauses before what was wanted is done; None if it is done, or did not go."""
+        """Why the arm paused early; None if the line is done, or the arm did not move."""
         pause = self.said.pause
         return None if pause is UNSET or pause.kind == "end" else pause.kind
 
@@ -115,7 +115,7 @@ class Listener(Protocol):
 
     @property
     def over(self) -> bool:
-        """It wants to hear no more."""
+        """True if it wants no more lines."""
 
     def hear(self, line: str) -> Answer:
         """Carry out a line; one that is wrong changes nothing."""

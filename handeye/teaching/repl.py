@@ -65,7 +65,7 @@ class Repl:
         return about(self.workplace, checked, found)
 
     def typed(self, text: str) -> Source:
-        """Make a source of what was typed, with the files it requires."""
+        """The typed text as a source, with the files it requires."""
         return sewn(Source(name=TYPED, text=text), lambda key: read_source(self.folder / key).text)
 
     def carry_out(self, source: Source, *, alone: bool = False) -> Answer:
@@ -86,7 +86,7 @@ class Repl:
 
 
 def _do(repl: Repl, rest: str) -> Answer:
-    """Carry out what is collected, or a function, macro or program now."""
+    """Carry out the collected lines, or a function, macro or program, now."""
     if not rest:
         if not any(map(str.strip, repl.functions)):
             raise Refused("nothing is collected; type functions, or `DO OPEN 3` to carry one out at once")

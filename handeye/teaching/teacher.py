@@ -35,7 +35,7 @@ REST_S = 0.5  # for a floating arm to come to rest when it is let go
 
 @dataclass(slots=True, kw_only=True)
 class Teacher:
-    """A cell, a file of taught positions, and what is to be written to it."""
+    """A cell, a file of taught positions, and the positions to be written to it."""
 
     workplace: Workplace
     file: Path

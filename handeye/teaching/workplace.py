@@ -39,7 +39,7 @@ _FORGOTTEN: Final = (
 
 
 class Workplace:
-    """The cell, what is taught, and what the working phase remembers."""
+    """The cell, the taught positions, and the memory of the working phase."""
 
     def __init__(
         self,
@@ -77,7 +77,7 @@ class Workplace:
         halt: Callable[[], bool],
         observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> "Workplace":
-        """The cell as a run has left it, with what it knew; `taught`: instead of what its plan was made with."""
+        """The cell as a run has left it, with its memory; `taught` replaces the positions of its plan."""
         program = plan_of(checkpoint.setup).program
         made = cls.__new__(cls)
         made.taught = taught or Taught(

@@ -41,7 +41,7 @@ class Forces:
     limit: Array  # its limit, shape (n,); NaN: no guard watches
 
     def within(self, spans: Sequence[Span]) -> "Forces":
-        """The same, in some spans of time."""
+        """The forces within some spans of time."""
         inside = np.zeros(len(self.times), dtype=np.bool_)
         for span in spans:
             inside[span.rows(self.times)] = True

@@ -108,7 +108,7 @@ class Trace:
 
     @cached_property
     def motion(self) -> Motion:
-        """All of these."""
+        """Motion of the joints in the whole run."""
         return self._read(lambda messages: read_motion(m for m in messages if m.topic == JOINTS))
 
     def forces(self, line: int | str | None = None) -> Forces:

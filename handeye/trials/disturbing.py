@@ -42,7 +42,7 @@ class DisturbanceResult(Record, frozen=True, kw_only=True):
 
     @property
     def harmless(self) -> bool:
-        """It was stopped in time."""
+        """True if it was stopped in time."""
         return self.stopped and self.moved <= MOVED and self.felt <= FORCE
 
 

@@ -36,7 +36,7 @@ PANIC: Final = FaultKind(
     usual_stage=4,
     expected=ExpectedDetection(calls=("stopped by the panic button; the brakes are set",)),
 )
-"""No fault of a cell: the button of whoever stands beside it."""
+"""Not a fault of a cell: the panic button."""
 
 
 def with_panic(catalogue: Catalogue) -> Catalogue:

@@ -76,7 +76,7 @@ class Head(Record, frozen=True, kw_only=True):
     code: str  # Digest of handeye and its scenes
 
     def differs(self, other: "Head") -> list[str]:
-        """Names of what is not the same in another one."""
+        """Names of fields that differ in another one."""
         names = [told for name, told in _NAMES.items() if getattr(self, name) != getattr(other, name)]
         both = dict.fromkeys([*self.settings, *other.settings])
         return names + [name for name in both if self.settings.get(name) != other.settings.get(name)]
@@ -179,7 +179,7 @@ def _same_batch(path: Path, sweep: Sweep[R], head: Head) -> tuple[R, ...]:
 
 
 def _check(path: Path, sweep: Sweep[Any], head: Head, *, anew: bool) -> None:
-    """Raises InvalidInput if a folder may not be written, for what is in it; nothing there is touched."""
+    """Raises InvalidInput if the contents of a folder forbid writing to it; nothing there is touched."""
     if not path.exists():
         return
     if (path / TRIALS).is_file() and (path / TRIALS).stat().st_size:

@@ -36,7 +36,7 @@ class Results(Sequence[Result]):
 
     @property
     def assembled(self) -> int:
-        """In how many worlds the referee found everything right."""
+        """Number of worlds in which the referee found everything right."""
         return sum(result.assembled is True for result in self.each)
 
     @overload

@@ -202,7 +202,7 @@ class GuardedWork(Generic[R]):
 
 
 def lost(row: type[R], case: Case, **fields: object) -> list[R]:
-    """Rows of a case of whose trials nothing is known but how they ended."""
+    """Rows of a case with lost trials: only how they ended is known."""
     return [row(trial=k, seed=case.seed, condition=case.condition, **fields) for k in case.trials]  # type: ignore[arg-type]
 
 

@@ -49,7 +49,7 @@ class Link:
             yield line
 
     def come(self) -> str | None:
-        """A line that is there already; None: there is none."""
+        """A line already received; None if there is none."""
         try:
             return self._lines.get_nowait()
         except Empty:

@@ -67,7 +67,7 @@ def shown(events: Sequence[AnyEvent], listing: Listing, system: RunningSystem) -
 
 
 def _last(events: Sequence[AnyEvent], listing: Listing) -> tuple[PictureTaken | None, Sequence[Finding]]:
-    """The picture that was taken or looked at last, and what was found in it."""
+    """The picture taken or examined last, and its findings."""
     taken: dict[str, PictureTaken] = {}
     findings: dict[str, list[Finding]] = {}
     last = None
@@ -105,7 +105,7 @@ class Moment:
 
 
 class Newest(Observer):
-    """Keeps the newest moment and picture of a run, for whoever may come and look; they are read from any thread."""
+    """Keeps the newest moment and picture of a run for display; they are read from any thread."""
 
     def __init__(self, runner: Runner) -> None:
         self._begun: float | None = None

@@ -132,7 +132,7 @@ def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> 
 
 
 def _proceed(run: ExecutionContext, undone: list[ExecutedStep]) -> None:
-    """Report where the run stands now, and set what is next."""
+    """Report the run's place, and set the next step."""
     state = run.state
     assert state.undoing is not None
     assert state.stage is not None
@@ -176,7 +176,7 @@ def _way(run: ExecutionContext, done: ExecutedStep) -> RecordedPath:
 
 
 def _retrace(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Retrace a step's path with what the hand holds."""
+    """Retrace a step's path with the object held."""
     way = _way(run, done)
     stopped = _go(run, done, RecordedPath(q=way.q, gap=np.full(len(way), run.drive.state.gap)))
     resisted = stopped is not None and isinstance(stopped.cause, UndoResisted)

@@ -1,1 +1,1 @@
-"""Facts of a run for whoever shows it: what was seen, felt, planned and found, as values."""
+"""Facts of a run for display: things seen, felt, planned and found, as values."""

@@ -46,7 +46,7 @@ class CaptionedEvent(NamedTuple):
 
 
 def told(run: RecordedRun) -> tuple[CaptionedEvent, ...]:
-    """All of them, in order."""
+    """All events with captions, in order."""
     return tuple(
         CaptionedEvent(run.seconds(event.time), event)
         for event in run.trace.events

@@ -136,7 +136,7 @@ def _broken(run: RecordedRun) -> Iterator[Markup]:
 
 
 def in_figures(run: RecordedRun) -> Iterator[Markup]:
-    """The figures as a list; of what there was none, nothing is said."""
+    """The figures as a list, without those that are zero."""
     told = [(count, what) for count, what in _figures(run) if count]
     rows = (element("div", element("dd", str(count)), element("dt", what)) for count, what in told)
     if told:

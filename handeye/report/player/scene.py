@@ -120,7 +120,7 @@ def _texture(model: Any, number: int) -> NDArray[np.uint8]:
 
 
 _CALLED: Final = "called/"
-"""Begins the names of the texts in which a scene tells what people call a body, or bodies that are numbered."""
+"""Prefix of the scene's text fields for the display name of a body, or of numbered bodies."""
 
 
 @dataclass(frozen=True)
@@ -189,7 +189,7 @@ def seen(model: Any, body: int) -> list[int]:
 
 
 def lowest(model: Any) -> float:
-    """Height (m) of the underside of the world: what is below is put away."""
+    """Height (m) of the underside of the world: absent bodies lie below it."""
     found = [surface(model, shape) for shape in seen(model, 0)]
     return min((float(part.points[:, 2].min()) for part in found if part is not None), default=-np.inf)
 

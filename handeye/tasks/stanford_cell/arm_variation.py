@@ -1,4 +1,4 @@
-"""Variation of the Stanford arm and its hand: how they differ from what is believed of them; joints count from 1."""
+"""Variation of the Stanford arm and its hand: their differences from the controller's model; joints count from 1."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain

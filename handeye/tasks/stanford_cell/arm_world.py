@@ -1,4 +1,4 @@
-"""The arm and the hand of a drawn world: what a cell with them is built from."""
+"""The arm and the hand of a drawn world, from which a cell is built."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

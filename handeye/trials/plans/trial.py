@@ -91,7 +91,7 @@ class Trial:
 
 
 def events_digest(events: list[AnyEvent]) -> str:
-    """Sixteen hexadecimal digits that stand for what happened."""
+    """Sixteen hexadecimal digits that identify the events."""
     digest = hashlib.sha256()
     for event in events:
         digest.update(to_line(event))

@@ -37,7 +37,7 @@ class BaseAttempt(Attempt, frozen=True, kw_only=True):
 
     @property
     def within(self) -> bool:
-        """It was found as exactly as the paper says."""
+        """True if it was found as exactly as the paper says."""
         return self.error is not None and all(abs(e) <= w for e, w in zip(self.error, WITHIN, strict=False))
 
 

@@ -1,4 +1,4 @@
-"""The world of the pump by its devices and parts: what the simulated cell is built from."""
+"""The world of the pump by its devices and parts, from which the simulated cell is built."""
 
 from dataclasses import dataclass, fields, replace
 from typing import Self
