@@ -38,8 +38,8 @@ class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
     gap: tuple[float, float]  # sensed before and after, m
     fingers: float  # gap set-point before, m
     grasping: bool = False  # fingers closed before
-    load: float = 0.0  # compensated weight before, N
-    tool: float = 0.0  # screwdriver speed before, rad/s
+    load: float  # compensated weight before, N; always written: a default is left out by identity
+    tool: float  # screwdriver speed before, rad/s; as `load`
     force: float = 0.0  # greatest force felt, N; 0: none was estimated
     ended: GuardKind | None = None  # the guard that ended it
     risen: float = 0.0  # rise of the hand, m, while its screw was being turned out, if that was interrupted

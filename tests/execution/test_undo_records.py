@@ -26,7 +26,9 @@ def way(rows: int, step: float = 1e-3) -> RecordedPath:
 
 
 def executed(step: int, **fields: object) -> ExecutedStep:
-    return ExecutedStep(**{"step": step, "gap": (0.01, 0.01), "fingers": 0.01, **fields})  # type: ignore[arg-type] # by name
+    return ExecutedStep(
+        **{"step": step, "gap": (0.01, 0.01), "fingers": 0.01, "load": 0.0, "tool": 0.0, **fields}
+    )  # type: ignore[arg-type] # by name
 
 
 @given(st.integers(1, 50), st.integers(0, 2**32 - 1))
