@@ -132,4 +132,4 @@ FILMS: Final[Mapping[str, FilmStock]] = {
         developed=_black_and_white,
     ),
 }  # fmt: skip
-"""By their names."""
+"""Films by name."""

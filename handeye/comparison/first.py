@@ -145,7 +145,7 @@ class First:
     period: int | None = None  # The servo period of the step, from 1; None: it is of none
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """What happened next, where that is what differs; None: the step went on, or the run ended."""
+    """The next events, if they are what differs; None: the step went on, or the run ended."""
 
     @property
     def place(self) -> Place | None:

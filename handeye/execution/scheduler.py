@@ -54,7 +54,7 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
 
     now: Time
     due: dict[str, tuple[Time, int]] = msgspec.field(default_factory=dict)
-    """By task: the time since when it is due or waits, and how often it has gone on at that time."""
+    """For each task, the time since when it is due or waits, and how often it has gone on at that time."""
     waits: dict[str, str] = msgspec.field(default_factory=dict)
     """The tasks that wait for a condition, with its name."""
 

@@ -109,7 +109,7 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     press: Vector3 | None
     """Force it exerts, N, table coordinates."""
     conditions: tuple[str, ...]
-    """What ends it and the force it exerts, in words and units of the language."""
+    """Guards and exerted force, in words and units of the language."""
     depends: tuple[Dependence, ...]
     error: int | None
     """The error it tests for."""

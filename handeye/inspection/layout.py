@@ -162,7 +162,7 @@ class _Shelves:
     areas: list[Area] = field(default_factory=list)
     routes: list[Route] = field(default_factory=list)
     borders: dict[int, tuple[float, float, float]] = field(default_factory=dict)
-    """Of a step's column: left, right, and top of its shelf."""
+    """Left, right and top of the shelf of each step's column."""
     x: float = FRAME
     y: float = 0.0
     width: float = 0.0

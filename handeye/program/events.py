@@ -97,7 +97,7 @@ class StepFinished(Event, frozen=True, kw_only=True):
     step: int
     hand: tuple[float, float, float] | None  # None: the system has no hand
     planned: tuple[float, float, float] | None
-    """Where a motion was planned to end (m); a guard or a measured world ends it elsewhere."""
+    """Planned end of a motion (m); a guard or a measured world ends it elsewhere."""
     gap: float | None
 
 

@@ -207,7 +207,7 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def finish(self) -> bool:
-        """Emit `RunFinished`; True when the program came to its end."""
+        """Emit `RunFinished`; True if the program ended."""
 
     @property
     def context(self) -> ExecutionContext | None:

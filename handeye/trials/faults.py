@@ -145,7 +145,7 @@ class FaultWork:
 def usual(
     catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None, stages: int
 ) -> dict[str, Fault]:
-    """Faults at their usual sizes, by how they would be typed; `stage`: where those set in that can, of so many."""
+    """Faults at their usual sizes, as they are typed; those that can set in late do so at `stage`, of `stages`."""
     first = [None if kind.from_start else stage or min(kind.usual_stage or 0, stages) for kind in kinds]
     found = [kind.usual(each or None) for kind, each in zip(kinds, first, strict=True)]
     return {catalogue.written(fault): fault for fault in found}

@@ -33,7 +33,7 @@ class Edges(NamedTuple):
     """Edges of several beams, a row each."""
 
     met: NDArray[np.bool_]
-    """Whether the beam met an edge; the other fields are meaningless if not."""
+    """True if the beam met an edge; the other fields are meaningless if not."""
     uv: Array
     """Position of the edge, shape (n, 2)."""
     before: Array

@@ -34,7 +34,7 @@ class Meshes:
     """Meshes, each the pieces of a body: a fine one, behind it a coarse one if that saves much."""
 
     told: list[dict[str, Any]] = field(default_factory=list)
-    """What a page has to know of each: `fine` and `coarse`, the first corner and the number of corners of triangles;
+    """Data for the page on each: `fine` and `coarse`, the first corner and the number of corners of triangles;
     `scale` of its points; `ball` around it; `parts`, names and ranges of pieces."""
     _points: list[NDArray[np.uint16]] = field(default_factory=list)
     _normals: list[NDArray[np.int8]] = field(default_factory=list)
