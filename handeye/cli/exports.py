@@ -14,7 +14,6 @@ from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, CannotWrite
 from handeye.core.files import check_place, write_over
 from handeye.core.plain_text import counted
-from handeye.tasks import planned
 
 if TYPE_CHECKING:
     from handeye.results.export import Export
@@ -73,7 +72,7 @@ def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
 
     wanted = made_known(world.task)
     if run is None:
-        return initial_state(world.spec, planned(world.work).name)
+        return initial_state(world.spec, world.work.name)
     if world.chosen:
         raise BadArgument(
             f"{run} brings its own world; --seed, --level, --without and --set do not go with it"

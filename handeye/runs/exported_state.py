@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Literal
 
 from handeye.cell.truth import Truth
+from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadFile, Refused
 from handeye.core.variation import WorldSpec
 from handeye.runs.checkpoint_file import read_checkpoint
@@ -12,7 +13,8 @@ from handeye.runs.folder import open_again
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import listing_of
-from handeye.tasks import DEFAULT, task
+from handeye.tasks import DEFAULT, any_task
+from handeye.tasks.interface import Task
 
 MomentKind = Literal["drawn", "final", "unfinished"]  # before, at the end of, or within the plan
 
@@ -32,7 +34,7 @@ class ExportedState:
 
 def initial_state(world: WorldSpec, name: str = DEFAULT) -> ExportedState:
     """A world of a task, by its name, with the cell switched on and nothing done."""
-    return ExportedState(task=name, world=world, moment="drawn", truth=task(name).cell(world, "ray").truth)
+    return ExportedState(task=name, world=world, moment="drawn", truth=_task(name).cell(world, "ray").truth)
 
 
 def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
@@ -56,9 +58,17 @@ def _exhibit(path: Path, checkpoint: Checkpoint) -> ExportedState:
         raise BadFile(f"the run in {path} has not begun")
     if snapshot.cell is None:
         raise Refused(f"the run in {path} is of a system that acts on no cell")
-    cell = task(setup.task).cell(setup.world, "ray")
+    cell = _task(setup.task).cell(setup.world, "ray")
     cell.restore(snapshot.cell)
     return _shown(checkpoint, cell.truth)
+
+
+def _task(name: str) -> Task:
+    """The task of a name; raises Refused if it is of a system whose cells are not exported."""
+    found = any_task(name)
+    if not isinstance(found, Task):
+        raise Refused(f"the task {quoted(name)} exports no scene")
+    return found
 
 
 def _shown(checkpoint: Checkpoint, truth: Truth) -> ExportedState:
