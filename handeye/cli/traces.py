@@ -20,7 +20,7 @@ from handeye.cli.common import (
     say,
     screen,
 )
-from handeye.cli.programs import made_known
+from handeye.cli.programs import check_task, made_known
 from handeye.cli.trace_files import File, TraceFile, trace_file
 from handeye.cli.worlds import PLAIN, FineOptions
 from handeye.core.errors import BadArgument, Refused
@@ -75,11 +75,12 @@ def photograph(
     from handeye.cell.posed import posed
     from handeye.trace.trace import SHOWN
 
-    made_known(task)
+    wanted = made_known(task)
     check_place(output, PNG)
     trace, _ = _read(file)
     if trace is None:
         raise Refused(f"{file} is an event list, which does not hold where things were; use the trace.mcap")
+    check_task(wanted, trace.head.task, file)
     begin, end = map(trace.elapsed, trace.covers)
     if not begin - SHOWN <= at <= end + SHOWN:
         raise BadArgument(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
@@ -103,10 +104,11 @@ def verify(file: TraceFile, /, *, task: TaskWords = None) -> int:
     from handeye.core.versions import versions
     from handeye.runs.verify import difference, settled
 
-    made_known(task)
+    wanted = made_known(task)
     trace, events = _read(file)
     if trace is None:
         raise Refused(f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too")
+    check_task(wanted, trace.head.task, file)
     changed = [name for name, version in versions().items() if trace.head.versions.get(name) != version]
     if changed:
         sentence = f"it was recorded with other versions of {', '.join(changed)}; the result may differ"

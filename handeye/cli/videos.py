@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from handeye.cli.common import TaskWords, note, notes, say
-from handeye.cli.programs import made_known
+from handeye.cli.programs import check_task, made_known
 from handeye.cli.trace_files import TraceFile, motion_file
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument
@@ -70,7 +70,7 @@ def video(
     from handeye.video.making import make_video
     from handeye.video.request import VideoRequest
 
-    made_known(task)
+    wanted_task = made_known(task)
     found = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", size)
     if found is None:
         raise BadArgument(f"{quoted(size)} is no size; one is written as 480x360")
@@ -80,8 +80,10 @@ def video(
         captions=captions,
     )  # fmt: skip
     place = output or (run / VIDEO if run.is_dir() else run.with_name(VIDEO))
+    trace = _trace(run)
+    check_task(wanted_task, trace.head.task, run)
     with drawing() as told:
-        made = make_video(_trace(run), place, wanted, overwrite=overwrite, told=told)
+        made = make_video(trace, place, wanted, overwrite=overwrite, told=told)
     how = f"{made.frames} frames of {wanted.width} x {wanted.height}"
     say(f"{made.path}: {made.seconds:.1f} s, {how}, {made.bytes / 1e6:.2f} MB")
     return 0

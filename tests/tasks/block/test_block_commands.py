@@ -76,8 +76,8 @@ def test_a_run_of_another_task_is_refused_and_left_as_it_is(command: Command) ->
     told(command, "plan", *BLOCK, "block.al")
     told(command, "run", *BLOCK, PLAN, "--out", "whole", "--to", "1", *RAY)
     kept = sorted(Path("whole", CHECKPOINTS).iterdir())
-    for name in ("resume", "dismantle"):
-        code, _, err = command(name, "whole", "--task", "insertion")
+    for name in ("resume", "dismantle", "video", "trace verify"):
+        code, _, err = command(*name.split(), "whole", "--task", "insertion")
         assert code == 2
         assert err.startswith("handeye: the run in whole is of the task `block`, not of `insertion`")
     assert sorted(Path("whole", CHECKPOINTS).iterdir()) == kept
