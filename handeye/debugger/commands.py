@@ -251,9 +251,9 @@ def _set(runner: Runner, text: str) -> None:
     settable = settables.get(kind.casefold())
     if settable is None:
         known = " or ".join(f"`set {name} {each.usage}`" for name, each in settables.items())
-        raise BadArgument(f"an _set is {known}" if known else "nothing can be set in this run")
+        raise BadArgument(f"an experiment is {known}" if known else "nothing can be set in this run")
     if runner.trouble is not None:
-        raise Refused("no _set is possible here; go back first")
+        raise Refused("no experiment is possible here; go back first")
     name, numbers = _read(rest, settable, kind.casefold())
     values = tuple(number * unit for number, unit in zip(numbers, settable.units, strict=False))
     runner.experiment(kind.casefold(), name, values + settable.present(name)[len(values) :])
@@ -263,7 +263,7 @@ def _read(text: str, settable: Settable, kind: str) -> tuple[str, list[float]]:
     """The name and the numbers, brackets and commas left out."""
     name, *words = re.sub(r"[\[\](),]", " ", text).split() or [""]
     if not name or len(words) not in (settable.fewest, len(settable.units)):
-        raise BadArgument(f"write an _set as `set {kind} {settable.usage}`")
+        raise BadArgument(f"write an experiment as `set {kind} {settable.usage}`")
     numbers = [_number(word) for word in words]
     return _known(name, settable), numbers
 

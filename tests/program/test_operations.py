@@ -73,7 +73,7 @@ def test_an_operation_is_asked_for_its_class_only_where_its_meaning_is_given() -
         "al/lower.py",  # where a RESTORE finds its MOVE, and a search its own
         "planning/grasp_state.py",  # where the planner opens and closes the hand
         "planning/motion_checks.py",  # where it puts a load into it
-        "trials/plans/contacts.py",  # where trials count the operations in which parts touch
+        "trials/plans/row.py",  # where trials count the operations in which parts touch
     }
 
 
