@@ -1,7 +1,6 @@
 """A run whose calibration is kept of an earlier one is the same, to the byte, as one that calibrates."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import msgspec
@@ -63,7 +62,7 @@ def both(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Runner, Run
     wide = tuple(look for look in LOOKS if look.lens == WIDE)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("HANDEYE_CACHE", str(folder / "cache"))
-        patch.setattr(WaterPump, "eye", replace(WaterPump.eye, looks=wide))
+        patch.setattr(WaterPump, "eye", msgspec.structs.replace(WaterPump.eye, looks=wide))
         yield kept_run(folder / "cold"), kept_run(folder / "warm"), folder
 
 

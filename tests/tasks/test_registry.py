@@ -14,6 +14,7 @@ from short_runs import begin
 from handeye import tasks
 from handeye.arm import robots
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.entries import OWN, loaded
 from handeye.core.errors import InvalidInput
 from handeye.core.variation import WorldSpec
 from handeye.runs.runner import Runner
@@ -38,6 +39,7 @@ def test_an_unknown_task_is_refused_with_the_nearest_name(
 ) -> None:
     monkeypatch.setattr(tasks, "_REGISTERED", {})  # those of other tests
     monkeypatch.setattr("handeye.core.entries._registered", {})
+    monkeypatch.setattr("handeye.core.entries._found", [loaded(place) for place in OWN])
     with pytest.raises(
         InvalidInput,
         match=f"^{re.escape(sentence)} \\(one of your own is given as `--task MODULE:NAME`, comes by",
