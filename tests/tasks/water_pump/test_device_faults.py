@@ -19,7 +19,7 @@ from handeye.program.motion_operations import Move
 from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.faults.devices import defects, device_faults
-from handeye.tasks.water_pump.faults.expected_detection import PINNED, SCREWED
+from handeye.tasks.water_pump.faults.shared_expectations import PINNED, SCREWED
 from handeye.tasks.water_pump.task import WATER_PUMP
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.variation import SEVENTH

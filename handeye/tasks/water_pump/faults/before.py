@@ -27,7 +27,7 @@ from handeye.core.errors import (
 from handeye.core.faults import ExpectedDetection, Fault, Size
 from handeye.core.pose import rotation_z
 from handeye.tasks.stanford_cell.dimensions import Point, base_top, dimensions, web_centre
-from handeye.tasks.water_pump.faults import expected_detection as detect
+from handeye.tasks.water_pump.faults import shared_expectations as detect
 from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
 from handeye.tasks.water_pump.world.variation import screws
 

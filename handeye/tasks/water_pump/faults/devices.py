@@ -34,7 +34,7 @@ from handeye.core.errors import (
 from handeye.core.faults import ExpectedDetection, Fault, Size
 from handeye.core.units import JIFFY
 from handeye.tasks.stanford_cell.arm_variation import JOINT_UNITS
-from handeye.tasks.water_pump.faults import expected_detection as detect
+from handeye.tasks.water_pump.faults import shared_expectations as detect
 from handeye.tasks.water_pump.faults.declaration import PumpFault, broken, declared
 
 _FINGERS: Final = ("finger_switch.plus_y", "finger_switch.minus_y")

@@ -22,7 +22,7 @@ from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.core.units import INCH
 from handeye.tasks.stanford_cell.arm import ARM
-from handeye.tasks.water_pump.faults import expected_detection as detect
+from handeye.tasks.water_pump.faults import shared_expectations as detect
 from handeye.tasks.water_pump.faults.before import GONE, OVER_TRAY_M
 from handeye.tasks.water_pump.faults.declaration import PumpFault, broken, declared
 
