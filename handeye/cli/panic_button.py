@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Final, Self
 
+from handeye.core.errors import BadFile
+
 ENDING: Final = (signal.SIGINT, signal.SIGTERM)
 
 
@@ -16,7 +18,8 @@ ENDING: Final = (signal.SIGINT, signal.SIGTERM)
 def terminable() -> Iterator[None]:
     """While being told to end interrupts as Ctrl-C does, so that nothing half done stays behind.
 
-    It does so within an import too: modules written in C make an ImportError of a KeyboardInterrupt.
+    It does so within an import too: modules written in C make an ImportError of a KeyboardInterrupt, and the loader of
+    commands a BadFile of that.
     """
     heard = []
 
@@ -29,7 +32,7 @@ def terminable() -> Iterator[None]:
         before[signal.SIGINT] = signal.signal(signal.SIGINT, interrupt)
     try:
         yield
-    except ImportError:
+    except (ImportError, BadFile):
         if heard:
             raise KeyboardInterrupt from None
         raise
