@@ -9,8 +9,8 @@ from handeye.core.entries import entry_named
 from handeye.core.variation import WorldSpec
 from handeye.runs.setup import Setup
 from handeye.runs.systems import system_named
+from handeye.systems.trig.run.running_job import RunningJob
 from handeye.systems.trig.run.state import TaughtState
-from handeye.systems.trig.run.system import RunningJob
 from handeye.trials.chaos.schedule import parse_schedule
 from handeye.trials.chaos.sound_run import NEAR_END, SoundRun, sound_run
 from handeye.trials.chaos.trials import try_schedule

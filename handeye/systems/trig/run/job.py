@@ -13,11 +13,12 @@ from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
+from handeye.systems.trig import ENTRY
 from handeye.systems.trig.jobs.benches import BlockPose, JobName, TaughtPlan, job_script
 from handeye.systems.trig.language.program_commands import told_run
 from handeye.systems.trig.language.reports import RunLeg
 from handeye.systems.trig.language.running import RunResult
-from handeye.systems.trig.run.system import TAUGHT, RunningJob, plan_of
+from handeye.systems.trig.run.running_job import RunningJob, plan_of
 
 Outcome = Literal["right", "stopped", "silent", "halted"]
 """Right; stopped early by program or arm; done, but the referee disagrees; halted by the user."""
@@ -52,7 +53,7 @@ class JobReport(Record, frozen=True, kw_only=True):
 def setup_of_job(name: JobName, world: WorldSpec, blocks: int | None) -> Checkpoint:
     """A new run of a job; `blocks` is the size of the palletiser's stack."""
     plan = TaughtPlan(job=name, script=job_script(name, blocks or 0))
-    setup = Setup(system=TAUGHT.name, plan=plan, world=world, camera="auto", judged=True)
+    setup = Setup(system=ENTRY.name, plan=plan, world=world, camera="auto", judged=True)
     return Checkpoint(setup=setup)
 
 
