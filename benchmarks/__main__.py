@@ -178,13 +178,13 @@ def speed(
     """Assemble and tell where the processor time goes, by phase, component and stage, and what the physics takes alone.
 
     All times are of the processor, threads included: what else this computer does at the time hardly counts. Every
-    second goes to one component, the innermost under way. What measuring itself takes is told.
+    second goes to one component, the innermost under way. The cost of measuring is reported.
 
     The physics alone: the work is done a second time, on tape. The tape has all that the run writes into the
     simulator: controls, forces, figures of the model such as the friction of threads, screws put into their threads,
     the states put back between steps. It is played in a simulator of its own, with nothing between two calls but what
     was written; each step of the program must end in the state of the run, bit for bit. The time of the working phase
-    is told as a multiple of that: 1 would be a program that costs nothing. The tape is in no other figure.
+    is reported as a multiple of that: 1 would be a program that costs nothing. The tape is in no other figure.
 
     Exit code 0: accepted in every world; 1: in some world the program stopped, the referee disagreed, or the physics
     alone ended elsewhere.
@@ -230,7 +230,7 @@ def growth(
 ) -> int:
     """Measure how cost grows with the statements of a program, its trace, and the cells in one process.
 
-    A program of so many statements, with a stage and six motions in each hundred, is checked, planned, carried out and
+    A program of the given length, with a stage and six motions in each hundred, is checked, planned, carried out and
     recorded; its trace is opened, compared and told. And one to three cells carry out such a program of a hundred in
     one process, a step each in turn. Times are of the processor.
 

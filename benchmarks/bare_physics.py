@@ -12,7 +12,7 @@ from benchmarks.tape import Call, Move, Place, Tape, places, state_of
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bare:
-    """What a tape came to."""
+    """The result of playing a tape."""
 
     seconds: float
     """By the clock that was given."""

@@ -1,4 +1,4 @@
-"""Runs interrupted in many ways and resumed, compared with a run that nobody interrupted."""
+"""Runs interrupted in many ways and resumed, compared with an uninterrupted run."""
 
 import random
 import signal
@@ -44,7 +44,7 @@ class Verdict:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnbrokenRun:
-    """A run that nobody interrupted, to compare with."""
+    """An uninterrupted run, to compare with."""
 
     folder: Path
     seed: int
@@ -189,7 +189,7 @@ def handeye(*words: str, said: str = "") -> subprocess.CompletedProcess[str]:
     """Carry out a command; `said` is its standard input.
 
     Raises:
-        TrialFailed: it does not come to an end.
+        TrialFailed: it does not end.
     """
     try:
         return subprocess.run(  # noqa: S603 - our own program
@@ -217,7 +217,7 @@ def _ended(process: "subprocess.Popen[bytes]") -> int:
 
 
 def _wait_for(journal: Path, lines: int, process: "subprocess.Popen[bytes]") -> None:
-    """Wait until a run has written so many events."""
+    """Wait until a run has written a number of events."""
     end = time.monotonic() + LIMIT
     while process.poll() is None:
         if journal.exists() and journal.read_bytes().count(b"\n") >= lines:

@@ -18,7 +18,7 @@ _DECADES: Final = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Growth:
-    """What something came to at several sizes."""
+    """Measurements at several sizes."""
 
     what: str
     of: Literal["statements", "cells"]
@@ -61,7 +61,7 @@ def measure(most: int, told: Callable[[str], None] = lambda _: None) -> Iterator
 
     Args:
         most: the largest number of statements; the others are the powers of ten below it.
-        told: is told what is measured next.
+        told: called with the name of what is measured next.
     """
     numbers = range(1, MOST_CELLS + 1)
     cells(1)  # what is made once for all cells is made here

@@ -1,4 +1,4 @@
-"""What programs of so many statements cost, and so many cells in one process."""
+"""The cost of programs by length, and of several cells in one process."""
 
 import gc
 import tempfile
@@ -32,7 +32,7 @@ _IN_A_CELL: Final = 100
 
 
 def script(statements: int) -> str:
-    """A program of so many statements: in each hundred a stage, a free motion, five straight ones, and no picture."""
+    """A program of that many statements: in each hundred a stage, a free motion, five straight ones, and no picture."""
     return "".join(f"        {_statement(number)}\n" for number in range(statements))
 
 
@@ -48,7 +48,7 @@ def _statement(number: int) -> str:
 
 
 def statements(number: int) -> Costs:
-    """What a program of so many statements costs, from the text to its trace, read again."""
+    """The cost of a program of a number of statements, from the text to its trace, read again."""
     source, taught = Source(name="growth.al", text=script(number)), _taught()
     costs: Costs = {
         ("checked", "cpu_s"): _cpu_s(lambda: compile_text(source, taught)),
@@ -84,7 +84,7 @@ def _recorded(folder: Path) -> Costs:
 
 
 def cells(number: int) -> Costs:
-    """What so many cells cost that live in this process, and whose programs go on in turn, a step each."""
+    """The cost of several cells in this process whose programs take turns, a step each."""
     setup = _setup(_plan(Source(name="growth.al", text=script(_IN_A_CELL)), _taught()))
     gc.collect()  # cells of before
     seconds = _cpu_s(lambda: _in_turn([Runner(Checkpoint(setup=setup)) for _ in range(number)]))

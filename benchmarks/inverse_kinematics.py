@@ -23,7 +23,7 @@ _way = partial(Way.measured, unit="m")
 
 
 def measure(arm: ArmModel, poses: int, times: int) -> Comparison:
-    """Solve for so many poses that the arm can reach, one at a time and all at once, so many times each."""
+    """Solve for reachable poses, one at a time and all at once, each a number of times."""
     rng = np.random.default_rng(SEED)
     X = [forward(arm, q) for q in rng.uniform(arm.lower, arm.upper, (poses, len(arm.joints)))]
     version = installed(TOOLBOX)

@@ -14,7 +14,7 @@ _URI: Final = "untitled:pins.al"
 
 
 def typed(text: str, line: int, times: int) -> list[float]:
-    """Seconds from each of so many keystrokes at the end of a line to the diagnostics of the text as it then is.
+    """Seconds from each of a number of keystrokes at the end of a line to the diagnostics of the text as it then is.
 
     The server is a process of its own, and what lies between is counted in: the pipes, and JSON at both ends.
 

@@ -1,6 +1,6 @@
 """Delays of the arm language: a check, a keystroke, a plan.
 
-Every time is taken on a text that nobody has seen before: other numbers and other names, so that nothing can be left
+Each time is taken on a new text: other numbers and other names, so that nothing can be left
 over from the time before.
 """
 
@@ -85,7 +85,7 @@ class Waiting:
 
 
 def measure(times: int) -> Iterator[Waiting]:
-    """Measure each task so many times.
+    """Measure each task a number of times.
 
     What is typed is a name: each key leaves a text without an error, of which everything is to be checked.
     """
@@ -102,7 +102,7 @@ def measure(times: int) -> Iterator[Waiting]:
 
 
 def script(lines: int, number: int) -> str:
-    """A script without a mistake, of so many lines (a multiple of 25); none is the same for two numbers."""
+    """A correct script of a number of lines (a multiple of 25); none is the same for two numbers."""
     return "".join(
         _BLOCK.format(
             name=f"{number}_{k}",

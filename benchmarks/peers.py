@@ -20,7 +20,7 @@ class Outcome:
 
 
 Trial = tuple[Callable[[], T], Callable[[T], Outcome]]
-"""Work whose time is taken, and what its result comes to, which takes no time."""
+"""Work that is timed, and the check of its result, which is not."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,7 +37,7 @@ class Way:
 
     @classmethod
     def measured(cls, task: str, name: str, *, unit: str, trials: Iterable[Trial[T]], times: int) -> Self:
-        """A way tried on each of several tasks, so many times each."""
+        """One method, tried on each of several tasks a number of times."""
         outcomes, seconds = [], []
         for work, judge in trials:
             result, spent = timed(work, times)

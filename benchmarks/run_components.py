@@ -32,7 +32,7 @@ COMPONENTS: Final = {
     "records": "events, progress, and trace and checkpoints if they are kept",
     OTHER: "all else: instructions, world model",
 }
-"""What each is, in the order in which they are told."""
+"""The meaning of each, in the order of the report."""
 _FUNCTIONS: Final[dict[str, tuple[tuple[Any, tuple[str, ...]], ...]]] = {
     "devices": ((SimulatedCell, ("advance",)),),
     "servo": ((drive, ("run",)),),

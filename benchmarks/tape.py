@@ -2,7 +2,7 @@
 
 Between two calls of the simulator a cell writes controls, forces, figures of the model and, now and then, positions.
 The tape has what was written before each call, and the call. A stretch of it begins where the simulator is reset, which
-is between two steps of a program, so that each can be compared by itself with what the run came to.
+is between two steps of a program, so that each can be compared by itself with the run.
 """
 
 import copy

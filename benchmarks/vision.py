@@ -31,7 +31,7 @@ _way = partial(Way.measured, unit="points")
 
 
 def measure(sights: Iterable[Sight], times: int) -> Iterator[Comparison]:
-    """Find the outline of the part, and then its holes, in each sight so many times and in each way.
+    """Find the outline of the part, and then its holes, in each sight, a number of times with each method.
 
     Holes are looked for, in all ways, in the box that our own way has found from far.
     """

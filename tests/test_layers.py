@@ -188,7 +188,7 @@ def test_planner_and_executor_know_no_language() -> None:
     assert crossing(among("planning", "execution"), "al") == {}
 
 
-def test_only_cell_referee_tasks_and_machines_of_systems_know_mujoco() -> None:
+def test_only_cell_referee_machines_tasks_and_systems_know_mujoco() -> None:
     knowing = {module for module in MODULES if "mujoco" in outside(module)}
     assert {m for m in knowing if room(m) not in {"cell", "judge", "machines", "tasks", "systems"}} == set()
 

@@ -32,7 +32,7 @@ app = App(
 )
 add_commands(app, COMMANDS, __package__)
 for entry in entries().values():
-    with suppress(KeyError, ValueError):  # a table of somebody else's that is no table breaks no command
+    with suppress(KeyError, ValueError):  # another package's malformed table breaks no command
         add_commands(app, entry.commands)
 completion.register(app)
 
@@ -100,7 +100,7 @@ def prepare_streams() -> None:
     codecs.register_error(_PLAIN, _stand_in)
     for name, mode, errors in (("stdin", "r", "replace"), ("stdout", "w", _PLAIN), ("stderr", "w", _PLAIN)):
         if getattr(sys, name) is None:
-            setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115 - it is open for good
+            setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115 - stays open for the life of the process
         stream = getattr(sys, name)
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors=errors)

@@ -160,7 +160,7 @@ def dismantling_trials(
 ) -> int:
     """Assemble in many worlds, have the arm take each apart again, and count how often everything is where it was.
 
-    Trials in which nothing was built are told, and do not count.
+    Trials in which nothing was built are listed but not counted.
 
     Exit code 0: no silent failure; 1: every trial broke off; 3: in some world all was undone and the referee disagreed;
     2: bad input; 130: interrupted.

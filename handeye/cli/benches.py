@@ -23,7 +23,7 @@ MOST_SD: Final = 5.0  # mm: beyond it most holes would be beyond the search
 def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
     """Assemble once and print the timing table beside that of 1973.
 
-    Exit code 0: the program came to its end; 1: it stopped and called the operator.
+    Exit code 0: the program finished; 1: it stopped and called the operator.
     """
     from handeye.core.host_time import HostTimer
     from handeye.results.page import timing as table
@@ -82,7 +82,7 @@ def insertion(
     Peak force is the greatest between pin and plate in any physics step, by the simulator's truth; the program never
     knows it.
 
-    Ctrl-C ends it, and what has ended is told.
+    Ctrl-C ends it and prints what has finished.
 
     Exit code 0: no silent failure; 1: every trial broke off; 3: in some trial the program said done, and the pin was
     not in its hole.

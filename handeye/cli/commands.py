@@ -12,7 +12,7 @@ assemble = runs:assemble: Assemble the water pump, or do another task with its o
 run = runs:run: Carry out a plan in the work cell of its task, or stages of it, or step by step.
 resume = runs:resume: Resume an interrupted run.
 dismantle = dismantling:dismantle: Have the arm undo what it did in a run: take the pump apart again.
-show = reports:show: Show what a run came to, or how far it has come; its folder stays as it is.
+show = reports:show: Show the result of a run, or how far it has got; its folder is not changed.
 report = reports:report: Make a page of a run, or of two: one file with what happened, why, and what was seen and felt.
 video = videos:video: Make a video of a recorded run; nothing is simulated.
 view = views:view: Show the live cell in a browser, and step a run or teach positions there; or show a run that was recorded.
@@ -44,7 +44,7 @@ trace export csv = exports:csv: Write tables of a run as CSV, with a README that
 trace export parquet = exports:parquet: Write tables of a run as Parquet, with a README that tells their columns; it needs the extra `export`, pyarrow.
 world = worlds:world: List every quantity in which worlds differ: what it is in this world, unit, spread and source.
 render = worlds:render: Render a picture of the work cell.
-faults = fault_matrix:faults: Assemble once with each fault of a matrix, at its usual size, and tell what that comes to.
+faults = fault_matrix:faults: Assemble once with each fault of a matrix, at its usual size, and say which were noticed.
 trials: Try in many worlds and count.
 trials assembly = batches:assembly_trials: Assemble in many worlds and count: how often, how sure that is, and what failed where.
 trials dismantling = batches:dismantling_trials: Assemble in many worlds, have the arm take each apart again, and count how often everything is where it was.
@@ -56,7 +56,7 @@ trials chaos = trials:chaos_trials: Draw faults, times, worlds, kills, panics, r
 bench: Measure how long things take.
 bench timing = benches:timing: Assemble once and print the timing table beside that of 1973.
 bench insertion = benches:insertion: Put one pin into one hole, many times: success, peak force, and time from the first contact to seated.
-"""  # noqa: E501
+"""  # noqa: E501 - a command a line
 """`NAME = MODULE:FUNCTION: SENTENCE` of each command, with the sentence that lists say of it, which is the first one of
 its docstring; a group of commands has no function. Modules are those of this folder."""
 

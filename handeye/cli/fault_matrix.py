@@ -35,14 +35,14 @@ def faults(
     options: SweepOptions = ANY,
     overwrite: Annotated[bool, Parameter(help="Drop the trials that are in the folder.")] = False,
 ) -> int:
-    """Assemble once with each fault of a matrix, at its usual size, and tell what that comes to.
+    """Assemble once with each fault of a matrix, at its usual size, and say which were noticed.
 
     A fault is `recovered` from, or the program is `stopped` by its right name, in the right stage, with the brakes on.
     Less good is a stop by another name (`misnamed`). Undetected are `unnoticed` faults that should have been noticed, a
     stop that leaves the arm `unbraked`, and a wrong pump that the program took for right (`silent`).
 
-    A run takes up to a minute of a processor; about how long the rest takes is told on standard error. Ctrl-C ends it,
-    and what has ended is told; with --out the same command goes on there.
+    A run takes up to a minute of a processor; the time left is estimated on standard error. Ctrl-C ends it
+    and prints what has finished; with --out the same command goes on there.
 
     Exit code 0: no fault was undetected; 1: every trial broke off; 3: one was; 2: bad input; 130: interrupted.
     """

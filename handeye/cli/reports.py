@@ -46,7 +46,7 @@ def report(
 ) -> int:
     """Make a page of a run, or of two: one file with what happened, why, and what was seen and felt.
 
-    Exit code 0: it is written, whatever the run came to; 2: bad input.
+    Exit code 0: it is written, whatever the result of the run; 2: bad input.
     """
     from handeye.core import resources
     from handeye.runs.folder import REPORT
@@ -177,9 +177,9 @@ Folder = Annotated[Path, Parameter(help="The folder of a run.")]
 
 
 def show(folder: Folder, /, *, json: Json = False) -> int:
-    """Show what a run came to, or how far it has come; its folder stays as it is.
+    """Show the result of a run, or how far it has got; its folder is not changed.
 
-    Exit code 0: it is shown, whatever the run came to; 2: there is no run that could be shown.
+    Exit code 0: it is shown, whatever the result of the run; 2: there is no run that could be shown.
     """
     kept = shown(folder, json=json)
     if not (kept.left and kept.result.completed):

@@ -40,7 +40,7 @@ def video(
         ),
     ] = "orbit",
     size: Annotated[str, Parameter(help="Points from left to right, and from top to bottom.")] = "480x360",
-    seconds: Annotated[float | None, Parameter(help="How long the video is: 14, where nobody says.")] = None,
+    seconds: Annotated[float | None, Parameter(help="Length of the video; 14 by default.")] = None,
     speed: Annotated[
         float | None, Parameter(help="How many times as fast as the run it is, in the place of a length.")
     ] = None,

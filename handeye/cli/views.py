@@ -47,7 +47,7 @@ def view(
 ) -> int:
     """Show the live cell in a browser, and step a run or teach positions there; or show a run that was recorded.
 
-    Prints the address to open, which nobody can guess and no other computer can reach. Any number of pages may look
+    Prints the address to open, which cannot be guessed or reached from another computer. Any number of pages may look
     on; one drives. Nobody who looks on changes anything of the run, or slows it.
 
     Exit codes are those of `run`, with --teach those of `teach`; of a recorded run 0, when Ctrl-C ends it.

@@ -118,7 +118,7 @@ class LineFile:
     def __init__(self, path: Path, writer: str, *, again: bool = True) -> None:
         """Continue a file, less a last line cut short, or begin anew; raises CannotWrite if a `writer` has it open."""
         self.path = path
-        if path.exists() and not path.is_file():  # to open a pipe that nobody reads would wait for ever
+        if path.exists() and not path.is_file():  # opening a pipe without a reader would wait for ever
             raise CannotWrite(f"{path} cannot be written: it is not a file")
         try:
             self._file = path.open("ab", buffering=0)

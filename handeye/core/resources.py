@@ -44,7 +44,7 @@ def cache_folder() -> Path | None:
         return Path(named).absolute() if named else None
     try:
         return _of_the_platform()
-    except RuntimeError:  # nobody knows where the home is
+    except RuntimeError:  # the home folder is unknown
         return None
 
 

@@ -224,7 +224,7 @@ def _file(name: str) -> Path:
     try:
         path = Path(name).expanduser()
         path.exists()
-    except (OSError, RuntimeError, ValueError):  # too long a name, nobody's home, a NUL
+    except (OSError, RuntimeError, ValueError):  # too long a name, the home of an unknown user, a NUL
         raise BadArgument(f"{quoted(name)} cannot be a file name") from None
     return path
 

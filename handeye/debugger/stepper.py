@@ -146,7 +146,7 @@ def interact(
             told.end()
         write(face(reply if told is None else msgspec.structs.replace(reply, did=())))
         if reply.pause is not None and reply.pause.kind == "panic" and not prompt:
-            return reply.pause  # nobody is there to say whether the next line still holds
+            return reply.pause  # no person is there to say whether the next line still holds
     return stepper.pause
 
 

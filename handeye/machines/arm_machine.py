@@ -12,7 +12,7 @@ from handeye.core.pose import Array
 from handeye.core.resources import scenes
 from handeye.ports.axes import AxisSpec, Channel
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # machines stand on a bench of the cell; their limits are read where there is no simulator
     import mujoco
 
     from handeye.cell.bench import Bench

@@ -51,7 +51,7 @@ class Worker:
         self.process = get_context("spawn").Process(target=_serve, args=(there,), daemon=True)
         with deaf_to_interrupts():
             self.process.start()
-        there.close()  # so that both ends are told when the other is gone
+        there.close()  # so that each end notices when the other is gone
         self.given: _Assignment[Any] | None = None
         self._send(
             trial

@@ -22,7 +22,7 @@ def cache(
     """Show the calibrations of cameras that are kept, or remove them.
 
     What the arm measures of itself and of the camera before the first instruction is kept for other runs in the same
-    world, with the same pictures and versions: they come to the same, to the byte, and need not wait. `--calibrate`
+    world, with the same pictures and versions: they give the same bytes and need not wait. `--calibrate`
     measures anew. All of them take at most 16 MB, some 6 kB each; the oldest go. The environment variable HANDEYE_CACHE
     names another folder than that of the platform; if it is empty, nothing is kept.
     """

@@ -362,7 +362,7 @@ class PlanSystem(System):
 
     @property
     def topics(self) -> Topics:
-        from handeye.systems.stanford.topics import TOPICS  # with the stepper: not before somebody looks
+        from handeye.systems.stanford.topics import TOPICS  # needs the stepper: only when topics are shown
 
         return TOPICS
 

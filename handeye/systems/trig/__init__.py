@@ -16,7 +16,7 @@ ENTRY = Entry(
     commands="""
 trig = handeye.systems.trig.cli.commands:trig: TRIG (MIT, 1982): teach a program by doing, see it as it grows, run it backwards.
 trials pallet = handeye.systems.trig.cli.jobs:pallet_trials: Palletise in many worlds, and take everything back: how often it comes out right, and how far off blocks are.
-""",  # noqa: E501
+""",  # noqa: E501 - a command a line
     tasks={
         "palletise": "handeye.systems.trig.jobs.task:PALLET",
         "bucket": "handeye.systems.trig.jobs.task:BUCKET_TASK",

@@ -59,7 +59,7 @@ def run(
     back: Annotated[bool, Parameter(help="Then run it backwards, to where it began.")] = False,
     json: Json = False,
 ) -> int:
-    """Run a program from the top; a script is typed first, line by line, as by somebody at the editor.
+    """Run a program from the top; a script is typed first, line by line, as at the editor.
 
     Exit code 0: the program has ended, and with --back everything is undone; 1: the arm was stopped before;
     2: bad input; 130: interrupted.

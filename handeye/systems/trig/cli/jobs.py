@@ -243,8 +243,8 @@ def pallet_trials(
 ) -> int:
     """Palletise in many worlds, and take everything back: how often it comes out right, and how far off blocks are.
 
-    Each trial is that of `handeye trig palletise`: taught, run, judged, undone, judged. Ctrl-C ends the batch, and what
-    has ended is told.
+    Each trial is that of `handeye trig palletise`: taught, run, judged, undone, judged. Ctrl-C ends the batch and
+    prints what has finished.
 
     Exit code 0: no silent failure; 1: every trial broke off; 3: in some trial all was said to be done, and the referee
     disagrees.

@@ -208,7 +208,7 @@ class RunningJob(RunningSystem):
         self._note()
         left = len(self.executed)
         if not left:
-            while program.trail:  # what nobody sees before the first step
+            while program.trail:  # hidden nodes before the first step
                 self.job.session.runner.back(1)
             self._around.emit(StageUndone(time=self.time, stage=self._plan.job))
             state.stage = None

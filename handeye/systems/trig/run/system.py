@@ -24,7 +24,7 @@ from handeye.systems.trig.run.running_job import RunningJob
 from handeye.systems.trig.run.state import CompletedStep, TaughtState
 from handeye.tasks import any_task
 
-OWN_BLOCKS: Final = 5  # blocks in the stack where nobody says how many: enough for a program of 75 steps
+OWN_BLOCKS: Final = 5  # default blocks in the stack: enough for a program of 75 steps
 
 
 class TaughtSystem(System):
