@@ -130,7 +130,7 @@ def _measures(rows: Sequence[R], found: Figures) -> Markup:
                 figures = (f"{value:.3g}" for value in (spread.median, spread.p95, spread.most))
                 lines.append([cell(name), cell(condition), _bars(strip), *map(figure_cell, figures)])
     return table(
-        [*heads("", "", "each trial; red: nought"), *figure_heads("median", "95 %", "most")],
+        [*heads("", "", "each trial; red line: zero"), *figure_heads("median", "95 %", "most")],
         lines,
         label="Measures",
     )
