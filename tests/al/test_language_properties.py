@@ -33,7 +33,7 @@ def test_no_text_makes_the_compiler_fail(text: str) -> None:
 
 
 @pytest.mark.slow
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(spoiled([PUMP]))
 def test_no_spoiling_of_the_pump_script_makes_checker_or_planner_fail(text: str) -> None:
     source = Source(name="water_pump.al", text=text)
@@ -46,6 +46,7 @@ def test_no_spoiling_of_the_pump_script_makes_checker_or_planner_fail(text: str)
 
 
 @pytest.mark.slow
+@settings(max_examples=50)
 @given(spoiled([PUMP]))
 def test_tidying_a_spoiled_pump_script_keeps_what_it_says(text: str) -> None:
     assert said(parse(al.format_text(text))[0]) == said(parse(text)[0])

@@ -5,7 +5,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -32,6 +32,20 @@ app(["trials", "--help"], result_action="return_value")
 print("toy_system" in sys.modules, "handeye.systems.trig.run" in sys.modules)
 """
 
+SERVER = """
+import io, json, sys
+from handeye.cli import main
+for line in sys.stdin:
+    words, typed = json.loads(line)
+    said, sys.argv, sys.stdin = io.TextIOWrapper(io.BytesIO(), "utf-8"), ["handeye", *words], io.StringIO(typed)
+    sys.stdout = sys.stderr = said
+    try:
+        main()
+    except SystemExit as end:
+        said.flush()
+        print(json.dumps([end.code, said.buffer.getvalue().decode()]), file=sys.__stdout__, flush=True)
+"""  # one process for all commands: each would import the package anew
+
 Shell = Callable[..., str]
 
 
@@ -52,16 +66,23 @@ def begun(folder: Path, *words: str) -> "subprocess.Popen[str]":
 
 
 @pytest.fixture(scope="module")
-def shell(folder: Path) -> Shell:
+def shell(folder: Path) -> Iterator[Shell]:
     """Carries out a command, and sees with which code it ends."""
+    server = begun(folder, "-c", SERVER)
+    assert server.stdin is not None
+    assert server.stdout is not None
+    lines, answers = server.stdin, server.stdout
 
     def carried_out(*words: str, typed: str = "", code: int = 0) -> str:
-        process = begun(folder, "-m", "handeye", *words)
-        said, _ = process.communicate(typed)
-        assert (process.returncode, "Traceback" in said) == (code, False), said
-        return said
+        print(json.dumps([words, typed]), file=lines, flush=True)
+        answer = answers.readline()
+        assert answer.startswith("["), answer + answers.read()
+        ended, said = json.loads(answer)
+        assert (ended, "Traceback" in said) == (code, False), said
+        return str(said)
 
-    return carried_out
+    yield carried_out
+    server.communicate()
 
 
 @pytest.fixture(scope="module")

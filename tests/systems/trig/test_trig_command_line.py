@@ -157,6 +157,14 @@ def test_a_job_that_is_done_and_wrong_has_an_exit_code_of_its_own(
     result = json.loads(Path("job/result.json").read_bytes())
     assert (result["assembled"], result["apart"]) == (limit != "PLACED", limit != "BACK")
     assert command("resume", "job")[0] == 3
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("low")
+def test_a_batch_counts_a_job_that_is_done_and_wrong_as_silent(
+    command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(referee, "BACK", 0.0)
     code, out, _ = command("trials", "pallet", "--n", "1", "--seed", "5", "--blocks", "1", "--json")
     told = json.loads(out)
     assert (code, told["silent_failures"]) == (3, 1)
