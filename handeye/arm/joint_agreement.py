@@ -5,22 +5,26 @@ from typing import Final
 
 import numpy as np
 
-from handeye.arm.converters import position_step
+from handeye.arm.converters import position_step, rate_step
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
+from handeye.core.record import Record
 
-MAX_TURN_GAP: Final = 0.03
-MAX_SLIDE_GAP: Final = 0.01
-"""Allowed difference, rad and m, far over the stated errors of both.
+MAX_TURN_GAP: Final = 0.0063
+MAX_SLIDE_GAP: Final = 0.0011
+"""Difference, rad and m, that the waviness of a potentiometer makes: twice its largest stated amplitude (.09 degrees,
+.011 in), at twice the stated errors, as worlds of the high level have."""
+READING_STEPS: Final = 1.5
+"""Converter steps between two readings of one position: half a step each, and their noise."""
+PATH_SHARE: Final = 0.013
+"""Difference as a fraction of the path: three standard deviations of a potentiometer's scale (.22 %), twice."""
+JUMP_STEPS: Final = 4.0
+"""Converter steps between two readings a servo period apart that the tachometer does not show.
 
-Those are a step of a 12-bit converter (.0015 rad, .24 mm), the waviness of a potentiometer (.003 rad), half a step of
-the tachometer's converter for five seconds (.007 rad, 1.3 mm).
+A step by rounding, and five standard deviations of the noise (.2 steps a reading, at the high level .4).
 """
-PATH_SHARE: Final = 0.05
-"""Allowed difference as a fraction of the path: scales are off by .2 % (potentiometers), and converters lose some.
-
-Placeholder.
-"""
+STRUCK: Final = 3.0
+"""How many times as far as by half the change of its rate a joint that is struck may go in a servo period. Chosen."""
 
 
 REST_STEPS: Final = 4
@@ -30,23 +34,22 @@ Two for its noise, as at the high level, and more for an arm that creeps.
 """
 
 
-def crept(arm: ArmModel, change: Array) -> "Disagreement | None":
-    """The joint farthest from rest, if any, by the change of potentiometers under set brakes, shape (n,)."""
-    excess = np.abs(change) / (REST_STEPS * position_step(arm))
-    if (excess <= 1).all():
-        return None
-    joint = int(np.argmax(excess))
-    return Disagreement(joint=joint, potentiometer=float(change[joint]), tachometer=0.0, braked=True)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Disagreement:
+class Disagreement(Record, frozen=True, kw_only=True):
     """Displacements of a joint (rad or m) since a motion began, or since the brakes were set, by its two sensors."""
 
     joint: int
     potentiometer: float
     tachometer: float
     braked: bool = False
+
+
+def crept(arm: ArmModel, change: Array) -> Disagreement | None:
+    """The joint farthest from rest, if any, by the change of potentiometers under set brakes, shape (n,)."""
+    excess = np.abs(change) / (REST_STEPS * position_step(arm))
+    if (excess <= 1).all():
+        return None
+    joint = int(np.argmax(excess))
+    return Disagreement(joint=joint, potentiometer=float(change[joint]), tachometer=0.0, braked=True)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -59,24 +62,31 @@ class JointAgreement:
     _way: Array = field(init=False)
     _path: Array = field(init=False)
     _between: Array = field(init=False)
+    _moving: Array = field(init=False)
+    _gain: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        self._way, self._path, self._between = (np.zeros(len(self.start)) for _ in range(3))
+        self._way, self._path, self._between, self._moving, self._gain = (
+            np.zeros(len(self.start)) for _ in range(5)
+        )
 
     def step(self, q: Array, qd: Array) -> Disagreement | None:
         """Compare the readings of the next servo period: the joint that disagrees most, if any.
 
-        How the rate went between two readings is unknown: the joint went as far as with either of them, or in between,
-        so half their difference is the error of their mean. Where a joint is struck, as by a casting that breaks loose,
-        that is several degrees.
+        The mean of two rates is the rate between them for as long as it grows evenly. Where it does not, as where a
+        casting breaks loose and strikes the joint, nothing is known of how it went between them. What is not known in
+        one period has nothing to do with what is not in the next: squares add up.
         """
-        period = self.arm.servo.period
-        gone, unknown = (self.rate + qd) / 2 * period, np.abs(qd - self.rate) / 2 * period
-        self._way, self._path, self.rate = self._way + gone, self._path + np.abs(gone), qd
-        self._between = self._between + unknown
+        period, step = self.arm.servo.period, rate_step(self.arm)
+        gone, gain = (self.rate + qd) / 2 * period, qd - self.rate
+        self._way, self._path = self._way + gone, self._path + np.abs(gone)
+        self._between = np.hypot(self._between, STRUCK * _unsteady(gain - self._gain, step) / 2 * period)
+        self._moving = self._moving + np.where(qd != 0, step / 4 * period, 0.0)
+        self.rate, self._gain = qd, gain
         by_pot = q - self.start
         slack = np.where(constants(self.arm).prismatic, MAX_SLIDE_GAP, MAX_TURN_GAP)
-        allowed = slack + PATH_SHARE * self._path + self._between
+        slack = slack + READING_STEPS * position_step(self.arm)
+        allowed = slack + PATH_SHARE * self._path + self._between + self._moving
         excess = np.abs(by_pot - self._way) / allowed
         joint = int(np.argmax(excess))
         if excess[joint] <= 1:
@@ -84,3 +94,23 @@ class JointAgreement:
         return Disagreement(
             joint=joint, potentiometer=float(by_pot[joint]), tachometer=float(self._way[joint])
         )
+
+
+def _unsteady(change: Array, step: Array) -> Array:
+    """The part of a change that two steps of a converter do not make."""
+    return np.maximum(np.abs(change) - 2 * step, 0.0)
+
+
+def jumped(arm: ArmModel, by_pot: Array, before: Array, after: Array) -> Disagreement | None:
+    """The joint, if any, that has gone otherwise by its potentiometer than by its rates before and after a period.
+
+    A reading that jumps shows so at once, whatever the arm does. All arrays have shape (n,).
+    """
+    period = arm.servo.period
+    gone = (before + after) / 2 * period
+    struck = STRUCK * np.abs(after - before) / 2 * period
+    excess = np.abs(by_pot - gone) / (JUMP_STEPS * position_step(arm) + struck)
+    joint = int(np.argmax(excess))
+    if excess[joint] <= 1:
+        return None
+    return Disagreement(joint=joint, potentiometer=float(by_pot[joint]), tachometer=float(gone[joint]))

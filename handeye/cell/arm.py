@@ -100,9 +100,9 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
     ) -> None:
         """An arm with its brakes set at a posture, shape (n,), rad or m; `noise` is that of its sensors.
 
-        Its lines: `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N`; `force.x`, `force.y`, `force.z`, which put
-        the drives off zero by the torques of a force at the hand (N, in W); and `servo`, without whose 1 no
-        torque of the computer arrives.
+        Its lines: `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N`, `friction.N`; `force.x`, `force.y`,
+        `force.z`, which put the drives off zero by the torques of a force at the hand (N, in W); and `servo`, without
+        whose 1 no torque of the computer arrives.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]
@@ -156,8 +156,8 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         allow(self._model, self._tree, allowed=self._braked)
         if not self._braked:
             wake(self._data, int(self.dofs[0]))
-        brake = self._lines.carried_each("brake", self._brake)
-        self._model.dof_frictionloss[self.dofs] = brake if torque is None else self._friction
+        line, holding = ("brake", self._brake) if self._braked else ("friction", self._friction)
+        self._model.dof_frictionloss[self.dofs] = self._lines.carried_each(line, holding)
         limits = self._limits
         self._data.ctrl[self.motors] = (
             0.0 if torque is None else np.clip(self._driven(torque), -limits, limits)

@@ -53,8 +53,30 @@ class DriftEffect(Effect):
 
 
 @dataclass(frozen=True, slots=True)
+class SlipEffect(Effect):
+    """Something is added that grows evenly to its full size within some seconds."""
+
+    by: float
+    seconds: float
+
+    def on(self, values: Values, first: Values, seconds: float) -> Values:
+        return np.asarray(values + self.by * min(1.0, seconds / self.seconds))
+
+
+@dataclass(frozen=True, slots=True)
+class PulseEffect(Effect):
+    """Something is added for some seconds."""
+
+    by: float
+    seconds: float
+
+    def on(self, values: Values, first: Values, seconds: float) -> Values:
+        return np.asarray(values + self.by * (seconds <= self.seconds))
+
+
+@dataclass(frozen=True, slots=True)
 class GainEffect(Effect):
-    """Only a share arrives."""
+    """A share arrives, or a multiple."""
 
     by: float
 

@@ -14,6 +14,7 @@ import numpy as np
 from handeye.arm.computed_torque import felt_wrench, torque
 from handeye.arm.converters import followed
 from handeye.arm.dynamics import Dynamics, at_rest, gravity_and_jacobian
+from handeye.arm.joint_agreement import jumped
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.weighing import weighed
@@ -172,6 +173,8 @@ class Servo:
         yield periods * self.period
         sensed = self.sensed
         moved = (before.qd + sensed.qd) / 2 * self.period
+        if periods == 1 and self.state.jump is None:
+            self.state.jump = jumped(self.arm, sensed.q - before.q, before.qd, sensed.qd)
         self.state.here = followed(self.arm, self.state.here, moved, sensed.q)
         self.state.cut = sensed.braked and tau is not None
         if self.state.tool:

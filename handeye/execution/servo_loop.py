@@ -271,7 +271,8 @@ class ServoLoop(Servo):
         """Compare the sensors of the joints; the set-point becomes where the arm says it is if they disagree."""
         change, self.state.crept = self.state.crept, None  # under the brakes; reported once
         rested = None if change is None else crept(self.arm, change)
-        found = rested or sensors.step(self.sensed.q, self.sensed.qd)
+        leapt, self.state.jump = self.state.jump, None
+        found = leapt or rested or sensors.step(self.sensed.q, self.sensed.qd)
         if found is None:
             return None
         self.state.q = self.state.here.copy()

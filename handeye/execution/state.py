@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields, is_dataclass
 import msgspec
 import numpy as np
 
+from handeye.arm.joint_agreement import Disagreement
 from handeye.arm.model import ArmModel
 from handeye.core.errors import BadFile, Refused
 from handeye.core.mutable_records import MutableRecord, put_back
@@ -137,6 +138,8 @@ class DriveState(MutableRecord, kw_only=True):
     rest: Array | None = None
     """Potentiometers at rest under the brakes; None while the arm moves or is driven."""
     crept: Array | None = None  # their change until it was driven again; None once a motion has checked it
+    jump: Disagreement | None = None
+    """A reading that jumped since the last motion; None once a motion has told it."""
     in_air: bool = False  # the last motion was a MOVE without contact
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))

@@ -4,7 +4,8 @@ from math import radians
 
 import numpy as np
 
-from handeye.arm.joint_agreement import Disagreement, JointAgreement
+from handeye.arm.converters import position_step
+from handeye.arm.joint_agreement import Disagreement, JointAgreement, jumped
 from handeye.arm.robots.stanford import STANFORD
 
 ROLL = 5
@@ -39,3 +40,28 @@ def test_a_potentiometer_that_stands_still_is_doubted_on_a_steady_way() -> None:
     said = told([0.0] * 30, [0.5] * 30)
     assert said is not None
     assert (said.joint, said.potentiometer) == (ROLL, 0.0)
+
+
+def test_a_potentiometer_that_reads_four_per_cent_too_far_is_doubted_on_a_motion_of_thirty_degrees() -> None:
+    rates = [*np.linspace(0.0, 0.5, 31), *[0.5] * 32, *np.linspace(0.5, 0.0, 31)]
+    way = np.cumsum((np.array([0.0, *rates[:-1]]) + rates) / 2) / 60
+    assert told(list(way), rates) is None
+    assert told(list(1.01 * way), rates) is None
+    said = told(list(1.04 * way), rates)
+    assert said is not None
+    assert said.joint == ROLL
+
+
+def test_a_reading_that_jumps_by_half_a_degree_is_doubted_in_that_servo_period() -> None:
+    q, rate = REST.copy(), np.full(len(REST), 0.1)
+    q[ROLL] = radians(0.5)
+    said = jumped(STANFORD, q + rate / 60, rate, rate)
+    assert said is not None
+    assert said.joint == ROLL
+    assert jumped(STANFORD, rate / 60 + 2 * position_step(STANFORD), rate, rate) is None
+
+
+def test_a_joint_that_is_struck_in_a_servo_period_has_not_jumped() -> None:
+    q, struck = REST.copy(), REST.copy()
+    q[ROLL], struck[ROLL] = radians(0.5), 3.3
+    assert jumped(STANFORD, q, REST, struck) is None

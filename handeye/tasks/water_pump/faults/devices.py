@@ -14,6 +14,8 @@ from handeye.cell.defects import (
     Effect,
     GainEffect,
     OffsetEffect,
+    PulseEffect,
+    SlipEffect,
     Stuck,
 )
 from handeye.core.errors import (
@@ -46,10 +48,24 @@ _DRIFT: Final = {
     "deg": Size(unit="deg/s", usual=0.01, limits=(-1.0, 1.0)),
     "in": Size(unit="in/s", usual=0.003, limits=(-1.0, 1.0)),
 }
+_SLIP: Final = {
+    "deg": Size(unit="deg", usual=0.6, limits=(-5.0, 5.0)),
+    "in": Size(unit="in", usual=0.4, limits=(-2.0, 2.0)),
+}
+SLIP_S: Final = 0.5
+_FACTOR: Final = Size(unit="", usual=1.04, limits=(0.1, 5.0))
 _PERCENT_LEFT: Final = (0.0, 100.0)
 
-Lines = tuple[Sequence[str], Callable[[float], Effect]]
-"""The lines that a fault breaks, and what it does to them, by its value."""
+_WITHIN_AGREEMENT: Final = (
+    "A joint's senses agree within the errors of both, 2 % of a long motion; near its zero no factor shows."
+)
+_WITHIN_SEARCHES: Final = "The searches and CENTER find parts that are off by less."
+_WITHIN_DRIVES: Final = (
+    "The drives overcome it, and what is pressed on is felt by less than its guard allows."
+)
+
+Lines = Sequence[tuple[str, Callable[[float], Effect]]]
+"""The lines that a fault breaks, and what it does to each, by its value."""
 DeviceFault = PumpFault[Lines]
 
 
@@ -63,8 +79,8 @@ def defects(faults: Sequence[Fault]) -> tuple[Defect, ...]:
     """Defects of the cell's lines; faults that are not of devices have none."""
     return tuple(
         Defect(line=line, effect=effect(fault.value or 0.0), stage=fault.stage)
-        for fault, (lines, effect) in broken(device_faults(), faults)
-        for line in lines
+        for fault, lines in broken(device_faults(), faults)
+        for line, effect in lines
     )
 
 
@@ -78,7 +94,7 @@ def _fault(
     stage: int | None = None,
 ) -> DeviceFault:
     made = effect if callable(effect) else lambda _: effect
-    breaks = ((lines,) if isinstance(lines, str) else lines, made)
+    breaks = [(line, made) for line in ((lines,) if isinstance(lines, str) else lines)]
     return declared(name, meaning, breaks, expected, size, stage=stage)
 
 
@@ -138,6 +154,25 @@ def _joints() -> Iterator[DeviceFault]:
             f"{pot}.drift", f"The position {joint} reads more and more: so much more each second.", pot, DriftEffect,
             wrong, _DRIFT[unit],
         )  # fmt: skip
+        yield _fault(
+            f"{pot}.factor", f"The position {joint} reads so many times what it is.", pot, GainEffect,
+            replace(wrong, harmless=_WITHIN_AGREEMENT), _FACTOR,
+        )  # fmt: skip
+        yield _fault(
+            f"{tachometer}.factor", f"The rate {joint} reads so many times what it is.", tachometer, GainEffect,
+            replace(wrong, harmless=_WITHIN_AGREEMENT), replace(_FACTOR, usual=1.3),
+        )  # fmt: skip
+        yield declared(
+            f"gear.{number}.slips",
+            f"The gear {joint} slips so far within {SLIP_S:g} s behind both senses: neither shows it.",
+            ((pot, _slipped), (tachometer, _slipping)),
+            ExpectedDetection(calls=detect.ASTRAY, harmless=_WITHIN_SEARCHES), _SLIP[unit], stage=8,
+        )  # fmt: skip
+        yield _fault(
+            f"joint.{number}.stiff", f"The friction {joint} is so many times what it was.", f"friction.{number}",
+            GainEffect, ExpectedDetection(errors=(FORCE_WRONG,), at_setup=True, harmless=_WITHIN_DRIVES),
+            Size(unit="", usual=5.0, limits=(0.0, 20.0)), stage=3,
+        )  # fmt: skip
         yield _fault(f"{tachometer}.dead", f"The rate {joint} reads zero.", tachometer, DEAD, wrong)
         yield _fault(
             f"{drive}.weak", f"So much is left of the torque that the drive {joint} is told.", drive, GainEffect,
@@ -155,6 +190,14 @@ def _joints() -> Iterator[DeviceFault]:
         lambda periods: DropoutEffect(periods * JIFFY), ExpectedDetection(errors=(WATCHDOG,)),
         Size(unit="", usual=60.0, limits=(1.0, 36000.0)), stage=3,
     )  # fmt: skip
+
+
+def _slipped(way: float) -> Effect:
+    return SlipEffect(-way, SLIP_S)
+
+
+def _slipping(way: float) -> Effect:
+    return PulseEffect(-way / SLIP_S, SLIP_S)
 
 
 def _screwdriver() -> Iterator[DeviceFault]:
