@@ -42,8 +42,8 @@ def make(trace: "handeye.Trace") -> None:
     """All of them; the page then names the moment at which the screw is driven."""
     started = [event for event in trace.events if isinstance(event, StepStarted)]
     tools = [event.time for event in started if event.text.startswith("TOOL")]
-    moment = round(trace.elapsed(tools[SECOND] + AFTER), 1)
-    for time, taken in ((trace.head.time + moment, DRIVING), (trace.covers[1], DONE)):
+    moment = round(tools[SECOND] + AFTER, 1)
+    for time, taken in ((moment, DRIVING), (trace.covers[1], DONE)):
         for name, (camera, how) in taken.items():
             picture = trace.frame(time, camera, width=WIDTH, height=HEIGHT, **how)
             bgr = np.ascontiguousarray(picture[:, :, ::-1])

@@ -46,4 +46,4 @@ with tempfile.TemporaryDirectory() as folder:
     trace = handeye.open(run)
 felt = trace.forces(line).motions()[-1]
 title = f"line {line}: the hand presses until it feels more than {felt.limit[-1]:.1f} N"
-Path("force.svg").write_text(chart(felt.times - trace.head.time, felt.value, felt.limit[-1], title))
+Path("force.svg").write_text(chart(felt.times, felt.value, felt.limit[-1], title))

@@ -22,9 +22,9 @@ with tempfile.TemporaryDirectory() as folder:
         handeye.assemble(script=SCRIPT, camera="ray", out=run)
     trace = handeye.open(run)
 
-moment = trace.head.time + float(sys.argv[2]) if sys.argv[2:] else trace.times[-1]
+moment = float(sys.argv[2]) if sys.argv[2:] else trace.times[-1]
 state = trace.at(moment)
-print(f"{trace.elapsed(state.time):.2f} s, stage {state.stage}")
+print(f"{state.time:.2f} s, stage {state.stage}")
 if state.step is not None:
     print(f"line {state.step.place}: {state.step.text}")
 print("joints:", ", ".join(f"{position:.3f}" for position in state.joints))

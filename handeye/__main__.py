@@ -17,6 +17,7 @@ def main() -> NoReturn:
     heard = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if heard:  # not raised: modules written in C make an ImportError of it
         signal.signal(signal.SIGINT, lambda *_: os._exit(130))
+    import handeye.core.host_time  # noqa: F401 - a command's time counts from here
     from handeye.cli import main as run
 
     if heard:

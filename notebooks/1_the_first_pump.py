@@ -79,7 +79,7 @@ run
 
 # %%
 trace = run.trace
-[(stage.name, f"{trace.elapsed(stage.begin):.0f} s") for stage in trace.stages]
+[(stage.name, f"{stage.begin:.0f} s") for stage in trace.stages]
 
 # %%
 moments = {
@@ -104,11 +104,11 @@ hidden = [axis.axis("off") for axis in axes.flat]
 # %%
 felt = trace.forces()
 figure, axis = plt.subplots(figsize=(7.6, 2.6), layout="constrained")
-axis.plot((felt.times - trace.head.time) / 60, -felt.force[:, 2], linewidth=0.6)
+axis.plot(felt.times / 60, -felt.force[:, 2], linewidth=0.6)
 axis.set(
     xlabel="minutes", ylabel="N, downwards", title="force of the hand on what it touches", ylim=(-10, 30)
 )
-lines = [axis.axvline(trace.elapsed(stage.begin) / 60, color="0.85", zorder=0) for stage in trace.stages]
+lines = [axis.axvline(stage.begin / 60, color="0.85", zorder=0) for stage in trace.stages]
 
 # %% [markdown]
 # What was felt is told in words, too. `trace.table()` is everything that happened; a slice shows part of it, a column

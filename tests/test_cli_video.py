@@ -201,7 +201,7 @@ def test_a_trace_of_a_newer_version(command: Command, monkeypatch: pytest.Monkey
     with monkeypatch.context() as patch:
         patch.setattr(mcap_writer, "VERSION", channels.VERSION + 1)
         record(Path("new.mcap"))
-    assert refused(command, "new.mcap").startswith("new.mcap has trace format version 4")
+    assert refused(command, "new.mcap").startswith("new.mcap has trace format version 5")
 
 
 def test_a_trace_of_another_scene(command: Command) -> None:

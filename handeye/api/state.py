@@ -39,7 +39,7 @@ class State:
     """
 
     position: int  # steps done since the run began
-    time: float  # simulated seconds since the run began; the camera was calibrated before
+    time: float  # simulated seconds since the program began
     stage: str | None  # the stage under way, or the one about to begin; None after the last
     step: int | None  # number of the step that comes next; None if the run cannot go on by itself
     file: str  # the required file that its line is in; empty: the script itself
@@ -73,7 +73,7 @@ def state_of(runner: Runner, stage: str | None, why: str) -> State:
     drive = run.drive
     return State(
         position=runner.position,
-        time=runner.elapsed,
+        time=runner.time,
         stage=stage,
         step=runner.at,
         file="" if step is None else step.file,

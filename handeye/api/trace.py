@@ -1,9 +1,9 @@
 """Traces as a caller from Python has them: opened, filmed, and shown in a notebook.
 
 >>> trace = handeye.open("out")
->>> trace.joints[trace.times > 100.0]    # positions by the sensors, shape (n, 6)
+>>> trace.joints[trace.times > 100.0]    # positions by the sensors, later than 100 s; shape (n, 6)
 >>> trace.forces(line=91).force[:, 2]    # N, upwards, while line 91 of the script was carried out
->>> trace.at(trace.head.time + 137).step.text    # what the arm was doing 137 s after the run began
+>>> trace.at(137.0).step.text    # what the arm was doing then
 """
 
 import os
@@ -32,9 +32,9 @@ _WITHOUT: Final = "A notebook shows the report without photographs; trace.frame(
 class Trace(recorded.Trace):
     """A trace that was read, and found sound. What is worked out from its messages is worked out once.
 
-    Times are those of the cell's clock, as in the events, s. It runs while the camera is calibrated too, before the
-    program begins: `elapsed` gives the time from there, which people see, and `State.time` is. There are n
-    servo periods, sixty a second, and m joints. Reading raises `InvalidInput` if a message is not what its channel
+    Times are seconds since the program began, as everywhere: in events, tables, pages and commands. What came before,
+    when the camera was calibrated, is not recorded; `head.prepared` says how long it took. There are n servo
+    periods, sixty a second, and m joints. Reading raises `InvalidInput` if a message is not what its channel
     says. In a notebook it shows its report, in which one walks round the arm; `frame` gives a picture.
     """
 

@@ -1,11 +1,13 @@
 """Bench: machines whose servos are closed outside the computer, in one scene under one clock."""
 
+import math
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, Final
 
 import mujoco
 import numpy as np
+from msgspec.structs import replace
 
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.physics_stepper import asleep, check_physics
@@ -90,6 +92,12 @@ class Bench(Clock, Mechanism[BenchTime]):
     def now(self) -> float:
         return float(self._steps * self.tick)
 
+    def set_to_zero(self) -> None:
+        """Let the clock show 0 now, as the program begins; pending events come when they would have come."""
+        due = [(self._step_of(each) - self._steps) * self.tick * MICROSECONDS for each in self._due]
+        self._due = [replace(was, microseconds=int(at)) for was, at in zip(self._due, due, strict=True)]
+        self._steps, self.data.time = 0, 0.0
+
     def advance(self, seconds: float) -> None:
         if self._passing:
             raise BadArgument("time passes on the bench already: no hook and no event can let it pass")
@@ -118,10 +126,11 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     def _before_event(self) -> int:
         """Physics steps before the next event is handled; more than ever pass if there is none."""
-        if not self._due:
-            return _LATEST
-        p, q = self._tick.as_integer_ratio()
-        return -(-self._due[0].microseconds * q // (MICROSECONDS * p)) - self._steps
+        return self._step_of(self._due[0]) - self._steps if self._due else _LATEST
+
+    def _step_of(self, due: Due) -> int:
+        """The physics step before which an event is handled: the first that begins at its time or after it."""
+        return math.ceil(due.microseconds / (MICROSECONDS * self._tick))
 
     def _handle_due(self) -> None:
         for _ in range(_MOST_AT_ONCE):

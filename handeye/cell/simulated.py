@@ -75,6 +75,10 @@ class SimulatedCell(Clock, SnapshotCell):
     def now(self) -> float:
         return float(self._data.time)
 
+    def set_to_zero(self) -> None:
+        """Let the clock show 0 now, as the program begins."""
+        self._data.time = 0.0
+
     def begin_stage(self, number: int) -> None:
         """Begin a stage of the program, by its number from 1: faults may set in with it."""
         for part in self._mechanisms:

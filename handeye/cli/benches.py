@@ -40,7 +40,7 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
             plan,
             world=spec,
             camera=camera,
-            meter=Meter(timer=HostTimer.of_process(), planning_cpu_s=planning),
+            meter=Meter(timer=HostTimer.of_command(), planning_cpu_s=planning),
             referee=False,
             observers=lambda _: [progress],
             viewed=progress.viewed,

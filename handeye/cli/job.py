@@ -23,7 +23,6 @@ from handeye.debugger.live import Live
 from handeye.debugger.stepper import Stepper, interact
 from handeye.execution.servo import Halted
 from handeye.judge.finding import all_right
-from handeye.program.events import beginning
 from handeye.results.cautions import cautions, losses
 from handeye.results.finishing import finished
 from handeye.results.judging import findings
@@ -108,7 +107,7 @@ class _Work:
         if self.folder is None and job.out is not None:
             self.folder = open_new(job.out, job.start, overwrite=job.overwrite)
         self.meter = Meter(
-            timer=HostTimer.of_process(),
+            timer=HostTimer.of_command(),
             planning_cpu_s=job.planning_cpu_s,
             before=None if job.folder is None else job.folder.spent,
         )
@@ -165,7 +164,7 @@ class _Work:
     def _observers(self, runner: Runner) -> list[Observer]:
         looking: list[Observer] = [] if self.job.step else [self.progress]
         if self.job.start.stage is not None:
-            self.progress.goes_on(self.job.start.stage, beginning(self.job.start.events))
+            self.progress.goes_on(self.job.start.stage)
         if self.folder is not None:
             again = self.job.folder is not None
             looking.append(self.folder.watch(runner, self.job.start, again=again, meter=self.meter))
@@ -275,7 +274,7 @@ class _Work:
     # -- ending ---------------------------------------------------------------------------------------
 
     def _interrupted(self, runner: Runner | None) -> int:
-        where = "during the set-up of the cell" if runner is None else f"at {runner.elapsed:.1f} s"
+        where = "during the set-up of the cell" if runner is None else f"at {runner.time:.1f} s"
         note(f"interrupted {where}; the brakes are set")
         if self.folder is None and runner is not None:
             try:

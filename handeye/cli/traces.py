@@ -23,7 +23,7 @@ from handeye.cli.common import (
 from handeye.cli.programs import check_task, made_known
 from handeye.cli.trace_files import File, TraceFile, trace_file
 from handeye.cli.worlds import PLAIN, FineOptions
-from handeye.core.errors import BadArgument, Refused
+from handeye.core.errors import Refused
 from handeye.core.files import check_place, write_over
 
 if TYPE_CHECKING:
@@ -73,7 +73,6 @@ def photograph(
     """Photograph the cell as it was at a moment of a recorded run; nothing is simulated."""
     from handeye.cell.photograph import PNG, png
     from handeye.cell.posed import posed
-    from handeye.trace.trace import SHOWN
 
     wanted = made_known(task)
     check_place(output, PNG)
@@ -81,15 +80,11 @@ def photograph(
     if trace is None:
         raise Refused(f"{file} is an event list, which does not hold where things were; use the trace.mcap")
     check_task(wanted, trace.head.task, file)
-    begin, end = map(trace.elapsed, trace.covers)
-    if not begin - SHOWN <= at <= end + SHOWN:
-        raise BadArgument(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
-    moment = trace.head.time + at
-    state = trace.at(moment)
+    state = trace.at(at)
     shot = how.take(posed(trace.scene, state.poses, state.time), camera or trace.overview, width, height)
     write_over(output, png(shot), PNG)
     doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
-    say(f"{output}: {trace.elapsed(state.time):.2f} s{doing}")
+    say(f"{output}: {state.time:.2f} s{doing}")
     return 0
 
 
@@ -121,10 +116,8 @@ def verify(file: TraceFile, /, *, task: TaskWords = None) -> int:
     count = settled(events)
     ended = "" if count == len(events) else " up to the step that was interrupted"
     say(f"{file}: the same {count} events{ended}, to the byte")
-    if trace.begins > trace.head.time:
-        note(
-            f"motions before {trace.elapsed(trace.begins):.2f} s are not in this trace, and were not compared"
-        )
+    if trace.begins > 0:
+        note(f"motions before {trace.begins:.2f} s are not in this trace, and were not compared")
     return 0
 
 

@@ -61,7 +61,7 @@ def place_of(run: RecordedRun, started: StepStarted) -> Place:
         file=started.file,
         line=started.line,
         text=started.text,
-        time=run.seconds(started.time),
+        time=started.time,
     )
 
 

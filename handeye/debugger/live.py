@@ -171,7 +171,7 @@ def under_way(runner: Runner, event: StepStarted) -> UnderWay:
     stage = runner.listing.steps[event.step].stage
     return UnderWay(
         position=runner.position,
-        time=runner.elapsed,
+        time=runner.time,
         stage=runner.listing.stages[stage],
         stage_number=stage + 1,
         step=event.step,

@@ -95,7 +95,7 @@ class Stepper:
         return Reply(
             command=line,
             position=runner.position,
-            time=runner.elapsed,
+            time=runner.time,
             stage=None if stage is None else session.program.stages[stage],
             stage_number=None if stage is None else stage + 1,
             step=runner.at,

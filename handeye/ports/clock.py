@@ -22,7 +22,7 @@ class Clock(ABC):
     @property
     @abstractmethod
     def now(self) -> float:
-        """s since the cell was switched on."""
+        """s since the program began; until then, since the cell was switched on."""
 
     @property
     def tick(self) -> Fraction | None:

@@ -1,6 +1,5 @@
 """Events of a run, as plain records. Simulated time only, so that two runs with one seed give the same bytes."""
 
-from collections.abc import Iterable
 from typing import ClassVar, Literal
 
 import msgspec
@@ -22,7 +21,7 @@ Choice = Literal["proceed", "retry", "skip"]  # go on after a stop, retry the st
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
-    """Base of the events; `time` is the cell's clock in seconds, which runs while the camera is calibrated too."""
+    """Base of the events; `time` is the clock of the run, s: 0 as the program begins."""
 
     time: float
 
@@ -38,7 +37,7 @@ class SystemEvent(Event, frozen=True, kw_only=True):
 
 
 class RunStarted(Event, frozen=True, kw_only=True):
-    """The working phase begins; has everything that determines later events except the operator's actions."""
+    """The working phase begins, at 0; has everything that determines later events except the operator's actions."""
 
     system: str = "program"  # the kind of system that carries it out
     program: str
@@ -52,6 +51,9 @@ class RunStarted(Event, frozen=True, kw_only=True):
     versions: dict[str, str]
     replaced: dict[str, str] | UnsetType = UNSET  # parts by the caller's code, by name
     without: tuple[Sense, ...] | UnsetType = UNSET
+    prepared: float = (
+        0.0  # simulated seconds before that: the camera was calibrated, the arm measured or taught
+    )
 
     @property
     def lacking(self) -> tuple[Sense, ...]:
@@ -327,11 +329,6 @@ CommonEvent = (
     | UndoOrdered | UndoStarted | UndoFinished | StageUndone | UndoEnded | RunFinished
 )  # fmt: skip
 AnyEvent = CommonEvent | SystemEvent
-
-
-def beginning(events: Iterable[AnyEvent]) -> float:
-    """The cell's clock (s) when the working phase began: times that people see and type count from there."""
-    return next((event.time for event in events if isinstance(event, RunStarted)), 0.0)
 
 
 _encoder = msgspec.json.Encoder()

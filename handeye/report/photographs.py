@@ -106,11 +106,7 @@ def _left(picture: bytes, missing: Photograph) -> Photograph:
 
 def _of_stages(run: RecordedRun) -> tuple[Photograph, ...]:
     """A photograph of each stage; of many stages, of some."""
-    stages = [
-        (number, stage)
-        for number, stage in enumerate(run.trace.stages, 1)
-        if run.seconds(stage.end) > run.begins
-    ]
+    stages = [(number, stage) for number, stage in enumerate(run.trace.stages, 1) if stage.end > run.begins]
     every = -(-len(stages) // MOST) or 1
     return _taken(run, [_of_stage(run, number, stage) for number, stage in stages[::every]], SMALL)
 
@@ -122,7 +118,7 @@ def _of_stage(run: RecordedRun, number: int, stage: Stage) -> _PhotographRequest
         for event in run.trace.events
         if isinstance(event, GuardTripped) and stage.begin <= event.time <= stage.end
     ]
-    time = run.seconds(trips[-1] if trips else stage.end)
+    time = trips[-1] if trips else stage.end
     return _PhotographRequest(
         time=time, view=_at_hand(run, time) if trips else _room(run), shows=f"{number} {stage.name}"
     )
@@ -139,9 +135,7 @@ def _at_hand(run: RecordedRun, time: float) -> str | Near:
     ended = [
         event.hand
         for event in run.trace.events
-        if isinstance(event, StepFinished)
-        and event.hand is not None
-        and run.seconds(event.time) <= time + 0.1
+        if isinstance(event, StepFinished) and event.hand is not None and event.time <= time + 0.1
     ]
     return Near(camera=_room(run), place=ended[-1], distance=_NEAR) if ended else _room(run)
 
@@ -167,7 +161,7 @@ def _take(run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _PrintSi
     photographer = Photographer(run.trace.scene, width=wide, height=high, shadow=size.shadow)
     begin, end = run.trace.covers
     for each in wanted:
-        moment = run.trace.at(min(max(each.time + run.trace.head.time, begin), end))
+        moment = run.trace.at(min(max(each.time, begin), end))
         fine = photographer.take(*posed(run.trace.scene, moment.poses, moment.time), each.view)
         yield Photograph(
             time=each.time, shows=each.shows, width=size.width, height=size.height, webp=_webp(fine, size)

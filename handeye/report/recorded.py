@@ -44,16 +44,12 @@ class RecordedRun:
     @property
     def begins(self) -> float:
         """When its motions begin to be recorded: 0, but for a run taken up from a checkpoint."""
-        return self.seconds(self.trace.begins)
+        return self.trace.begins
 
     @property
     def ends(self) -> float:
         """The time of the last that is known of it."""
-        return self.seconds(self.trace.events[-1].time)
-
-    def seconds(self, clock: float) -> float:
-        """The time for a time of the cell's clock."""
-        return self.trace.elapsed(clock)
+        return self.trace.events[-1].time
 
 
 def check_scene(run: RecordedRun) -> None:

@@ -31,8 +31,7 @@ def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
     """Sentences on what the folder of a run that goes on has lost of it."""
     if folder.lost:
         yield (
-            f"the trace in {folder.path} was lost or damaged: "
-            f"it lacks the motions before {runner.elapsed:.2f} s"
+            f"the trace in {folder.path} was lost or damaged: it lacks the motions before {runner.time:.2f} s"
         )
     if folder.journal_lost:
         yield (

@@ -19,7 +19,6 @@ from handeye.program.events import (
     RunStarted,
     StageFinished,
     StageStarted,
-    beginning,
 )
 from handeye.results.result import Result, read_result
 from handeye.results.summary import camera_report, interventions, stage_times, timing, warnings
@@ -155,7 +154,7 @@ def _call(events: Sequence[AnyEvent]) -> OperatorCalled | None:
 def _message(events: Sequence[AnyEvent], call: OperatorCalled | None) -> str:
     """The status of a run without a result, as a sentence without a full stop."""
     last = events[-1]
-    when = f"at {last.time - beginning(events):.1f} s"
+    when = f"at {last.time:.1f} s"
     if call is not None:
         return call_sentence(call.message, call.error, call.cause)
     if isinstance(last, RunFinished):

@@ -35,7 +35,7 @@ class Progress(Observer):
     def __init__(self, stages: tuple[str, ...], console: Console) -> None:
         self._stages = stages
         self._console = console
-        self._begun, self._place = 0.0, ""
+        self._place = ""
         longest = max(map(len, (*stages, _CALIBRATING.format(100, 100))))
         self._bar = RichProgress(
             *_columns(console.width, longest),
@@ -74,18 +74,15 @@ class Progress(Observer):
         if number == 1:
             self._line("", "calibrating the camera")
 
-    def goes_on(self, stage: str, begun: float | None = None) -> None:
-        """Begin in the midst of a stage of a run that began at a time by the cell's clock (s)."""
+    def goes_on(self, stage: str) -> None:
+        """Begin in the midst of a stage."""
         number = self._stages.index(stage)
-        self._begun = self._begun if begun is None else begun
         self._bar.update(
             self._task, description=escape(stage), text="", completed=number, total=len(self._stages)
         )
 
     def event(self, event: AnyEvent) -> None:
-        if isinstance(event, RunStarted):
-            self._begun = event.time
-        clock = f"{event.time - self._begun:.1f} s"
+        clock = f"{event.time:.1f} s"
         if isinstance(event, StageStarted):
             self.goes_on(event.stage)
             self._line(clock, event.stage)

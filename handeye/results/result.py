@@ -51,7 +51,7 @@ class Timing(Record, frozen=True, kw_only=True):
     vision_cpu_s: float
     run_cpu_s: float
     run_wall_s: float
-    """From the start of the process, or the call from Python, to the verdict; waiting for people included."""
+    """From when the command was loaded, or the call from Python, to the verdict; waiting for people included."""
     real_time_factor: float
     """Simulated seconds, those of setting up included, for one of `run_wall_s`: the host's, and another each time."""
     host_from_step: int

@@ -23,7 +23,6 @@ from handeye.program.events import (
     StageUndone,
     StepStarted,
     UndoOrdered,
-    beginning,
 )
 from handeye.program.senses import ASSUMPTIONS
 from handeye.results.pauses import pause_sentence
@@ -79,9 +78,8 @@ def _checks(findings: Findings) -> dict[str, Check]:
 
 def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
     """One sentence for each intervention in the run."""
-    begun = beginning(events)
     for event in events:
-        when = f"at {event.time - begun:.1f} s"
+        when = f"at {event.time:.1f} s"
         if isinstance(event, OperatorAnswered):
             yield f"{when} the operator chose: {event.choice}"
         elif isinstance(event, LineTyped) or (isinstance(event, UndoOrdered) and event.asked_by == "person"):
@@ -127,17 +125,17 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
 
 def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timing:
     """Times of a run of which these events have happened; `clock` is the cell's (s)."""
-    begun = next((event.time for event in events if isinstance(event, RunStarted)), clock)
+    prepared = sum((event.prepared for event in events if isinstance(event, RunStarted)), 0.0)
     friction = sum((event.seconds for event in events if isinstance(event, FrictionMeasured)), 0.0)
     lens = sum((event.seconds for event in events if isinstance(event, CameraBusy)), 0.0)
     covered = max(clock - host.from_clock_s, 0.0)
     return Timing(
         friction_s=round(friction, 3),
-        calibration_s=round(begun - friction, 3),
-        manipulation_s=round(clock - begun - lens, 3),
+        calibration_s=round(prepared - friction, 3),
+        manipulation_s=round(clock - lens, 3),
         lens_s=round(lens, 3),
         overlapped_s=round(overlapped(events, clock), 3),
-        working_s=round(clock - begun, 3),
+        working_s=round(clock, 3),
         planning_cpu_s=host.planning_cpu_s,
         vision_cpu_s=host.vision_cpu_s,
         run_cpu_s=host.run_cpu_s,

@@ -28,7 +28,7 @@ from handeye.runs.system import System
 from handeye.runs.systems import digest_of, listing_of, system_named, system_of, written
 
 MAGIC: Final = "handeye-checkpoint"
-VERSION: Final = 4
+VERSION: Final = 5
 ENDING: Final = ".checkpoint"
 CHECKPOINT: Final = Kind("checkpoint", f"{MAGIC} ".encode())
 LARGEST: Final = 1 << 28  # bytes of a state, decompressed: a hundred times what a run of the water pump needs

@@ -24,9 +24,9 @@ class HostSeconds(Record, frozen=True, kw_only=True):
     vision_cpu_s: float = 0.0  # with what was undone later
     run_cpu_s: float = 0.0
     run_wall_s: float = 0.0
-    """From the start of the process, or the call from Python, to the verdict; waiting for people included."""
+    """From when the command was loaded, or the call from Python, to the verdict; waiting for people included."""
     from_step: int = 0  # steps done before the first session that is counted
-    from_clock_s: float = 0.0  # the cell's clock at that moment
+    from_clock_s: float = 0.0  # the clock at that moment: below 0 if it prepared the cell
 
 
 @dataclass(slots=True, kw_only=True)
@@ -57,7 +57,7 @@ def read_host_seconds(path: Path) -> HostSeconds | None:
         found = msgspec.json.decode(read_whole(path, _LARGEST), type=HostSeconds)
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise BadFile(f"{path} is no record of seconds: {error}") from None
-    if min(msgspec.structs.astuple(found)) < 0:
+    if min(msgspec.structs.astuple(msgspec.structs.replace(found, from_clock_s=0.0))) < 0:
         raise BadFile(f"{path} is no record of seconds: one is negative")
     return found
 

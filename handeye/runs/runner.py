@@ -32,7 +32,6 @@ from handeye.program.events import (
     StepStarted,
     UndoEnded,
     UndoOrdered,
-    beginning,
 )
 from handeye.program.system_state import TaskPlace
 from handeye.runs.observer import Observer
@@ -101,7 +100,11 @@ class Runner:
         self.observers: list[Observer] = []
         self._broken: str | None = None
         begun = () if start.snapshot is not None else self.system.begin()
-        self.started = self.system.kept_until
+        if begun and begun[0].time:
+            raise BadArgument(
+                f"the system {self.kind.name} begins a run at {begun[0].time:g} s; a run begins at 0"
+            )
+        self.started = self.system.switched_on
         if start.snapshot is not None:
             self.events += start.events
             self._put(start.snapshot)
@@ -117,13 +120,8 @@ class Runner:
 
     @property
     def time(self) -> float:
-        """The clock of the system, s."""
+        """The clock of the run, s: 0 as its program begins."""
         return self.system.time
-
-    @property
-    def elapsed(self) -> float:
-        """Seconds of that clock since the working phase began, which people see."""
-        return round(self.time - beginning(self.events), 6)
 
     @property
     def trouble(self) -> str | None:

@@ -170,15 +170,16 @@ class RunningSystem(Protocol):
     @property
     @abstractmethod
     def time(self) -> float:
-        """Its clock, s."""
+        """Its clock, s: 0 as the program begins."""
 
     @property
     def trouble(self) -> str | None:
         """Why it cannot do any step, if it is not a matter for the operator."""
 
     @property
-    def kept_until(self) -> float:
-        """The clock to which what an earlier run had kept has brought it, s; 0: it let all time pass itself."""
+    def switched_on(self) -> float:
+        """Its clock when this object began to simulate, s: below 0 by the time in which it prepared its first step; 0
+        if what an earlier run had kept spared it that."""
         return 0.0
 
     @property
@@ -188,7 +189,7 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def begin(self) -> Sequence[AnyEvent]:
-        """Prepare the first step; the events that begin the run, `RunStarted` first. Raises Halted."""
+        """Prepare the first step; the events that begin the run, `RunStarted` first, at 0. Raises Halted."""
 
     @abstractmethod
     def step(self) -> None:
@@ -294,7 +295,7 @@ class StepperWords:
 
 Topics = Mapping[str, tuple[str, Callable[["Runner"], Any]]]  # by topic: field of the answer, view
 PLAIN: Final[Topics] = {
-    "time": ("time_s", lambda runner: runner.elapsed),
+    "time": ("time_s", lambda runner: runner.time),
     "state": ("state", lambda runner: runner.system.shown),
 }  # topics of any system
 

@@ -39,7 +39,7 @@ NO_TEXT: Final = Source(name="", text="")
 class Answer:
     """The answer to a line."""
 
-    time: float  # s on the cell's clock since the camera was set up
+    time: float  # simulated seconds since the camera was set up
     typed: str = ""
     said: LineResult = NOTHING
     source: Source = NO_TEXT
@@ -102,12 +102,12 @@ def about(
     workplace: Workplace, checked: PlannedScript, found: Sequence[Diagnostic], said: LineResult = NOTHING
 ) -> Answer:
     """An answer with the diagnostics of a text."""
-    return Answer(time=workplace.elapsed, said=said, source=checked.source, diagnostics=tuple(found))
+    return Answer(time=workplace.time, said=said, source=checked.source, diagnostics=tuple(found))
 
 
 def answer(workplace: Workplace, **fields: Any) -> Answer:
     """An answer whose result has these fields of `LineResult`."""
-    return Answer(time=workplace.elapsed, said=LineResult(**fields))
+    return Answer(time=workplace.time, said=LineResult(**fields))
 
 
 class Listener(Protocol):

@@ -76,7 +76,7 @@ class Repl:
         """Answer a call of the operator; raises InvalidInput if there is none."""
         happened = len(self.workplace.runner.events)
         said = done(self.workplace, self.workplace.answer(choice), happened)
-        return self._advised(Answer(time=self.workplace.elapsed, said=said))
+        return self._advised(Answer(time=self.workplace.time, said=said))
 
     def _advised(self, given: Answer) -> Answer:
         advice = {"operator": self.called, "panic": "the interrupted step is undone"}.get(given.stopped or "")

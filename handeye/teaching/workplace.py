@@ -16,7 +16,7 @@ from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest
 from handeye.planning.planner import PlannedScript
-from handeye.program.events import Choice, RunStarted, beginning
+from handeye.program.events import Choice, RunStarted
 from handeye.program.taught import Taught
 from handeye.runs.advance import Pause, advance
 from handeye.runs.observer import Observer
@@ -66,7 +66,6 @@ class Workplace:
         self.runner = Runner(start, halt=halt, observers=observers, calibrate=calibrate)
         if self.runner.trouble is not None:
             raise Refused(self.runner.trouble)
-        self.begun = beginning(self.runner.events)  # the cell's clock when the first run began, s
         self.before: list[Checkpoint] = []  # states to go back to, the newest last
 
     @classmethod
@@ -85,7 +84,6 @@ class Workplace:
         )
         made.halt, made.observers, made.before = halt, observers, []
         made.runner = made._runner(checkpoint)
-        made.begun = beginning(checkpoint.events)
         return made
 
     # -- knowing --------------------------------------------------------------------------------------
@@ -96,9 +94,9 @@ class Workplace:
         return self.runner.context
 
     @property
-    def elapsed(self) -> float:
-        """Seconds of the cell's clock since the first run began: the time that people see."""
-        return round(self.run.time - self.begun, 6)
+    def time(self) -> float:
+        """The clock of all its plans, s: 0 as the first began."""
+        return self.run.time
 
     @property
     def known(self) -> Taught:

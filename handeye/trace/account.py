@@ -9,7 +9,7 @@ import numpy as np
 from handeye.core.pose import Array
 from handeye.core.units import INCH
 from handeye.program import events as happened
-from handeye.program.events import AnyEvent, SystemEvent, beginning
+from handeye.program.events import AnyEvent, SystemEvent
 from handeye.trace.sentences import inches, measures_of, sentence
 
 ASTRAY: Final = 0.02 * INCH  # farther than that from its goal, the end of a motion is worth a word
@@ -18,7 +18,7 @@ _BENEATH: Final = " " * 20  # indents the outcome of a step
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
     """The account, line by line: stages; time, line and text of each step, what came of it; and how it ended."""
-    teller = _Teller(beginning(events))
+    teller = _Teller()
     for event in events:
         teller.tell(event)
     if events and not isinstance(events[-1], happened.RunFinished):
@@ -28,7 +28,6 @@ def account(events: Sequence[AnyEvent]) -> list[str]:
 
 @dataclass(slots=True)
 class _Teller:
-    _origin: float  # the cell's clock when the run began, s
     lines: list[str] = field(default_factory=list)
     _task: str = ""
     _heading: int | None = None  # the line with the heading of the stage under way, once there is one
@@ -41,7 +40,7 @@ class _Teller:
 
     def clock(self, event: AnyEvent) -> str:
         """The time of an event in a column: seconds since the run began."""
-        return f"{event.time - self._origin:z9.2f}"
+        return f"{event.time:z9.2f}"
 
     def tell(self, event: AnyEvent) -> None:
         match event:

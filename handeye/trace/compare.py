@@ -75,7 +75,7 @@ def _quantity(a: Trace, here: RawMessage, there: RawMessage) -> str:
 
 
 def _when(trace: Trace, clock: float) -> str:
-    return f"{trace.elapsed(clock):.3f} s"
+    return f"{clock:.3f} s"
 
 
 def _events(a: Trace, b: Trace, number: int) -> str:

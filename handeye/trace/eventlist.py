@@ -9,11 +9,14 @@ import msgspec
 from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.files import LineFile, read_whole
 from handeye.program.event_reading import EventReader
-from handeye.program.events import AnyEvent, WentBack, to_line
+from handeye.program.events import AnyEvent, RunStarted, WentBack, to_line
 
 
 def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
-    """The events in a file, undone ones too; raises BadFile if a line is no event, or cut short and not `growing`."""
+    """The events in a file, undone ones too.
+
+    Raises BadFile if a line is no event, or cut short and not `growing`; or if the run does not begin at 0.
+    """
     text = read_whole(path)
     if growing:
         text = text[: text.rfind(b"\n") + 1]
@@ -25,6 +28,10 @@ def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
             events.append(reader.read(line))
         except msgspec.DecodeError as error:
             raise BadFile(f"line {number} of {path} is not an event: {error}") from None
+    if events and isinstance(events[0], RunStarted) and events[0].time:
+        raise BadFile(
+            f"{path} begins at {events[0].time:.2f} s, as earlier versions of handeye did; a run begins at 0"
+        )
     return events
 
 

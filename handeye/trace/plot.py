@@ -5,8 +5,6 @@ from dataclasses import dataclass
 from io import BytesIO
 from typing import Any, Final
 
-from msgspec.structs import replace
-
 from handeye.core.errors import MissingExtra, Refused
 from handeye.core.files import Kind
 from handeye.core.pose import Array
@@ -76,19 +74,16 @@ def plot(trace: Trace, stage: str | None = None) -> Plot:
         raise Refused(f"{trace.name} holds no motion there to be drawn")
     return Plot(
         title=f"{trace.head.program}, {trace.head.world}",
-        begin=trace.elapsed(begin),
-        end=trace.elapsed(end),
-        stages=tuple(
-            replace(stage, begin=trace.elapsed(stage.begin), end=trace.elapsed(stage.end))
-            for stage in trace.stages
-        ),
+        begin=begin,
+        end=end,
+        stages=trace.stages,
         panels=(*_joints(trace, rows), _forces(trace, rows), *_channels(trace, begin, end)),
         marks=tuple(_marks(trace, begin, end)),
     )
 
 
 def _covers(trace: Trace, stage: str) -> tuple[float, float]:
-    """From when to when a stage was carried out, each time that it was, s of the cell's clock."""
+    """From when to when a stage was carried out, each time that it was, s."""
     names = tuple(dict.fromkeys(each.name for each in trace.stages))
     name = names[stage_index(stage, names)]
     found = [each for each in trace.stages if each.name == name]
@@ -99,7 +94,7 @@ def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
     """A panel for the joints that turn, one for those that slide and the fingers; SI where the arm is not known."""
     task, measures = known_any(trace.head.task), measures_of(trace.head.task)
     kinds = {} if task is None else task.joint_kinds
-    times = trace.times[rows] - trace.head.time
+    times = trace.times[rows]
     motion, length = trace.motion, measures.length
     turning, sliding, others = [], [Curve(name="gap", times=times, values=trace.gaps[rows] / length.size)], []
     for number, name in enumerate(motion.names):
@@ -122,7 +117,7 @@ def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
 
 def _forces(trace: Trace, rows: slice) -> Panel:
     forces, unit = trace.forces(), measures_of(trace.head.task).force
-    times = forces.times[rows] - trace.head.time
+    times = forces.times[rows]
     curves = (
         Curve(name=axis, times=times, values=forces.force[rows, number] / unit.size)
         for number, axis in enumerate("xyz")
@@ -136,7 +131,7 @@ def _channels(trace: Trace, begin: float, end: float) -> Iterator[Panel]:
         for channel in trace.channels:
             rows = Span(begin, end).rows(channel.times)
             if channel.unit == unit:
-                times = channel.times[rows] - trace.head.time
+                times = channel.times[rows]
                 curves.append(Curve(name=channel.name, times=times, values=channel.values[rows]))
         yield Panel(name="channels" if unit else "switches, counts", unit=unit, curves=tuple(curves))
 
@@ -146,7 +141,7 @@ def _marks(trace: Trace, begin: float, end: float) -> Iterator[Mark]:
     own = {type(event).__name__: type(event) for event in trace.events if isinstance(event, SystemEvent)}
     for name, kind in {**_MARKED, **own}.items():
         times = (event.time for event in trace.events if isinstance(event, kind))
-        inside = tuple(trace.elapsed(time) for time in times if begin <= time <= end)
+        inside = tuple(time for time in times if begin <= time <= end)
         if inside:
             yield Mark(name=name, times=inside)
 

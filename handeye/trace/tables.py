@@ -155,9 +155,7 @@ def _under_way(trace: Trace, times: Array) -> tuple[Column, ...]:
 
 
 def _since(trace: Trace, times: Array) -> Column:
-    return Column(
-        name="time", about="since the run began", unit="s", values=np.round(times - trace.head.time, 6)
-    )
+    return Column(name="time", about="since the run began", unit="s", values=times)
 
 
 def _places(happening: Iterable[_RunPosition]) -> tuple[Column, ...]:

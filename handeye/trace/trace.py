@@ -41,7 +41,7 @@ Read = TypeVar("Read")
 class Trace:
     """A trace that was read, and found sound. What is worked out from its messages is worked out once.
 
-    Times are those of the cell's clock, s; see `handeye.api.trace.Trace`. Reading raises `InvalidInput` if a message
+    Times are s since the program began, everywhere. Reading raises `InvalidInput` if a message
     is not what its channel says.
     """
 
@@ -161,9 +161,7 @@ class Trace:
             raise BadArgument(f"a time is a number of seconds, not {time!r}")
         begin, end = self.covers
         if not begin - SHOWN <= time <= end + SHOWN:
-            raise BadArgument(
-                f"{self.name} covers {begin:.2f} to {end:.2f} s of the cell's clock; {time:g} s is outside"
-            )
+            raise BadArgument(f"{self.name} covers {begin:.2f} to {end:.2f} s; {time:g} s is outside")
         return self._replay.seek(time)
 
     def frame(
@@ -249,7 +247,7 @@ class Trace:
 
     @property
     def begins(self) -> float:
-        """The clock from which on its motions are recorded, s."""
+        """When its motions begin to be recorded, s: 0, but for a run taken up from a checkpoint."""
         return self.events[max(self.unseen - 1, 0)].time
 
     @property
@@ -262,10 +260,6 @@ class Trace:
         if not len(self.times):
             raise Refused(f"{self.name} holds no motion to be shown")
         return self.begins, max(float(self.times[-1]), self.events[-1].time)
-
-    def elapsed(self, clock: float) -> float:
-        """Seconds from the beginning of the run to a time by the cell's clock: what people see."""
-        return round(clock - self.head.time, 6)
 
     def _read(self, make: Callable[[Iterator[RawMessage]], Read]) -> Read:
         """Make something of the messages."""
@@ -280,5 +274,5 @@ class Trace:
         try:
             return make(hand_out())
         except (DecodeError, msgspec.DecodeError, KeyError, ValueError):
-            what = " and ".join(f"{m.topic} at {self.elapsed(m.time / 1e9):.3f} s" for m in handed)
+            what = " and ".join(f"{m.topic} at {m.time / 1e9:.3f} s" for m in handed)
             raise BadFile(f"{self.name}: the message on {what} cannot be understood") from None

@@ -50,8 +50,7 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
 
 def _pictures(trace: Trace) -> dict[float, SeenPicture]:
     """Pictures by the clock."""
-    clocks = {trace.elapsed(picture.time): picture.time for picture in trace.pictures}
-    return {clocks[picture.time]: picture for picture in seen_pictures(RecordedRun(trace=trace))}
+    return {picture.time: picture for picture in seen_pictures(RecordedRun(trace=trace))}
 
 
 def _without_waits(trace: Trace, span: Span) -> Iterator[Span]:

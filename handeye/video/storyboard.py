@@ -209,7 +209,7 @@ def _caption(trace: Trace, program: tuple[str, ...], passage: Passage, time: flo
     words = f"{number}  {way}{shown}" if number else f"{way}{shown}"
     return Caption(
         words=f"{words}: stopped" if stopped else words,
-        clock=clock(trace.elapsed(time)),
+        clock=clock(time),
         stages=max(len(program), 1),
         begun=number,
         stopped=stopped,

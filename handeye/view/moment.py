@@ -11,7 +11,7 @@ import numpy as np
 from handeye.core.pose import Array
 from handeye.execution.servo import ServoPeriod
 from handeye.program import events as happened
-from handeye.program.events import AnyEvent, PictureTaken, beginning
+from handeye.program.events import AnyEvent, PictureTaken
 from handeye.report.facts.seen import Finding, SeenPicture
 from handeye.report.page.seen import figure
 from handeye.runs.observer import Observer
@@ -30,7 +30,7 @@ class Television:
     """The television's picture with findings: a value that the run does not change."""
 
     picture: SeenPicture | None = None
-    """The picture that the program took or examined last, timed by the cell's clock; None: it has taken none."""
+    """The picture that the program took or examined last, with its time; None: it has taken none."""
 
     @property
     def shows(self) -> tuple[float, str, Sequence[Finding]] | None:
@@ -108,7 +108,6 @@ class Newest(Observer):
     """Keeps the newest moment and picture of a run for display; they are read from any thread."""
 
     def __init__(self, runner: Runner) -> None:
-        self._begun: float | None = None
         self.follow(runner)
 
     def follow(self, runner: Runner) -> None:
@@ -149,9 +148,9 @@ class Newest(Observer):
     def _now(self, force: Array | None) -> Moment:
         poses = self.frames.poses()
         poses[~self.frames.there()] = np.nan
-        if self._begun is None and self._runner.events:
-            self._begun = beginning(self._runner.events)
-        elapsed = 0.0 if self._begun is None else round(self._runner.time - self._begun, 6)
+        time = (
+            self._runner.time if self._runner.events else 0.0
+        )  # before the program begins, the cell is prepared
         return Moment(
-            time=elapsed, gap=self._gap, force=force, joints=self._joints, channels=self._channels, poses=poses,
+            time=time, gap=self._gap, force=force, joints=self._joints, channels=self._channels, poses=poses,
         )  # fmt: skip

@@ -109,7 +109,7 @@ def test_a_page_with_a_strict_policy_shows_it_and_asks_for_nothing(page: Page, f
 
 
 def test_the_whole_run_can_be_shown(page: Page, trace: Trace) -> None:
-    begin, end = (trace.elapsed(time) for time in trace.covers)
+    begin, end = trace.covers
     assert page.evaluate("[player.begin, player.end, player.duration]") == pytest.approx(
         [begin, end, end - begin]
     )
@@ -117,7 +117,7 @@ def test_the_whole_run_can_be_shown(page: Page, trace: Trace) -> None:
 
 def test_every_body_is_where_it_was_and_hidden_where_it_was_not(page: Page, trace: Trace) -> None:
     rows, shown = np.linspace(0, len(trace.times) - 1, 20).astype(int), shown_poses(trace)
-    times = (trace.times[rows] - trace.head.time).tolist()
+    times = trace.times[rows].tolist()
     told = page.evaluate(
         f"{times}.map(t => Object.fromEntries(player.names.map(n => [n, player.pose(n, t)])))"
     )
@@ -217,7 +217,7 @@ def test_the_view_of_the_hand_goes_with_it(page: Page, trace: Trace) -> None:
     settle(page, "hand")
     first = page.evaluate("player.camera.eye")
     moved = np.abs(trace.poses["stanford/link6"] - trace.poses["stanford/link6"][0]).sum(axis=1).argmax()
-    settle(page, "hand", float(trace.times[moved] - trace.head.time))
+    settle(page, "hand", float(trace.times[moved]))
     went = trace.poses["stanford/link6"][moved, :3] - trace.poses["stanford/link6"][0, :3]
     assert np.subtract(page.evaluate("player.camera.eye"), first) == pytest.approx(went, abs=2e-3)
 
@@ -237,7 +237,7 @@ def busy(trace: Trace) -> float:
     """When four seconds begin in which the hand goes nearly all the time."""
     moves = np.abs(np.diff(trace.poses["stanford/link6"], axis=0)).max(axis=1) > 1e-4
     found = np.convolve(moves, np.ones(240), mode="valid").argmax()
-    return float(trace.times[found] - trace.head.time)
+    return float(trace.times[found])
 
 
 def test_it_plays_smoothly_where_software_draws(page: Page, trace: Trace) -> None:

@@ -138,15 +138,15 @@ def test_the_line_that_is_lit_is_the_one_under_way(run: RecordedRun, page: Page)
     for clock in (
         np.linspace(begin + 0.1, end - 0.1, 20) * 60
     ).round() / 60 + 1 / 120:  # steps begin with periods
-        sought(page, run.seconds(clock))
-        step = run.trace.at(run.trace.head.time + float(f"{run.seconds(clock):.4f}")).step
+        sought(page, clock)
+        step = run.trace.at(float(f"{clock:.4f}")).step
         assert page.evaluate(LIT) == (None if step is None else f"line-0-{step.line}")
 
 
 def test_every_body_is_where_it_was(run: RecordedRun, page: Page) -> None:
     rows, shown = np.linspace(0, len(run.trace.times) - 1, 20).astype(int), shown_poses(run.trace)
     for row in rows:
-        seconds = run.seconds(run.trace.times[row])
+        seconds = run.trace.times[row]
         told = page.evaluate(POSES.format(seconds=seconds))
         for name, pose in told.items():
             true = shown[name][row]
@@ -164,14 +164,14 @@ def test_what_becomes_another_body_goes_as_that_one_comes(run: RecordedRun, page
         there = poses[:, 2] > -1.0
         for row in np.flatnonzero(there[1:] != there[:-1]):
             shown = [
-                page.evaluate(f"view.player.pose('{name}', {run.seconds(run.trace.times[at])})") is not None
+                page.evaluate(f"view.player.pose('{name}', {run.trace.times[at]})") is not None
                 for at in (row, row + 1)
             ]
             assert shown == [there[row], there[row + 1]], (name, row)
 
 
 def test_keys_play_and_go_by_steps_and_stages(run: RecordedRun, page: Page) -> None:
-    begins = (run.seconds(stage.begin) for stage in run.trace.stages)
+    begins = (stage.begin for stage in run.trace.stages)
     second = next(begin for begin in begins if begin > run.begins + 0.01)
     sought(page, run.begins)
     page.key("ArrowRight", shift=True)
@@ -220,5 +220,5 @@ def test_without_scripts_everything_but_the_view_is_there(
     page.ask("Page.navigate", url=file.as_uri())
     page.wait("document.querySelectorAll('#record').length")
     assert page.evaluate("document.getElementById('controls').hidden")
-    recorded = [stage for stage in run.trace.stages if run.seconds(stage.end) > run.begins]
+    recorded = [stage for stage in run.trace.stages if stage.end > run.begins]
     assert page.evaluate("document.querySelectorAll('#strip img').length") == len(recorded)

@@ -89,6 +89,12 @@ def test_an_event_happens_before_the_first_step_at_its_time_and_belongs_to_the_s
     assert heard[2:] == heard[1:2]
     with pytest.raises(NoSuchName, match=r"^nothing on the bench is called drum; there are bell$"):
         bench.call_at(0, "drum")
+    bench.call_at(round(bench.now * 1e6) + 5001, "bell")
+    bench.set_to_zero()
+    bench.advance(0.01)
+    assert heard[3:] == [pytest.approx(7 / 1200)]
+    bench.call_at(round(bench.now * 1e6) + 5001, "bell")
+    kept = bench.cell().capture()
     del bench.handlers["bell"]
     with pytest.raises(BadFile, match="it waits for events that this bench does not know"):
         bench.cell().restore(kept)

@@ -174,5 +174,5 @@ def test_a_flipped_bit_of_noise_is_named_with_its_servo_period(
     assert found.conditions == ()
     assert first.differing.quantity == ("joint", "xyz"[flip.joint], "position")
     assert (first.differing.a, first.differing.b) == (as_it_was[flip.joint], noisy[flip.joint])
-    begun = base.trace.head.time + place.time
+    begun = place.time
     assert (first.place, first.period) == (place, np.sum(base.trace.times[: flip.row + 1] > begun + 1e-4))

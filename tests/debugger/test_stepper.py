@@ -112,7 +112,7 @@ def test_pauses_and_a_pace_change_no_event(stepper: Stepper, runner: Runner, who
     )
     assert [stepper.do("c").position for _ in range(11)] == [*range(1, 12)]
     assert history(runner.events) == whole
-    assert sum(slept) == pytest.approx(runner.elapsed / 4, rel=0.2)
+    assert sum(slept) == pytest.approx(runner.time / 4, rel=0.2)
 
 
 def test_the_pin_insertion_with_breaks_and_ten_times_back_gives_the_events_of_a_run_through(

@@ -20,13 +20,13 @@ WRONG = Check(
     ok=False, subject="gap under a head", value=5.0, relation="at most", limit=0.2, unit="mm",
     sentence="gap under a head (at most 0.2 mm)",
 )  # fmt: skip
-STARTED = happened.StepStarted(time=11.0, step=1, line=4, text="CLOSE .1")
-CALLED = happened.OperatorCalled(time=12.0, message="THE GASKET LIES OFF ITS PLACE")
+STARTED = happened.StepStarted(time=1.0, step=1, line=4, text="CLOSE .1")
+CALLED = happened.OperatorCalled(time=2.0, message="THE GASKET LIES OFF ITS PLACE")
 STOPPED: Sequence[AnyEvent] = (
     STARTED,
     CALLED,
-    happened.StageFinished(time=12.0, stage="open", status="stopped"),
-    happened.RunFinished(time=12.0, completed=False),
+    happened.StageFinished(time=2.0, stage="open", status="stopped"),
+    happened.RunFinished(time=2.0, completed=False),
 )
 
 
@@ -56,7 +56,7 @@ DONE = [EVENTS[-1]]
         (DONE, result(completed=True, assembled=None), "ended"),
         (DONE, None, "ended"),
         (STOPPED, None, "stopped"),
-        ([STARTED, happened.PanicStopped(time=12.0)], None, "panic"),
+        ([STARTED, happened.PanicStopped(time=2.0)], None, "panic"),
         ([STARTED], None, "paused"),
     ],
 )
@@ -74,7 +74,7 @@ def test_a_stop_is_told_with_its_line_its_stage_and_its_reason(run: RecordedRun)
 
 
 def test_a_call_that_was_answered_stops_nothing(run: RecordedRun) -> None:
-    answered = happened.OperatorAnswered(time=12.0, choice="proceed", step=2)
+    answered = happened.OperatorAnswered(time=2.0, choice="proceed", step=2)
     assert outcome(ending(run, [STARTED, CALLED, answered])).kind == "paused"
 
 
@@ -101,7 +101,7 @@ def test_a_run_that_failed_leads_with_the_reason_the_line_and_its_stage(run: Rec
 def test_a_call_without_a_message_is_told_by_its_error_or_its_cause(
     run: RecordedRun, call: dict[str, Any], reason: str
 ) -> None:
-    called = happened.OperatorCalled(time=12.0, message="", **call)
+    called = happened.OperatorCalled(time=2.0, message="", **call)
     head = tree(page_of(ending(run, [STARTED, called]))).all("header")[0]
     assert reasons(head) == [reason]
 
@@ -114,7 +114,7 @@ def test_work_that_is_not_right_leads_with_what_is_wrong(run: RecordedRun) -> No
 
 
 def test_the_panic_button_is_told_where_it_was_hit(run: RecordedRun) -> None:
-    head = tree(page_of(ending(run, [STARTED, happened.PanicStopped(time=12.0)]))).all("header")[0]
+    head = tree(page_of(ending(run, [STARTED, happened.PanicStopped(time=2.0)]))).all("header")[0]
     assert head.all("h1")[0].text == "The panic button was hit in “open”."
     assert reasons(head)[0].startswith("A person stopped the run, not the program.")
 

@@ -16,10 +16,9 @@ from handeye.program.events import RunStarted, StageStarted, StepStarted
 from handeye.results.progress import Progress
 
 BEGUN = RunStarted(
-    time=215.5, program="water_pump", steps=303, plan="", arm="Stanford", arm_digest="", world=WorldSpec(seed=0),
-    camera=Renderer(method="rays"), versions={},
+    time=0.0, program="water_pump", steps=303, plan="", arm="Stanford", arm_digest="", world=WorldSpec(seed=0),
+    camera=Renderer(method="rays"), versions={}, prepared=215.5,
 )  # fmt: skip
-"""The camera was calibrated for 215.5 s."""
 
 
 @cache
@@ -45,8 +44,8 @@ def shown(width: int) -> str:
     )
     with Progress(plan().program.stages, console) as progress:
         progress.event(BEGUN)
-        progress.event(StageStarted(time=240.5, stage="put the base in its standard position"))
-        progress.event(StepStarted(time=240.5, step=1, line=1, text="CHANGE  [0 0 -1] 0.6"))
+        progress.event(StageStarted(time=25.0, stage="put the base in its standard position"))
+        progress.event(StepStarted(time=25.0, step=1, line=1, text="CHANGE  [0 0 -1] 0.6"))
     drawn = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "\r", console.file.getvalue())
     lines = [line for line in re.split(r"[\r\n]+", drawn) if line.strip()]
     assert max(map(len, lines)) <= width

@@ -44,11 +44,11 @@ def test_a_stage_whose_beginning_is_missing_has_ended_all_the_same() -> None:
 
 def test_interventions_are_told_by_the_time_since_the_run_began() -> None:
     begun = RunStarted(
-        time=215.5, program="p", steps=1, plan="", arm="", arm_digest="", world=WorldSpec(seed=0),
-        camera=Renderer(method="none"), versions={},
+        time=0.0, program="p", steps=1, plan="", arm="", arm_digest="", world=WorldSpec(seed=0),
+        camera=Renderer(method="none"), versions={}, prepared=215.5,
     )  # fmt: skip
-    asked = OperatorAnswered(time=220.0, choice="proceed", step=None)
-    tried = ExperimentMade(time=221.25, what="saved", name="E2", value=(0.0, 0.0, 0.0))
+    asked = OperatorAnswered(time=4.5, choice="proceed", step=None)
+    tried = ExperimentMade(time=5.75, what="saved", name="E2", value=(0.0, 0.0, 0.0))
     assert list(interventions([begun, asked, tried])) == [
         "at 4.5 s the operator chose: proceed", "at 5.8 s saved E2 was set by hand"
     ]  # fmt: skip

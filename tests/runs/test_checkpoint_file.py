@@ -71,8 +71,8 @@ def test_a_flipped_bit_anywhere_is_refused(data: bytes) -> None:
 
 def test_a_newer_version_is_refused(data: bytes) -> None:
     rest = data.partition(b"\n")[2]
-    with pytest.raises(InvalidInput, match="checkpoint format version 5; this handeye reads version 4"):
-        decode(sealed(rest, version=5), "it")
+    with pytest.raises(InvalidInput, match="checkpoint format version 6; this handeye reads version 5"):
+        decode(sealed(rest, version=6), "it")
 
 
 def test_a_version_of_thousands_of_digits_is_no_version(data: bytes) -> None:

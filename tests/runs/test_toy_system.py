@@ -5,13 +5,14 @@ from pathlib import Path
 import msgspec
 import pytest
 from short_runs import begin, history
-from toy_system import Lines, Registers, ToySystem, begin_toy, encoded
+from toy_system import CounterMachine, Lines, Registers, ToySystem, begin_toy, encoded
 
 from handeye.core import entries
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, InvalidInput
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.formatting import as_text
 from handeye.debugger.stepper import Stepper
+from handeye.program.events import RunStarted
 from handeye.results.pauses import pause_sentence
 from handeye.results.summary import summary
 from handeye.runs.advance import advance
@@ -179,14 +180,24 @@ def test_checkpoints_are_found_by_stage(tmp_path: Path) -> None:
     assert (found.stage, found.position, read_checkpoint(next(folder.kept.heads())[0])) == ("ask", 7, newest)
 
 
-def test_the_time_that_people_see_counts_from_the_beginning_of_the_run() -> None:
+def test_time_counts_from_the_beginning_of_the_run() -> None:
     runner = Runner(begin_toy())
-    runner.events[0] = msgspec.structs.replace(runner.events[0], time=-3.0)
     advance(runner, steps=2)
     stepper = Stepper(runner)
-    assert (runner.time, runner.elapsed) == (2.0, 5.0)
-    assert as_text(stepper.standing()).splitlines()[0].endswith("2 steps done, 5.00 s")
-    assert as_text(stepper.do("show time")).splitlines()[-1].split() == ["time", "5.00", "s"]
+    assert (runner.events[0].time, runner.time) == (0.0, 2.0)
+    assert as_text(stepper.standing()).splitlines()[0].endswith("2 steps done, 2.00 s")
+    assert as_text(stepper.do("show time")).splitlines()[-1].split() == ["time", "2.00", "s"]
+
+
+def test_a_system_that_begins_a_run_at_another_time_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    began = CounterMachine.begin
+
+    def late(self: CounterMachine) -> list[RunStarted]:
+        return [msgspec.structs.replace(begun, time=3.0) for begun in began(self)]
+
+    monkeypatch.setattr(CounterMachine, "begin", late)
+    with pytest.raises(BadArgument, match=r"^the system toy begins a run at 3 s; a run begins at 0$"):
+        Runner(begin_toy())
 
 
 def test_a_system_that_moves_nothing_lacks_no_motions_in_its_trace(tmp_path: Path) -> None:

@@ -97,7 +97,7 @@ class _Clock:
     """Makes the moments of a run, in order."""
 
     def __init__(self) -> None:
-        self.time = 10.0
+        self.time = 0.0
         self.rng = np.random.default_rng(1973)
         self.poses = FakeFrames().now
         self.shown = False
@@ -122,7 +122,7 @@ class _Clock:
             yield Moment(sensed, self.poses.copy(), self.shown, effort, guarded=guarded)
 
 
-def started(time: float = 10.0) -> RunStarted:
+def started(time: float = 0.0) -> RunStarted:
     """The beginning of the run."""
     return RunStarted(
         time=time, program="short", steps=3, plan=plan_digest(plan()), arm=STANFORD.name, arm_digest="0" * 16,

@@ -25,14 +25,14 @@ def told(*steps: tuple[str, Sequence[Happening]], script: str = GRASP) -> Record
     plan = plan_of(script)
     events: list[AnyEvent] = [started()]
     for number, (words, inside) in enumerate(steps):
-        time = 11.0 + number
+        time = 1.0 + number
         step = next(n for n, step in enumerate(plan.program.steps) if step.text.startswith(words))
         line, text = plan.program.steps[step].line, plan.program.steps[step].text
         events.append(StepStarted(time=time, step=step, line=line, text=text))
         events += [each(time=time + 0.5) for each in inside]
         events.append(StepFinished(time=time + 0.9, step=step, hand=None, planned=None, gap=None))
     trace = Trace(
-        name="told.mcap", version=3, head=started(), plan=encode(plan).encode(), events=tuple(events), counts={},
+        name="told.mcap", version=4, head=started(), plan=encode(plan).encode(), events=tuple(events), counts={},
         messages=(),
     )  # fmt: skip
     return RecordedRun(trace=trace)

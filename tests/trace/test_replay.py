@@ -34,7 +34,7 @@ def test_joints_and_frames_are_where_they_were_in_every_servo_period(trace: Trac
 
 
 def test_the_stage_and_the_step_under_way_are_told(trace: Trace) -> None:
-    state = trace.at(10.6)
+    state = trace.at(0.6)
     assert state.stage == "close"
     assert state.step is not None
     assert (state.step.line, state.step.text) == (4, "OPEN 1")
@@ -49,21 +49,21 @@ def test_a_picture_is_there_from_when_it_was_taken(trace: Trace) -> None:
 
 
 def test_what_was_not_to_be_seen_yet_has_no_pose(trace: Trace) -> None:
-    assert "carrier" not in trace.at(10.1).poses
-    assert "carrier" in trace.at(11.1).poses
+    assert "carrier" not in trace.at(0.1).poses
+    assert "carrier" in trace.at(1.1).poses
 
 
 def test_before_the_first_servo_period_and_after_the_last_it_stands_still(trace: Trace) -> None:
-    assert trace.at(10.0).time == pytest.approx(TICKS[0].what.time, abs=1e-6)
+    assert trace.at(0.0).time == pytest.approx(TICKS[0].what.time, abs=1e-6)
     assert trace.at(trace.events[-1].time + 0.005).time == pytest.approx(TICKS[-1].what.time, abs=1e-6)
-    assert trace.at(9.995).stage is None
+    assert trace.at(-0.005).stage is None
 
 
-@pytest.mark.parametrize("time", [9.9, 12.0, float("nan")])
+@pytest.mark.parametrize("time", [-0.1, 2.0, float("nan")])
 def test_a_time_outside_the_run_is_refused(trace: Trace, time: float) -> None:
     with pytest.raises(
         InvalidInput,
-        match=rf"short\.mcap covers 10\.00 to 11\.20 s of the cell's clock; {time:g} s is outside$",
+        match=rf"short\.mcap covers 0\.00 to 1\.20 s; {time:g} s is outside$",
     ):
         trace.at(time)
 
@@ -71,4 +71,4 @@ def test_a_time_outside_the_run_is_refused(trace: Trace, time: float) -> None:
 def test_a_trace_without_motion_is_refused(tmp_path: Path) -> None:
     Recording(tmp_path / "short.mcap").begin().play(last=2).close()
     with pytest.raises(InvalidInput, match=r"short\.mcap holds no motion to be shown$"):
-        read_trace(tmp_path / "short.mcap").at(10.0)
+        read_trace(tmp_path / "short.mcap").at(0.0)

@@ -27,7 +27,7 @@ def one_view(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def trace(tmp_path: Path) -> Trace:
-    """A run of the stages open, close and again, from 10 to 11.2 s; `close` ends with a picture."""
+    """A run of the stages open, close and again, from 0 to 1.2 s; `close` ends with a picture."""
     record(tmp_path / "short.mcap")
     return read_trace(tmp_path / "short.mcap")
 
@@ -57,7 +57,7 @@ def test_at_a_speed_it_takes_what_the_run_took(trace: Trace) -> None:
 
 @pytest.mark.parametrize(
     ("first", "last", "span"),
-    [("2", None, (10.4, 11.2)), (None, "op", (10.0, 10.4)), (2, "close", (10.4, 10.8))],
+    [("2", None, (0.4, 1.2)), (None, "op", (0.0, 0.4)), (2, "close", (0.4, 0.8))],
 )
 def test_it_goes_from_stage_to_stage(
     trace: Trace, first: str | int | None, last: str | int | None, span: tuple[float, float]
@@ -67,7 +67,7 @@ def test_it_goes_from_stage_to_stage(
 
 
 def test_a_stage_that_was_not_come_to_is_told_with_those_that_are_there(trace: Trace) -> None:
-    short = replace(trace, events=tuple(event for event in trace.events if event.time < 10.4))
+    short = replace(trace, events=tuple(event for event in trace.events if event.time < 0.4))
     with pytest.raises(InvalidInput, match=r"short\.mcap does not show stage `again`, but `open`$"):
         storyboard(short, VideoRequest(first="again"))
 
@@ -89,7 +89,7 @@ def test_each_picture_is_looked_at_for_a_while_and_in_its_stage(trace: Trace) ->
     assert 7 <= len(looking) <= 9
     assert {
         (f.time, f.caption.words, len(f.looked_at.marks)) for f in looking if f.caption and f.looked_at
-    } == {(10.8, "2  close", 3)}
+    } == {(0.8, "2  close", 3)}
 
 
 def test_without_captions_nothing_is_said_and_nothing_stands_still(trace: Trace) -> None:
@@ -114,11 +114,11 @@ def test_a_stage_that_was_stopped_says_so_when_it_is(trace: Trace) -> None:
 
 def test_captions_tell_which_stage_the_arm_undoes(trace: Trace) -> None:
     back = (
-        UndoOrdered(time=11.2, left=0, halts=True),
-        UndoStarted(time=11.2, step=3, line=4, text="CLOSE"),
-        StageUndone(time=11.3, stage="again"),
-        UndoStarted(time=11.3, step=2, line=3, text="CLOSE"),
-        OperatorCalled(time=11.4, message="the hand has met 24 N"),
+        UndoOrdered(time=1.2, left=0, halts=True),
+        UndoStarted(time=1.2, step=3, line=4, text="CLOSE"),
+        StageUndone(time=1.3, stage="again"),
+        UndoStarted(time=1.3, step=2, line=3, text="CLOSE"),
+        OperatorCalled(time=1.4, message="the hand has met 24 N"),
     )
     undone = replace(trace, events=(*trace.events, *back))
     shown = {
@@ -128,7 +128,7 @@ def test_captions_tell_which_stage_the_arm_undoes(trace: Trace) -> None:
         for number, stage in enumerate(undone.stages_both_ways)
     }
     words = [(at, caption.words, caption.begun) for at, caption in shown.items()]
-    assert words[2:] == [(10.8, "3  again", 3), (11.2, "3  undo: again", 3), (11.3, "2  undo: close", 2)]
+    assert words[2:] == [(0.8, "3  again", 3), (1.2, "3  undo: again", 3), (1.3, "2  undo: close", 2)]
     assert [stage.name for stage in undone.stages] == ["open", "close", "again"]
 
 

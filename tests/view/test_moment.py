@@ -74,7 +74,7 @@ def test_a_run_that_goes_back_is_shown_where_it_then_is(looked: tuple[Runner, Mo
     assert moments.newest.moment is not newest
     assert moments.newest.moment.force is None
     np.testing.assert_array_equal(moments.newest.moment.poses[frames.there()], frames.poses()[frames.there()])
-    assert moments.newest.moment.time == runner.elapsed
+    assert moments.newest.moment.time == runner.time
 
 
 def test_a_moment_is_sent_as_32_bit_numbers() -> None:

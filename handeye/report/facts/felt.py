@@ -67,10 +67,10 @@ def _motion(run: RecordedRun, forces: Forces, step: DoneStep, watched: Array, st
         stage=stage,
         step=step.started,
         guard=kind,
-        times=forces.times[watched] - run.trace.head.time,
+        times=forces.times[watched],
         values=forces.value[watched],
         limit=float(forces.limit[watched[-1]]),
-        trip=None if met is None else MetGuard(run.seconds(met.time), met.value, met.limit),
+        trip=None if met is None else MetGuard(met.time, met.value, met.limit),
     )
 
 

@@ -57,7 +57,7 @@ def _ends(run: RecordedRun) -> Iterator[MotionEnd]:
         if off is not None:
             why = _why(step.events, off, before)
             before = off
-            time = run.seconds(step.events[-1].time)
+            time = step.events[-1].time
             yield MotionEnd(time=time, step=step.started, off=float(np.linalg.norm(off)), why=why)
 
 
@@ -116,7 +116,7 @@ def _search(run: RecordedRun, tries: list[tuple[StepStarted, AnyEvent]]) -> Sear
     gone_on = [event for _, event in tries if isinstance(event, SearchAdvanced)]
     return Search(
         step=tries[-1][0],
-        times=tuple(run.seconds(event.time) for event in gone_on),
+        times=tuple(event.time for event in gone_on),
         places=((0.0, 0.0), *(event.offset for event in gone_on)),
         exhausted=isinstance(tries[-1][1], ErrorRaised),
     )
@@ -172,7 +172,7 @@ def _corrections(run: RecordedRun) -> Iterator[Correction]:
                     search = _Search(offset=event.offset, cause=cause)
                 case Adjusted():
                     yield Correction(
-                        time=run.seconds(event.time),
+                        time=event.time,
                         step=step.started,
                         goal=event.goal,
                         shift=event.shift,
@@ -189,7 +189,7 @@ class _Search:
 
 
 def _cause(run: RecordedRun, step: DoneStep, name: str, time: float, by: Mover) -> Cause:
-    return Cause(name=name, by=by, place=step.started.place, time=run.seconds(time))
+    return Cause(name=name, by=by, place=step.started.place, time=time)
 
 
 def _causes(

@@ -46,7 +46,7 @@ def _seen(run: RecordedRun) -> Iterator[SeenPicture]:
     for event in run.trace.events:
         if isinstance(event, PictureTaken) and event.time in shots:
             yield SeenPicture(
-                time=run.seconds(event.time),
+                time=event.time,
                 name=event.picture,
                 lens=event.lens,
                 picture=shots[event.time],
@@ -66,7 +66,7 @@ def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
 
 
 def _findings(run: RecordedRun) -> dict[float, list[Finding]]:
-    """The steps' findings in each picture, by the time on the cell's clock at which it was taken."""
+    """The steps' findings in each picture, by the time at which it was taken."""
     found: dict[float, list[Finding]] = {}
     taken: dict[str, float] = {}
     for step in done_steps(run.trace.events):

@@ -47,11 +47,7 @@ class CaptionedEvent(NamedTuple):
 
 def told(run: RecordedRun) -> tuple[CaptionedEvent, ...]:
     """All events with captions, in order."""
-    return tuple(
-        CaptionedEvent(run.seconds(event.time), event)
-        for event in run.trace.events
-        if isinstance(event, SENSED)
-    )
+    return tuple(CaptionedEvent(event.time, event) for event in run.trace.events if isinstance(event, SENSED))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,7 +61,7 @@ class Senses:
 
 def senses_at(run: RecordedRun, seconds: float) -> Senses | None:
     """Sensor readings at a time (s) since the run began, None if not recorded; raises InvalidInput if damaged."""
-    until = nanoseconds(run.trace.head.time + seconds)
+    until = nanoseconds(seconds)
     told = [message for message in run.trace.messages if message.topic == HAND and message.time <= until]
     if not told:
         return None

@@ -64,7 +64,7 @@ def _sections(run: RecordedRun, photographs: Album) -> Iterator[Markup]:
         felt, how=How.THINNED if run.trace.thinned else How.RECORDED, lost=lost_trips(run, felt)
     )
     yield channels_section(run.trace)
-    yield planned_section(ends(run), corrections(run), searches(run), stages, run.trace.head.time)
+    yield planned_section(ends(run), corrections(run), searches(run), stages)
     yield referee_section(run)
     yield record_section(run)
 

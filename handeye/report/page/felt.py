@@ -110,13 +110,13 @@ def channels_section(trace: Trace) -> Markup:
     """The section; nothing where no machine has a channel."""
     if not trace.channels:
         return Markup("")
-    figures = (_channel_figure(channel, trace.head.time) for channel in trace.channels)
+    figures = map(_channel_figure, trace.channels)
     about = note("What machines sensed besides where their axes were, in the course of the run.")
     return section("channels", "Channels of the machines", about, element("div", *figures, class_="figures"))
 
 
-def _channel_figure(channel: ChannelCurve, begun: float) -> Markup:
-    times, values = channel.times - begun, channel.values
+def _channel_figure(channel: ChannelCurve) -> Markup:
+    times, values = channel.times, channel.values
     low, high = float(values.min()), float(values.max())
     x = Scale(float(times[0]), max(float(times[-1]), float(times[0]) + 1e-9), 2.0, WIDE - 2.0)
     y = Scale(min(low, 0.0), max(high, 0.0) or min(low, 0.0) + 1.0, _BOTTOM, _TOP)

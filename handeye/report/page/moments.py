@@ -25,11 +25,8 @@ def moments(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) 
         "end": run.ends,
         "view": {"right": "room", "ended": "room", "wrong": "pump"}.get(outcome.kind, "hand"),
         "show": run.begins if outcome.good else outcome.time,
-        "steps": [[run.seconds(step.time), line_id(step.line, step.file, files)] for step in steps],
-        "stages": [
-            [run.seconds(each.begin), run.seconds(each.end), printable(each.name)]
-            for each in run.trace.stages
-        ],
+        "steps": [[step.time, line_id(step.line, step.file, files)] for step in steps],
+        "stages": [[each.begin, each.end, printable(each.name)] for each in run.trace.stages],
         "told": [[each.time, printable(sentence(each.event, measures))] for each in told],
     }
     return element("script", json_markup(data), id="moments", type="application/json")

@@ -48,19 +48,18 @@ def planned_section(
     corrections: Sequence[Correction],
     searches: Sequence[Search],
     stages: Sequence[Stage],
-    origin: float,
 ) -> Markup:
-    """The section; `origin`: the cell's clock when the run began, s."""
+    """The section."""
     return section(
         "planned",
         "Planned and found",
-        *_ends(ends, stages, origin),
+        *_ends(ends, stages),
         *_corrections(corrections),
         *searched(searches),
     )
 
 
-def _ends(ends: Sequence[MotionEnd], stages: Sequence[Stage], origin: float) -> Iterator[Markup]:
+def _ends(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Iterator[Markup]:
     if not ends:
         yield note("No motion of this run came to an end.")
         return
@@ -69,7 +68,7 @@ def _ends(ends: Sequence[MotionEnd], stages: Sequence[Stage], origin: float) -> 
         "sensors. The plan is made before the arm has seen or felt anything; the working phase moves its goals."
     )
     yield element(
-        "div", _chart(ends, stages, origin), class_="chart", tabindex="0", role="region", aria_label="chart"
+        "div", _chart(ends, stages), class_="chart", tabindex="0", role="region", aria_label="chart"
     )
     counts = {why: sum(end.why is why for end in ends) for why in EndReason}
     yield element("ul", *(_key(why, counts[why]) for why in EndReason if counts[why]), class_="key")
@@ -80,15 +79,13 @@ def _key(why: EndReason, count: int) -> Markup:
     return element("li", mark, f" {_MEANING[why]}: {count}")
 
 
-def _chart(ends: Sequence[MotionEnd], stages: Sequence[Stage], origin: float) -> Markup:
+def _chart(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Markup:
     sizes = [max(end.off / MILLIMETRE, _DECADES[0]) for end in ends]
     decades = [ten for ten in _DECADES if min(sizes) / 10 < ten < max(sizes) * 10]
     begin, end = ends[0].time, max(ends[-1].time, ends[0].time + 1)
-    x = Scale(
-        min(begin, *(stage.begin - origin for stage in stages)) if stages else begin, end, _LEFT, _WIDE - 8
-    )
+    x = Scale(min(begin, *(stage.begin for stage in stages)) if stages else begin, end, _LEFT, _WIDE - 8)
     y = _Decades(min(decades), max(decades))
-    strokes = [*_grid(decades, y), *_bands(stages, origin, x), *(_dot(each, x, y) for each in ends)]
+    strokes = [*_grid(decades, y), *_bands(stages, x), *(_dot(each, x, y) for each in ends)]
     label = f"distance of {counted(len(ends), 'motion end')} from the plan, against time"
     return drawing(*strokes, wide=_WIDE, high=_HIGH, label=label)
 
@@ -109,10 +106,10 @@ def _grid(decades: Sequence[float], y: _Decades) -> Iterator[Markup]:
         yield words(_LEFT - 8, y(ten) + 4, f"{ten:g} mm", anchor="end")
 
 
-def _bands(stages: Sequence[Stage], origin: float, x: Scale) -> Iterator[Markup]:
+def _bands(stages: Sequence[Stage], x: Scale) -> Iterator[Markup]:
     """Marks at the starts of stages, with their numbers."""
     for number, stage in enumerate(stages, 1):
-        at = x(stage.begin - origin)
+        at = x(stage.begin)
         yield rule(at, 12, at, _HIGH - _FOOT + 6, class_="grid")
         yield words(at + 3, _HIGH - 8, str(number))
 

@@ -72,7 +72,7 @@ def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
     """Remarks on what the table leaves out."""
     yield "Minutes and seconds on the cell’s clock."
     friction = sum(event.seconds for event in run.trace.events if isinstance(event, FrictionMeasured))
-    calibration = run.trace.head.time - friction
+    calibration = run.trace.head.prepared - friction
     before = [
         f"{what} {duration(seconds)}"
         for what, seconds in (
@@ -94,7 +94,7 @@ def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
 def _by_stage(run: RecordedRun, stages: list[StageFigures]) -> Iterator[Markup]:
     if not stages:
         return
-    begins = {stage.name: run.seconds(stage.begin) for stage in reversed(run.trace.stages)}
+    begins = {stage.name: stage.begin for stage in reversed(run.trace.stages)}
     longest = max(1e-9, *(stage.seconds for stage in stages))
     rows = [_stage(number, stage, begins[stage.stage], longest) for number, stage in enumerate(stages, 1)]
     left = [name for name in stage_names(run.trace) if name not in {stage.stage for stage in stages}]

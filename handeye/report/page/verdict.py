@@ -220,7 +220,7 @@ def _senses(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) 
 
 def _tells(each: CaptionedEvent, run: RecordedRun, outcome: Outcome) -> bool:
     """An event tells what led to the outcome: it is of the same stage, and not the reason itself once more."""
-    begun = max((run.seconds(stage.begin) for stage in run.trace.stages), default=0.0)
+    begun = max((stage.begin for stage in run.trace.stages), default=0.0)
     call = outcome.call
     reason = isinstance(each.event, ErrorRaised) and call is not None and each.event.number == call.error
     return begun < each.time <= outcome.time and not (reason or isinstance(each.event, _UNTOLD))

@@ -75,7 +75,7 @@ def _bar(run: RecordedRun) -> Markup:
 
 
 def _stage(run: RecordedRun, number: int, stage: Stage) -> Markup:
-    begin, end = run.seconds(stage.begin), run.seconds(stage.end)
+    begin, end = stage.begin, stage.end
     unseen = end <= run.begins
     told = f"{number} {stage.name}, {clock(begin)} to {clock(end)}, {stage.status}{', not recorded' if unseen else ''}"
     return to_moment(

@@ -59,9 +59,9 @@ def tracks_bytes(trace: Trace) -> bytes:
     begin, end = trace.covers
     return tracks.tracks_bytes(
         shown_poses(trace),
-        times=trace.times - trace.head.time,
-        begin=trace.elapsed(begin),
-        end=trace.elapsed(end),
+        times=trace.times,
+        begin=begin,
+        end=end,
         lowest=scene.lowest(trace.scene),
     )
 

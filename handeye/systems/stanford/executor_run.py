@@ -60,7 +60,7 @@ class RunningPlan(RunningSystem):
     def __init__(self, setup: Setup, around: RunCallbacks) -> None:
         """Build the cell; InvalidInput if the plan is for another arm or the camera cannot work as asked."""
         self._setup, self._halt, self._viewed = setup, around.halt, around.viewed
-        self._anew, self._kept_until = around.calibrate, 0.0
+        self._anew, self._prepared, self._took_up = around.calibrate, 0.0, False
         self._unkept: str | None = None
         self.plan = plan_of(setup)
         self._eye, self.arm = task(setup.task).eye, task(setup.task).arm
@@ -120,8 +120,8 @@ class RunningPlan(RunningSystem):
         return self.state.unable
 
     @property
-    def kept_until(self) -> float:
-        return self._kept_until
+    def switched_on(self) -> float:
+        return 0.0 if self._took_up else -self._prepared
 
     @property
     def unkept(self) -> str | None:
@@ -137,6 +137,7 @@ class RunningPlan(RunningSystem):
         if self.trouble is not None:
             with suppress(PhysicsFailed):  # broken physics has no brakes either
                 self.context.drive.stop()
+        self._set_clock()
         return [self._started(), *self._friction(seconds)]
 
     def _prepare(self, eye: CameraSetup) -> float:
@@ -150,7 +151,8 @@ class RunningPlan(RunningSystem):
         if self.trouble is None:
             self._calibrate(eye)
         if self.trouble is None:
-            made = preparation_of(self.context, self._cell, seconds)
+            self._set_clock()
+            made = preparation_of(self.context, self._cell, self._prepared, seconds)
             take_up(made, self.context, self._cell)  # as a later run will
             if conditions is not None:
                 self._keep(kept, conditions, made)
@@ -162,9 +164,14 @@ class RunningPlan(RunningSystem):
             take_up(earlier, self.context, self._cell)
         except InvalidInput:
             return False
-        self._kept_until = self.time
+        self._prepared, self._took_up = earlier.seconds, True
         self._take_calibration()
         return True
+
+    def _set_clock(self) -> None:
+        """Let the clock show 0, as the program begins."""
+        self._prepared += self.time
+        self._cell.set_to_zero()
 
     def _keep(self, kept: KeptCalibrations, conditions: Conditions, made: Preparation) -> None:
         try:
@@ -186,6 +193,7 @@ class RunningPlan(RunningSystem):
             versions=versions(),
             replaced=self._setup.replaced or UNSET,
             without=self._setup.without or UNSET,
+            prepared=self._prepared,
         )
 
     def step(self) -> None:

@@ -23,7 +23,7 @@ from handeye.ports.camera import Renderer
 from handeye.systems.stanford.preparation import Conditions, Preparation
 
 MAGIC: Final = "handeye-calibration"
-VERSION: Final = 1
+VERSION: Final = 2
 ENDING: Final = ".calibration"
 LARGEST: Final = 1 << 20  # bytes of one file, also unpacked; a calibration for the water pump has some 6 kB
 MOST: Final = 1 << 24  # bytes of all files; beyond this the oldest are removed

@@ -30,16 +30,20 @@ class Preparation(Record, frozen=True, kw_only=True):
     drive: DriveState
     calibration: Calibration | None
     lens: float  # focal length of the lens in place, m
-    friction_s: float  # simulated time in which the arm measured its friction and weighed its links
+    seconds: float  # simulated time that it took
+    friction_s: float  # of these, the arm measured its friction and weighed its links
 
 
-def preparation_of(run: ExecutionContext, cell: SimulatedCell, friction_s: float) -> Preparation:
-    """The preparation that a run has just carried out."""
+def preparation_of(
+    run: ExecutionContext, cell: SimulatedCell, seconds: float, friction_s: float
+) -> Preparation:
+    """The preparation that a run has just carried out; the clock of the cell shows 0 by now."""
     return Preparation(
         cell=cell.capture(),
         drive=copied(run.state.drive),
         calibration=run.state.calibration,
         lens=run.state.lens,
+        seconds=seconds,
         friction_s=friction_s,
     )
 

@@ -128,7 +128,7 @@ def _differences(table: dict[str, Array]) -> dict[str, Vector3]:
 
 
 TOPICS: Final[Topics] = {
-    "time": ("time_s", lambda runner: runner.elapsed),
+    "time": ("time_s", lambda runner: runner.time),
     "joints": ("joints", _joints),
     "hand": ("hand", _hand),
     "force": ("force_oz", _force),

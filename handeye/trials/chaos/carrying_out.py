@@ -136,7 +136,7 @@ class ScheduleRunner:
         pause = paused_before(runner, stops) or attend(runner, self._operator, stops)  # type: ignore[arg-type]
         stopped = pause.kind in ("operator", "panic", "trouble")
         if stopped and runner.system.arm_cell is not None and not brakes_hold(runner.arm_cell):
-            self._unbraked.append(f"{pause.kind} at {runner.elapsed:.2f} s")
+            self._unbraked.append(f"{pause.kind} at {runner.time:.2f} s")
         return pause
 
     def _runner(self, button: Button) -> Runner:

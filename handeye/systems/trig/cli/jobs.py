@@ -152,7 +152,7 @@ def _carried_out(
     from handeye.runs.host_seconds import Meter
     from handeye.systems.trig.run.job import account, carry_out, job_of
 
-    meter = Meter(timer=HostTimer.of_process())
+    meter = Meter(timer=HostTimer.of_command())
     with notes.status("teaching") as status:
 
         def observers(runner: "Runner") -> "Sequence[Observer]":

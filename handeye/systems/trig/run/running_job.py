@@ -60,7 +60,7 @@ class RunningJob(RunningSystem):
         self._numbers = listing(self._plan).numbers
         self.job: TaughtJob = open_job(self._plan.job, setup.world, self._plan.script)
         self._state = TaughtState(at=0)
-        self._laid = False
+        self._laid, self._taught = False, 0.0
         self._sensed = sense_axes([self.job.axes])
         self._rest, self._felt = np.zeros(3), 0.0
 
@@ -89,6 +89,10 @@ class RunningJob(RunningSystem):
         return self.job.bench.now
 
     @property
+    def switched_on(self) -> float:
+        return -self._taught
+
+    @property
     def trouble(self) -> str | None:
         return None
 
@@ -96,6 +100,8 @@ class RunningJob(RunningSystem):
 
     def begin(self) -> Sequence[AnyEvent]:
         self.job.teach(self._ask)
+        self._taught = self.time
+        self.job.bench.set_to_zero()
         session = self.job.session
         session.desk = Script((), halted=self._around.halt)
         if [node.id for node in session.program.graph.steps()] != [step.node for step in self._steps]:
@@ -117,6 +123,7 @@ class RunningJob(RunningSystem):
                 task=self._setup.task,
                 camera=self.job.cell.renderer,
                 versions=versions(),
+                prepared=self._taught,
             )
         ]
 
