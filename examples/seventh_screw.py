@@ -25,7 +25,7 @@ print("new:", ", ".join(sorted({*after.record.program.positions} - {*before.reco
 
 if "run" in sys.argv:
     for plan in (before, after):
-        run = handeye.assemble(7_000_000, script=plan)
+        run = handeye.assemble(world=handeye.World(set={"pump.screws": 7}), script=plan)
         screws = run.result.referee["screws"]
         print(
             f"{screws.value:g} of {screws.limit:g} screws: {'assembled' if run.assembled else run.result.message}"

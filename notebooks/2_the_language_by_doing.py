@@ -132,7 +132,7 @@ print(f"{run.state.why}: found at place {run.state.memory.place + 1}, ({x:.2f}, 
 # %% [markdown]
 # ## A seventh screw
 #
-# The paper of 1973 says that one more screw is a matter of a few minutes. The pumps of seeds 7000000 and up have a
+# The paper of 1973 says that one more screw is a matter of a few minutes. A pump of a later make has a
 # seventh hole, of which the program knows nothing. How a screw is fetched and driven is a *macro* of the script,
 # `SCREW`, which takes the place of the screw, its hole, and its number. The last four are these lines:
 
@@ -162,8 +162,9 @@ print(
 print("new places:", sorted({*after.record.program.positions} - {*before.record.program.positions}))
 
 # %% [markdown]
-# Whether it is right, the referee says: `handeye.assemble(7_000_000, script=after)` assembles that pump, in a minute
-# of a processor, and finds seven screws in their threads; with `before` it finds six, and refuses the pump. The
+# Whether it is right, the referee says: `world = handeye.World(set={"pump.screws": 7})` is one with such a pump, and
+# `handeye.assemble(world=world, script=after)` assembles it, in a minute of a processor, and finds seven screws in
+# their threads; with `before` it finds six, and refuses the pump. The
 # [exercise](../docs/language/seventh-screw.md) does the same with a text editor and no Python.
 #
 # The whole language stands [on a page](../docs/language/README.md). The next notebook, [3. Beams, blobs and

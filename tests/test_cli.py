@@ -121,16 +121,35 @@ def test_a_plan_that_cannot_be_written_leaves_nothing_behind(command: Command, t
     assert [path.name for path in Path().iterdir()] == ["job.al"]
 
 
+SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
+
+
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("assemble", "--seed", "-1"), "a seed is a whole number from 0 up; -1 is not"),
+        (("assemble", "--seed", "-1"), f"{SEED}; -1 is not"),
         (("assemble", "--seed", "x"), "--seed: `x` is not a whole number"),
         (("assemble", "--camera", "film"), "--camera is one of auto, gl, ray; `film` is none of them"),
-        (("trials", "assembly", "--seeds", "9-3"), "'9-3' is neither"),
+        (("trials", "assembly", "--seeds", "9-3"), "`9-3` is neither"),
         (("trials", "assembly", "--seeds", "9" * 5000), "is neither"),
         (("trials", "assembly", "--seeds", "١-٣"), "is neither"),
-        (("trials", "assembly", "--seeds", "9" * 19), "the largest seed is"),
+        (("trials", "assembly", "--seeds", "9" * 19), f"{SEED}; {'9' * 19} is not"),
+        (("trials", "assembly", "--seeds", "3,,4"), "`` is neither"),
+        (("trials", "assembly", "--seeds", "0-5,3"), "--seeds names 3 twice"),
+        (("trials", "assembly", "--seeds", f"0-999999,{2**53 - 1}"), "at most 1,000,000 trials can be had"),
+        *(
+            ((*words, "--seed", str(2**53 - 1), "--n", "2"), f"{SEED}; 9007199254740992 is not")
+            for words in (
+                ("trials", "assembly"),
+                ("trials", "dismantling"),
+                ("trials", "base"),
+                ("trials", "disturbed"),
+                ("trials", "chaos", "--worlds", "1"),
+                ("trials", "pallet"),
+                ("faults",),
+            )
+        ),
+        (("bench", "insertion", "--seed", str(2**53 - 1), "--n", "11"), f"{SEED}; 9007199254740992 is not"),
         (("trials", "assembly", "--seeds", "3", "--n", "2"), "--seeds says both: leave --n and --seed out"),
         (
             ("trials", "assembly", "--n", "3", "--only", "3"),
@@ -150,7 +169,7 @@ def test_a_plan_that_cannot_be_written_leaves_nothing_behind(command: Command, t
             "a limit of time is a number of seconds above 0",
         ),
         (("trials", "assembly", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
-        (("trials", "assembly", "--seeds", f"0-{2**63 - 1}"), "at most 1,000,000 trials can be had"),
+        (("trials", "assembly", "--seeds", f"0-{2**53 - 1}"), "at most 1,000,000 trials can be had"),
         (("trials", "base", "9" * 20), "at most 1,000,000 worlds can be had"),
         (("trials", "pallet", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
         (("bench", "insertion", "--n", "9" * 20), "at most 1,000,000 trials can be had"),

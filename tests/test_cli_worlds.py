@@ -1,7 +1,7 @@
 """Worlds on the command line: the options that choose one, and the command that lists what is in it."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
@@ -9,9 +9,9 @@ from conftest import Command
 
 from handeye.cli.common import screen
 from handeye.cli.world_options import ErrorOptions, WorldOptions
-from handeye.core.variation import DRAWING, LARGEST_SEED, Overrides, WorldSpec
+from handeye.core.variation import DRAWING, LARGEST_SEED, Overrides, Quantity, WorldSpec
 from handeye.tasks import task
-from handeye.tasks.water_pump.world.variation import SEVENTH, variation
+from handeye.tasks.water_pump.world.variation import variation
 
 CHOSEN = ("--seed", "3", "--level", "high", "--without", "camera,base.x", "--set", "part_mass=5%")
 SPEC = {
@@ -42,9 +42,25 @@ def test_every_command_that_builds_a_world_has_the_same_options(command: Command
     assert offered == ["--seed", "--level", "--without", "--set"]
 
 
-@pytest.mark.parametrize("seed", [0, SEVENTH])
-def test_every_quantity_is_listed(command: Command, seed: int) -> None:
-    assert list(listed(command, "--seed", str(seed))) == list(variation(seed).quantities)
+SEVEN = ("--set", "pump.screws=7")
+SIX = variation().present({})
+
+
+@pytest.mark.parametrize(
+    ("words", "there"), [((), SIX), (("--seed", "7000000"), SIX), (SEVEN, variation().quantities)]
+)
+def test_every_quantity_is_listed(
+    command: Command, words: tuple[str, ...], there: Mapping[str, Quantity]
+) -> None:
+    assert list(listed(command, *words)) == list(there)
+
+
+def test_the_number_of_screws_is_a_choice_of_the_job_that_no_level_scales(command: Command) -> None:
+    found = [listed(command, "--level", level, *SEVEN)["pump.screws"] for level in ("low", "high")]
+    assert [(each["value"], each["distribution"], each["spread"]) for each in found] == 2 * [
+        (7.0, "choice", [6, 7])
+    ]
+    assert "pump.screws                          6       6 or 7\n" in command("world")[1]
 
 
 @pytest.mark.parametrize("columns", ["80", "120"])
@@ -52,7 +68,7 @@ def test_the_list_fits_the_terminal(command: Command, monkeypatch: pytest.Monkey
     monkeypatch.setenv("COLUMNS", columns)
     code, out, _ = command("world", *CHOSEN, "--without", "light,thread_phase")
     rows = [line.split() for line in out.splitlines() if line.startswith("  ")]
-    assert (code, [row[0] for row in rows]) == (0, list(variation(3).quantities))
+    assert (code, [row[0] for row in rows]) == (0, list(SIX))
     assert max(map(len, out.splitlines())) <= int(columns)
 
 
@@ -62,7 +78,7 @@ def test_the_list_is_whole_on_the_narrowest_terminal(
 ) -> None:
     monkeypatch.setenv("COLUMNS", columns)
     code, out, _ = command("world")
-    assert (code, [name for name in variation(0).quantities if name not in "".join(out.split())]) == (0, [])
+    assert (code, [name for name in SIX if name not in "".join(out.split())]) == (0, [])
 
 
 def test_no_columns_at_all_are_taken_for_the_usual_ones(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -112,7 +128,7 @@ def test_without_a_group_nothing_else_changes(command: Command) -> None:
         ),
         (
             ("--without", "weather"),
-            "the world has no quantity `weather`; there are `base`, `arm`, `hand`",
+            "the world has no quantity `weather`; there are `pump`, `base`, `arm`",
         ),
         (("--set", "part_mass"), "`part_mass` sets nothing; write NAME=VALUE"),
         (("--set", "part_mass=5kg"), "part_mass is not measured in `kg`; known: `%`"),
@@ -120,10 +136,20 @@ def test_without_a_group_nothing_else_changes(command: Command) -> None:
         (("--set", "part_mass=-95"), "part_mass cannot be `-95`; it can be -90 to 1000 %"),
         (("--set", "arm.pot_noise.1=-1"), "arm.pot_noise.1 cannot be `-1`; it can be 0 to 360 deg"),
         (("--set", "light.zenith=120"), "light.zenith cannot be `120`; it can be 0 to 89 deg"),
+        (("--set", "pump.screws=8"), "pump.screws cannot be set to 8: it can be 6 or 7"),
+        (("--set", "pump.screws=6.5"), "pump.screws cannot be set to 6.5: it can be 6 or 7"),
+        (
+            ("--set", "holes.base.7.x=.1"),
+            "the world has no quantity `holes.base.7.x`; with pump.screws set to 7 it has",
+        ),
+        (
+            ("--without", "thread_phase.7"),
+            "the world has no quantity `thread_phase.7`; with pump.screws set to 7 it has",
+        ),
         (("--set", "base.x=far"), "base.x cannot be `far`, which is not a number"),
         (
             ("--seed", str(LARGEST_SEED + 1)),
-            f"the largest seed is {LARGEST_SEED}; {LARGEST_SEED + 1} is larger",
+            "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1; 9007199254740992 is not",
         ),
     ],
 )
@@ -253,24 +279,27 @@ def test_every_fault_is_listed_with_its_size(
     names = [
         line.split()[0].split("=")[0] for line in out.splitlines() if line[:3].strip() and line[:2] == "  "
     ]
-    assert (code, names) == (0, [*task().faults(0).kinds, "panic"])
+    assert (code, names) == (0, [*task().faults(WorldSpec(seed=0)).kinds, "panic"])
     assert max(map(len, out.splitlines())) <= int(columns)
 
 
 def test_the_faults_that_are_named_are_listed_alone(command: Command) -> None:
     _, out, _ = command("faults", "--list", "--json", "--only", "pin", "--only", "panic")
     listed = {fault["name"]: fault["matrix"] for fault in json.loads(out)["faults"]}
-    catalogue = task().faults(0)
+    catalogue = task().faults(WorldSpec(seed=0))
     assert listed == {kind.name: kind.name in catalogue.matrix for kind in catalogue.select("pin")} | {
         "panic": True
     }
     assert command("faults", "--list", "--only", "lamp.dead")[1].splitlines()[0] == "lamp"
 
 
+LATER = WorldSpec(seed=0, overrides=Overrides(set={"pump.screws": 7.0}))
+
+
 def test_faults_are_listed_for_programs(command: Command) -> None:
-    _, out, _ = command("faults", "--list", "--json", "--seed", str(SEVENTH))
+    _, out, _ = command("faults", "--list", "--json", *SEVEN)
     known = {fault["name"]: fault for fault in json.loads(out)["faults"]}
-    assert list(known) == [*task().faults(SEVENTH).kinds, "panic"]
+    assert list(known) == [*task().faults(LATER).kinds, "panic"]
     assert known["gap_potentiometer.off"]["size"] == {"unit": "in", "usual": 0.5, "limits": [-4.0, 4.0]}
     assert known["lamp.dead"]["size"] is None
     assert known["gap_potentiometer.off"]["must"].startswith(

@@ -6,6 +6,8 @@ from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from handeye import tasks
 from handeye.api.exporting import exported
 from handeye.core import world_options
@@ -46,7 +48,7 @@ class World:
         """Choose a world.
 
         Args:
-            seed: draws it, from 0 up.
+            seed: draws it, a whole number from 0 to 2^53 - 1.
             level: how large its errors are: `low` half as large as `nominal`, `high` twice as large.
             without: quantities and groups (`arm`, `arm.offset`, `arm.offset.3`) that have their nominal values.
             set: values of quantities, or of each of a group: a number in the unit of the quantity, or a text with a
@@ -66,14 +68,11 @@ class World:
             raise BadArgument(f"`set` is a table of values by the names of quantities, not {set!r}")
         self._without, self._set = given_names(without, "`without`"), dict(set or {})
         self._faults = given_names(faults, "`faults`")
-        self._table, self._task = tasks.task(task).variation(number), task
+        self._table, self._task = tasks.task(task).variation(), task
         settings = [f"{name}={value}" for name, value in self._set.items()]
-        self._spec = WorldSpec(
-            seed=number,
-            level=level,
-            overrides=overrides(self._table, self._without, settings),
-            faults=world_options.faults(tasks.task(task).faults(number), self._faults, by_number),
-        )
+        spec = WorldSpec(seed=number, level=level, overrides=overrides(self._table, self._without, settings))
+        broken = world_options.faults(tasks.task(task).faults(spec), self._faults, by_number)
+        self._spec = replace(spec, faults=broken)
 
     @property
     def spec(self) -> WorldSpec:
@@ -145,8 +144,9 @@ class World:
         """The name of one quantity."""
         if not isinstance(name, str):
             raise BadArgument(f"a quantity is given by its name, not {name!r}")
+        found = self._table.select(name, self.spec.overrides.set)
         if name not in self._table.quantities:
-            group = [quantity.name for quantity in self._table.select(name)]
+            group = [quantity.name for quantity in found]
             raise BadArgument(f"`{name}` is a group of quantities: {', '.join(group)}")
         return name
 

@@ -2,19 +2,21 @@
 
 import re
 import shlex
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Sequence
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, positive, put_json, screen
+from handeye.cli.common import LONGEST_NUMBER, Camera, Json, WholeNumber, positive, put_json, screen
 from handeye.cli.programs import plan_or_own
 from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, Refused
+from handeye.core.variation import checked_seed
 from handeye.runs.operator import parse_policy
 from handeye.tasks import DEFAULT, option, planned
 
@@ -42,7 +44,10 @@ def assembly_trials(
     ] = None,
     seeds: Annotated[
         str | None,
-        Parameter(help="The same as --seed and --n: a range such as 0-19, or one number."),
+        Parameter(
+            help="In the place of --seed and --n: the worlds of the trials, as numbers and ranges with commas between "
+            "them, such as 20261126,0-19."
+        ),
     ] = None,
     errors: ErrorOptions = ANY_ERRORS,
     fault: Faults = None,
@@ -81,7 +86,7 @@ def assembly_trials(
     disagreed; 2: bad input; 130: interrupted.
     """
     from handeye.trials.plans.trial import ASSEMBLY, Trial
-    from handeye.trials.sweep import cases
+    from handeye.trials.sweep import Case
 
     if options.tables is not None and options.folder is None:
         raise BadArgument("--tables needs --out, the folder that they are left in")
@@ -96,7 +101,6 @@ def assembly_trials(
     senses, errors = errors.senses, errors.errors()
     record = plan_or_own(plan, errors.task)
     errors = errors.of(record.task)
-    errors.spec(chosen[-1])
     world = broken(errors.spec(chosen[0]), fault, errors.work, record.program)
     planned(errors.work).check_arm(record)
     if parse_policy(on_stop, record.program.stages) is None:
@@ -112,16 +116,20 @@ def assembly_trials(
         simulated_limit_s=simulated_limit,
         wall_limit_s=wall_limit,
     )
+    following = all(seed == chosen[0] + k for k, seed in enumerate(chosen))
+    where = (
+        f"worlds from {world} on" if following else f"{len(chosen)} worlds that were named, from {world} on"
+    )
     lacking = f", without {', '.join(senses)}" if senses else ""
     answered = "" if on_stop == "abort" else f", with {on_stop} where the operator is called"
     command = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
     return carry_out_sweep(
         ASSEMBLY,
         trial,
-        cases(world.seed, numbers),
-        trial.head(ASSEMBLY),
+        [Case(trials=(k,), seed=chosen[k]) for k in numbers],
+        trial.head(ASSEMBLY, seeds=() if following else tuple(chosen)),
         options,
-        title=f"{record.program.name} in worlds from {world} on{lacking}{answered}",
+        title=f"{record.program.name} in {where}{lacking}{answered}",
         plan=record,
         again=_again(
             trial,
@@ -178,7 +186,6 @@ def dismantling_trials(
         raise Refused(
             f"the referee of the task {quoted(record.task)} does not look at what the arm has undone"
         )
-    errors.spec(seed + n - 1)
     world = broken(errors.spec(seed), fault, errors.work, record.program)
     stage = "" if to is None else record.program.stages[stage_number(to, record.program)]
     trial = DismantlingTrial(plan=record, world=world, camera=camera, without=senses, to=stage)
@@ -226,18 +233,40 @@ def compare_trials(
     return 0
 
 
-def _chosen(n: int | None, seed: int | None, seeds: str | None) -> range:
-    """The seeds of a batch."""
+def _chosen(n: int | None, seed: int | None, seeds: str | None) -> Sequence[int]:
+    """The seeds of a batch; raises BadArgument."""
     if seeds is None:
         first, count = seed or 0, COUNT if n is None else n
         positive(count, "trial")
-        return range(first, first + count)
+        return _seeds(first, first + count - 1)
     if n is not None or seed is not None:
         raise BadArgument("--seeds says both: leave --n and --seed out, or --seeds")
-    found = re.fullmatch(r"([0-9]{1,19})(?:-([0-9]{1,19}))?", seeds)
+    ranges = [_range(part) for part in seeds.split(",")]
+    if len(ranges) == 1:
+        return ranges[0]
+    positive(sum(map(len, ranges)), "trial")
+    found = [each for part in ranges for each in part]
+    twice = next((each for each, times in Counter(found).items() if times > 1), None)
+    if twice is not None:
+        raise BadArgument(f"--seeds names {twice} twice")
+    return found
+
+
+def _range(text: str) -> range:
+    """The seeds of a number or a range as typed; raises BadArgument."""
+    found = re.fullmatch(f"([0-9]{{1,{LONGEST_NUMBER}}})(?:-([0-9]{{1,{LONGEST_NUMBER}}}))?", text.strip())
     first, last = (0, -1) if found is None else (int(found[1]), int(found[2] or found[1]))
     if last < first:
-        raise BadArgument(f"seeds are given as a number or a range such as 0-19; {seeds!r} is neither")
+        raise BadArgument(
+            f"seeds are numbers and ranges such as 20261126,0-19; {quoted(text)} is neither a number nor a range"
+        )
+    return _seeds(first, last)
+
+
+def _seeds(first: int, last: int) -> range:
+    """The seeds from one to another; raises BadArgument if there are none such, or too many."""
+    checked_seed(first)
+    checked_seed(last)
     positive(last - first + 1, "trial")
     return range(first, last + 1)
 

@@ -51,7 +51,7 @@ def faults(
     from handeye.trials.sweep import cases
 
     spec = world.spec
-    catalogue = with_panic(world.work.faults(spec.seed))
+    catalogue = with_panic(world.work.faults(spec))
     if every and only:
         raise BadArgument("--all excludes --only")
     if listed and (stage is not None or options.out is not None):

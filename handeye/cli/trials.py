@@ -226,7 +226,8 @@ def chaos_trials(
 
     for number, what in ((count, "schedule"), (worlds, "world"), (options.jobs, "worker")):
         positive(number, what)
-    checked_seed(seed + worlds)
+    checked_seed(seed)
+    checked_seed(seed + max(worlds, count) - 1)
     options.check()
     given = [parse_schedule(text) for text in schedule or ()]
     setup = _own_setup(task, camera)

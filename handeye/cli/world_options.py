@@ -82,7 +82,7 @@ class ErrorOptions:
             raise BadArgument(
                 f"`{lacking}` is a sense and no error of the world: here, no program can go without it"
             )
-        wanted = overrides(self.work.variation(seed), off, self.settings or ())
+        wanted = overrides(self.work.variation(), off, self.settings or ())
         return WorldSpec(seed=seed, level=self.level, overrides=wanted)
 
     @property
@@ -129,7 +129,8 @@ class WorldOptions:
         int | None,
         Parameter(
             converter=whole,
-            help="Number of the world: draws where things lie, and every error. By default 0.",
+            help="A random number from 0 to 2^53 - 1, that the world is drawn from: where things lie, and every error. "
+            "It means nothing else; a date does as well as 3. By default 0.",
         ),
     ] = None
     errors: Annotated[ErrorOptions, Parameter(name="*")] = ErrorOptions()
@@ -178,7 +179,7 @@ def broken(
     if not options:
         return world
     stage = from_start_only if listing is None else stage_of(listing)
-    found = faults(work.faults(world.seed), options, stage)
+    found = faults(work.faults(world), options, stage)
     return msgspec.structs.replace(world, faults=found)
 
 

@@ -69,7 +69,7 @@ def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
     from handeye.results.world_page import world_json, world_page
 
     spec = world.spec
-    table = world.work.variation(spec.seed)
+    table = world.work.variation()
     drawn = table.draw(spec)
     if json:
         put(world_json(table, drawn))

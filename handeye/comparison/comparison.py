@@ -15,6 +15,7 @@ from handeye.core.errors import BadFile
 from handeye.core.faults import Fault
 from handeye.core.record import Record
 from handeye.core.units import INCHES, Measures
+from handeye.core.variation import WorldSpec
 from handeye.program.events import RunStarted, StepStarted
 from handeye.report.facts.again import written
 from handeye.report.facts.outcome import Kind, outcome
@@ -61,18 +62,18 @@ def _conditions(begun: RunStarted) -> Iterator[tuple[str, str]]:
 
 def _world(begun: RunStarted) -> Iterator[tuple[str, str]]:
     world, task = begun.world, known(begun.task)
-    quantities = {} if task is None else task.variation(world.seed).quantities
+    quantities = {} if task is None else task.variation().quantities
     yield "drawing of the world", f"{world.drawing}"
     yield "seed", f"{world.seed}"
     yield "level", world.level
     yield "switched off", ", ".join(world.overrides.without) or _NONE
     yield from ((name, written(quantities.get(name), value)) for name, value in world.overrides.set.items())
-    yield from ((f"fault {fault.name}", _fault(task, world.seed, fault)) for fault in world.faults)
+    yield from ((f"fault {fault.name}", _fault(task, world, fault)) for fault in world.faults)
 
 
-def _fault(task: Task | None, seed: int, fault: Fault) -> str:
+def _fault(task: Task | None, world: WorldSpec, fault: Fault) -> str:
     """A fault as on the command line, where its task is known."""
-    catalogue = None if task is None else task.faults(seed)
+    catalogue = None if task is None else task.faults(world)
     return str(fault) if catalogue is None or fault.name not in catalogue.kinds else catalogue.written(fault)
 
 

@@ -102,6 +102,18 @@ class Phase(Distribution):
         return float(rng.uniform(0.0, FULL_TURN_DEG))
 
 
+@dataclass(frozen=True, slots=True)
+class Choice(Distribution):
+    """A choice of the job, drawn by no seed: the nominal value, unless it is set to another of `values`."""
+
+    name = "choice"
+    is_error = False
+    values: tuple[float, ...]
+
+    def draw(self, rng: np.random.Generator, nominal: float) -> float:
+        return nominal
+
+
 def random_numbers(seed: int, name: str) -> np.random.Generator:
     """The stream of a name in the world of a seed."""
     return np.random.default_rng(np.random.SeedSequence([seed, crc32(name.encode())]))

@@ -18,7 +18,7 @@ import numpy as np
 
 from handeye.core.arguments import whole
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.distributions import Distribution, random_numbers
+from handeye.core.distributions import Choice, Distribution, random_numbers
 from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.core.faults import Fault
 from handeye.core.record import Record
@@ -26,7 +26,13 @@ from handeye.core.units import UNITS, Unit
 
 DRAWING: Final = 4  # version of the drawing: raised when equal seeds give other worlds
 
-LARGEST_SEED: Final = (1 << 63) - 1  # 64 bits with sign, as on disk
+LARGEST_SEED: Final = (
+    1 << 53
+) - 1  # the largest that every reader of JSON keeps, also one whose numbers are doubles
+Seed = Annotated[int, msgspec.Meta(ge=0, le=LARGEST_SEED)]
+"""A random number that a world is drawn from: no seed means anything."""
+
+_LONG: Final = 10**40  # what has more digits is not repeated to a person
 
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}  # factors on errors
@@ -41,6 +47,8 @@ class Quantity:
     distribution: Distribution
     nominal: float = 0.0  # its value when switched off
     limits: tuple[float, float] = (-np.inf, np.inf)  # range it can be set to
+    where: tuple[str, float] | None = None
+    """Name and value (SI) of the choice with which worlds have it; None: all have it."""
     source: str  # meaning, and source of its figures
 
     @property
@@ -49,6 +57,12 @@ class Quantity:
 
     def check(self, value: float) -> None:
         """Raise BadArgument unless it can be set to a value, SI."""
+        if isinstance(self.distribution, Choice):
+            if type(value) not in (int, float) or value not in self.distribution.values:
+                known = " or ".join(f"{each:g}" for each in self.distribution.values)
+                told = f"{value:g}" if isinstance(value, float) else repr(value)
+                raise BadArgument(f"{self.name} cannot be set to {told}: it can be {known}")
+            return
         low, high = (limit * self.measure.size for limit in self.limits)
         if type(value) not in (int, float) or not low <= value <= high:  # not a number is not between two
             raise BadArgument(
@@ -66,11 +80,15 @@ class Overrides(Record, frozen=True, kw_only=True):
 class WorldSpec(Record, frozen=True, kw_only=True):
     """The complete specification of a world, as a run records it: equal specifications give equal worlds."""
 
-    seed: Annotated[int, msgspec.Meta(ge=0)]
+    seed: Seed
     level: Level = "nominal"
     overrides: Overrides = Overrides()
     faults: tuple[Fault, ...] = ()  # sorted by name
     drawing: int = DRAWING  # version of the drawing
+
+    def __post_init__(self) -> None:
+        """Raises BadArgument if there is no such seed."""
+        checked_seed(self.seed)
 
     def __str__(self) -> str:
         level = "" if self.level == "nominal" else f"level {self.level}"
@@ -111,26 +129,50 @@ class Variation:
             "two share a stream"
         )
         assert not self.groups & self.quantities.keys(), "a name stands for a quantity and for a group"
+        choices = {q.name for q in quantities if isinstance(q.distribution, Choice)}
+        assert {q.where[0] for q in quantities if q.where} <= choices, "one depends on what is no choice"
 
     @cached_property
     def groups(self) -> frozenset[str]:
         parts = [name.split(".") for name in self.quantities]
         return frozenset(".".join(part[:n]) for part in parts for n in range(1, len(part)))
 
-    def select(self, name: str) -> tuple[Quantity, ...]:
-        """The quantity of a name, or those of a group; raises NoSuchName."""
+    def present(self, values: Mapping[str, float]) -> dict[str, Quantity]:
+        """The quantities of worlds in which these are set to these values (SI), by name."""
+        return {name: q for name, q in self.quantities.items() if self._is_there(q, values)}
+
+    def _is_there(self, quantity: Quantity, values: Mapping[str, float]) -> bool:
+        if quantity.where is None:
+            return True
+        choice, wanted = quantity.where
+        return values.get(choice, self.quantities[choice].nominal) == wanted
+
+    def select(self, name: str, values: Mapping[str, float] | None = None) -> tuple[Quantity, ...]:
+        """The quantity of a name, or those of a group; raises NoSuchName.
+
+        Args:
+            values: what is set in the world that must have them, SI; None: any world may have them.
+        """
         found = tuple(q for q in self.quantities.values() if within(q.name, name))
+        there = [q for q in found if values is None or self._is_there(q, values)]
+        if found and not there:
+            assert found[0].where is not None
+            choice, wanted = found[0].where
+            raise NoSuchName(
+                f"the world has no quantity {quoted(name)}; with {choice} set to {wanted:g} it has"
+            )
         if not found:
             first = dict.fromkeys(known.split(".")[0] for known in self.quantities)
             near = suggestion(name, {*self.quantities, *self.groups})
             known = near or f"there are {', '.join(map(quoted, first))}"
             raise NoSuchName(f"the world has no quantity {quoted(name)}; {known}")
-        return found
+        return tuple(there)
 
     def draw(self, spec: WorldSpec) -> World:
         """The world of a specification; raises BadArgument if it cannot be drawn here."""
         self.check(spec)
-        return World(spec=spec, values={name: self.value(name, spec) for name in self.quantities})
+        there = self.present(spec.overrides.set)
+        return World(spec=spec, values={name: self.value(name, spec) for name in there})
 
     def value(self, name: str, spec: WorldSpec) -> float:
         """One quantity of a world, SI."""
@@ -151,10 +193,10 @@ class Variation:
                 "seed, so begin the run again"
             )
         for name in spec.overrides.without:
-            self.select(name)
+            self.select(name, spec.overrides.set)
         for name in spec.overrides.set:
+            self.select(name, spec.overrides.set)
             if name not in self.quantities:
-                self.select(name)
                 raise BadArgument(f"{quoted(name)} is a group of quantities, which cannot have one value")
             self.quantities[name].check(spec.overrides.set[name])
 
@@ -176,8 +218,7 @@ def drawn(quantity: Quantity, level: Level, stream: np.random.Generator) -> floa
 def checked_seed(seed: object) -> int:
     """A seed as a plain number; raises BadArgument."""
     number = whole(seed)
-    if number is None or number < 0:
-        raise BadArgument(f"a seed is a whole number from 0 up; {seed!r} is not")
-    if number > LARGEST_SEED:
-        raise BadArgument(f"the largest seed is {LARGEST_SEED}; {seed} is larger")
+    if number is None or not 0 <= number <= LARGEST_SEED:
+        told = repr(seed) if number is None or abs(number) < _LONG else "a longer one"
+        raise BadArgument(f"a seed is a whole number from 0 to {LARGEST_SEED}, or 2^53 - 1; {told} is not")
     return number

@@ -34,21 +34,30 @@ class WritableQuantity(Protocol):
 
 def overrides(variation: Variation, without: Iterable[str], settings: Iterable[str]) -> Overrides:
     """Overrides from names to put at nominal values, and `NAME=VALUE`, of which later ones win; raises BadArgument."""
-    off = sorted(set(without))
-    for name in off:
-        variation.select(name)
-    widest = (name for name in off if not any(group != name and within(name, group) for group in off))
-    values: dict[str, float] = {}
+    off, values = sorted(set(without)), dict[str, float]()
+    names = [*off]
     for setting in settings:
-        values |= _setting(variation, setting)
-    return Overrides(without=tuple(widest), set=dict(sorted(values.items())))
+        name, each = _setting(variation, setting)
+        values |= each
+        names.append(name)
+    for name in names:
+        variation.select(name, values)
+    there = variation.present(values)
+    widest = (name for name in off if not any(group != name and within(name, group) for group in off))
+    return Overrides(
+        without=tuple(widest), set={name: values[name] for name in sorted(values) if name in there}
+    )
 
 
-def _setting(variation: Variation, text: str) -> dict[str, float]:
+def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:
+    """Name of a quantity or group, and the values of those that any world has of it."""
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:
         raise BadArgument(f"{quoted(text)} sets nothing; write NAME=VALUE")
-    return {quantity.name: value_of(quantity, value) for quantity in variation.select(name)}
+    values = {quantity.name: value_of(quantity, value) for quantity in variation.select(name)}
+    for quantity_name, each in values.items():
+        variation.quantities[quantity_name].check(each)
+    return name, values
 
 
 def value_of(quantity: WritableQuantity, text: str) -> float:

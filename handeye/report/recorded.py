@@ -70,5 +70,5 @@ def told_faults(run: RecordedRun) -> Iterator[tuple[str, str]]:
         if task is None:
             yield str(fault), ""
         else:
-            catalogue = task.faults(world.seed)
+            catalogue = task.faults(world)
             yield catalogue.written(fault), catalogue.kind(fault.name).meaning

@@ -49,7 +49,7 @@ def told_faults(result: Result) -> Iterator[str]:
     """The faults that a run was given, each as it would be typed."""
     task = known(result.task)
     for fault in result.world.faults:
-        yield str(fault) if task is None else task.faults(result.seed).written(fault)
+        yield str(fault) if task is None else task.faults(result.world).written(fault)
 
 
 def printable(result: Result) -> Result:

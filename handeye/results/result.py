@@ -10,7 +10,7 @@ from msgspec import UNSET, UnsetType
 from handeye.core.errors import BadFile
 from handeye.core.files import read_whole
 from handeye.core.record import Record
-from handeye.core.variation import WorldSpec
+from handeye.core.variation import Seed, WorldSpec
 from handeye.judge.finding import Finding, Relation
 from handeye.program.senses import Sense
 
@@ -141,7 +141,7 @@ class Result(Record, frozen=True, kw_only=True):
     """Findings by name; empty if the referee was not asked or the program did not end: see `message`."""
     task: str
     program: str
-    seed: int
+    seed: Seed
     world: WorldSpec
     camera: CameraReport
     versions: dict[str, str]

@@ -9,7 +9,7 @@ import msgspec
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from handeye.core.distributions import Fixed, Noise, Normal, Range, Step, Uniform
+from handeye.core.distributions import Choice, Fixed, Noise, Normal, Range, Step, Uniform
 from handeye.core.variation import SPREADS, Quantity, Variation, World, WorldSpec
 
 
@@ -21,8 +21,8 @@ class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
     unit: str
     si: float
     distribution: str
-    spread: float | tuple[float, float] | None
-    """Sigma, half range or size at the level of this world; least and greatest of a range."""
+    spread: float | tuple[float, ...] | None
+    """Sigma, half range or size at the level of this world; least and greatest of a range; what a choice can be."""
     nominal: float
     override: Literal["off", "set"] | None
     source: str  # What it is, with others of its kind, and where that is from
@@ -63,7 +63,7 @@ def world_page(table: Variation, world: World, columns: int) -> RenderableType:
 
 def _reported(table: Variation, world: World) -> Iterator[QuantityReport]:
     off = {q.name for name in world.spec.overrides.without for q in table.select(name)}
-    for name, quantity in table.quantities.items():
+    for name, quantity in table.present(world.spec.overrides.set).items():
         given: Literal["off", "set"] | None = "off" if name in off else None
         yield QuantityReport(
             name=name,
@@ -78,8 +78,10 @@ def _reported(table: Variation, world: World) -> Iterator[QuantityReport]:
         )
 
 
-def _spread(quantity: Quantity, factor: float) -> float | tuple[float, float] | None:
+def _spread(quantity: Quantity, factor: float) -> float | tuple[float, ...] | None:
     match quantity.distribution:
+        case Choice(values):
+            return values
         case Range(low, high):
             return low, high
         case Step(spread):
@@ -104,6 +106,8 @@ def _how(quantity: QuantityReport) -> str:
     unit = quantity.unit and f" {quantity.unit}"
     about = f" about {quantity.nominal:g}{unit}" if quantity.nominal else ""
     match quantity.spread:
+        case tuple(values) if quantity.distribution == Choice.name:
+            return " or ".join(f"{value:g}{unit}" for value in values)
         case (low, high):
             return f"{low:g} to {high:g}{unit}"
         case float(spread) if quantity.distribution == Normal.name:

@@ -96,11 +96,11 @@ class AnyTask(ABC):
         """Names of the arm's joints, and whether each turns or slides."""
 
     @abstractmethod
-    def variation(self, seed: int) -> Variation:
-        """The quantities in which worlds differ; some seeds may stand for worlds of another make."""
+    def variation(self) -> Variation:
+        """The quantities in which worlds differ."""
 
-    def faults(self, seed: int) -> Catalogue:
-        """The faults possible in the world of a seed; none by default."""
+    def faults(self, world: WorldSpec) -> Catalogue:
+        """The faults possible in a world; none by default."""
         return Catalogue()
 
     @abstractmethod

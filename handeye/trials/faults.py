@@ -127,8 +127,9 @@ class FaultWork:
 
     def __call__(self, case: Case) -> list[FaultRow]:
         """Carry out one run with its fault, or with the panic button hit in it."""
-        fault, catalogue = self.faults[case.condition], with_panic(task(self.plan.task).faults(case.seed))
+        fault = self.faults[case.condition]
         world = msgspec.structs.replace(self.world, seed=case.seed, faults=(fault,))
+        catalogue = with_panic(task(self.plan.task).faults(world))
         if fault.name == PANIC.name:
             button = PanicInStage((fault.stage or 1) - 1)
             sound = msgspec.structs.replace(world, faults=())

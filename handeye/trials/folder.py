@@ -12,7 +12,7 @@ from handeye.core.errors import BadArgument, BadFile, CannotWrite, NoSuchName
 from handeye.core.files import LineFile, read_whole
 from handeye.core.plain_text import counted
 from handeye.core.record import Record
-from handeye.core.variation import WorldSpec
+from handeye.core.variation import Seed, WorldSpec
 from handeye.core.versions import code_digest, versions
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest, read_plan, write_plan
@@ -49,7 +49,7 @@ T = TypeVar("T", bound=Record)
 TRIALS: Final = "trials.jsonl"
 PLAN: Final = "plan.json"
 _NAMES: Final = {
-    "kind": "work", "plan": "plan", "world": "worlds", "camera": "camera", "without": "senses",
+    "kind": "work", "plan": "plan", "world": "worlds", "seeds": "seeds", "camera": "camera", "without": "senses",
     "on_stop": "answers of the operator",
     "simulated_limit_s": "limit of simulated time", "versions": "versions", "code": "program",
 }  # fmt: skip
@@ -63,7 +63,8 @@ class Head(Record, frozen=True, kw_only=True):
     version: Literal[2] = 2
     kind: str
     world: WorldSpec
-    """The world of trial 0; that of trial k has a seed greater by k, unless trials share worlds."""
+    """The world of trial 0; that of trial k has a seed greater by k, unless `seeds` has it or trials share worlds."""
+    seeds: tuple[Seed, ...] = ()  # Of the trials, if they do not follow each other
     plan: str = ""  # Digest of the plan; empty: there is none
     program: str = ""
     camera: str = ""
@@ -74,6 +75,12 @@ class Head(Record, frozen=True, kw_only=True):
     """Further settings that decide the trials, by their names for people."""
     versions: dict[str, str]
     code: str  # Digest of handeye and its scenes
+
+    def seed_of(self, trial: int) -> int | None:
+        """The seed of the world of a trial; None if there is no such trial."""
+        if not self.seeds:
+            return self.world.seed + trial
+        return self.seeds[trial] if trial < len(self.seeds) else None
 
     def differs(self, other: "Head") -> list[str]:
         """Names of fields that differ in another one."""
@@ -150,7 +157,7 @@ def read_batch(path: Path) -> tuple[Head, tuple[Any, ...]]:
 def _rows(file: Path, head: Head, sweep: Sweep[R], lines: list[bytes]) -> tuple[R, ...]:
     rows = [_decoded(line, sweep.row, file, number) for number, line in enumerate(lines, 2)]
     for number, row in enumerate(rows, 2):
-        if not sweep.shared_worlds and row.seed != head.world.seed + row.trial:
+        if not sweep.shared_worlds and row.seed != head.seed_of(row.trial):
             raise BadFile(f"{file}, line {number}, has the seed {row.seed}, which trial {row.trial} has not")
     return tuple(sorted({row.key: row for row in rows}.values(), key=lambda row: row.key))
 

@@ -177,7 +177,7 @@ class InsertionWork:
 def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[Case]:
     """Trials of each condition, ten in each world from a seed on; raises InvalidInput if one cannot be tried."""
     for condition in conditions:
-        bench().variation(seed).check(WorldSpec(seed=seed, overrides=Overrides(set=condition.hole)))
+        bench().variation().check(WorldSpec(seed=seed, overrides=Overrides(set=condition.hole)))
     return [
         Case(
             trials=tuple(range(first, min(first + TRIALS_A_WORLD, n))),

@@ -14,6 +14,7 @@ import msgspec
 
 from handeye.core.host_time import HostTimer
 from handeye.core.record import Record
+from handeye.core.variation import Seed, checked_seed
 from handeye.trials.workers import Answer, answers
 
 if TYPE_CHECKING:
@@ -40,15 +41,19 @@ class Case(Record, frozen=True, kw_only=True):
     """Trials that are carried out together, in one world."""
 
     trials: tuple[int, ...]  # Their numbers among the trials of the condition, from 0
-    seed: int
+    seed: Seed
     condition: str = ""  # Condition under which they run; empty: there is only one
+
+    def __post_init__(self) -> None:
+        """Raises BadArgument if there is no such seed."""
+        checked_seed(self.seed)
 
 
 class TrialRow(Record, frozen=True, kw_only=True):
     """Record of one trial. Equal trials have equal rows, but for host seconds and killed processes."""
 
     trial: Annotated[int, msgspec.Meta(ge=0)]
-    seed: Annotated[int, msgspec.Meta(ge=0)]
+    seed: Seed
     condition: str = ""
     ended: Ended = "ended"
     raised: str = ""  # Type and words of the exception

@@ -81,10 +81,27 @@ def test_a_quantity_is_found_by_its_whole_name() -> None:
 
 def test_a_world_says_what_its_quantities_are() -> None:
     world = handeye.World(3)
-    first = world.quantities[0]
+    screws, first = world.quantities[:2]
+    assert (screws.name, screws.value, screws.distribution) == ("pump.screws", 6.0, "choice")
     assert (first.name, first.value, first.unit) == ("base.x", world["base.x"], "in")
     assert first.source.startswith("Where the pump base lies on the belt")
     assert [each.name for each in world.quantities] == [*world.values]
+
+
+def test_a_world_of_a_pump_with_seven_screws_has_the_quantities_of_the_seventh() -> None:
+    seven = handeye.World(
+        2**53 - 1, set={"pump.screws": 7, "holes.top.7.x": ".001 in"}, faults=["screw.7.missing"]
+    )
+    assert (seven["pump.screws"], seven["holes.top.7.x"], len(seven.values)) == (
+        7.0,
+        0.001,
+        len(handeye.World().values) + 9,
+    )
+    with pytest.raises(
+        InvalidInput,
+        match=r"^the world has no quantity `holes\.top\.7\.x`; with pump\.screws set to 7 it has$",
+    ):
+        handeye.World()["holes.top.7.x"]
 
 
 @pytest.mark.slow

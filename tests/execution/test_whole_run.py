@@ -161,7 +161,7 @@ def test_a_pump_that_somebody_moves_behind_the_last_touch_is_not_done(folder: Pa
     runner = Runner(before)
     while runner.next is None or not runner.next.text.startswith("LOOK    DONE"):
         runner.step()
-    given = faults(task().faults(setup.world.seed), [f"{fault}@{len(STAGES)}"], by_number)
+    given = faults(task().faults(setup.world), [f"{fault}@{len(STAGES)}"], by_number)
     moved = Runner(with_faults(runner.checkpoint(), given))
     paused = advance(moved)
     matches = [event.ok for event in moved.events if isinstance(event, PartMatched)]

@@ -156,5 +156,5 @@ def test_senses_are_told_from_errors_of_the_world() -> None:
 
 
 def test_no_error_of_the_world_has_the_name_of_a_sense() -> None:
-    variation = task().variation(0)
+    variation = task().variation()
     assert {*SENSES} & {*variation.quantities, *variation.groups} == set()

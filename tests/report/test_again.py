@@ -7,6 +7,7 @@ import msgspec
 import pytest
 from report_pages import recorded
 
+from handeye.core.faults import Fault
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.core.world_options import faults, from_start_only, overrides
 from handeye.report.facts.again import command
@@ -30,10 +31,14 @@ def world_of(words: list[str]) -> WorldSpec:
     for name, value in zip(words[::2], words[1::2], strict=True):
         told.setdefault(name, []).append(value)
     seed = int(told["--seed"][0])
-    broken = faults(task().faults(seed), told.get("--fault", []), from_start_only)
-    changed = overrides(task().variation(seed), told.get("--without", []), told.get("--set", []))
+    changed = overrides(task().variation(), told.get("--without", []), told.get("--set", []))
     level = told.get("--level", ["nominal"])[0]
-    return msgspec.convert({"seed": seed, "level": level, "overrides": changed, "faults": broken}, WorldSpec)
+    world = msgspec.convert({"seed": seed, "level": level, "overrides": changed}, WorldSpec)
+    broken = faults(task().faults(world), told.get("--fault", []), from_start_only)
+    return msgspec.structs.replace(world, faults=broken)
+
+
+SEVEN = WorldSpec(seed=2**53 - 1, overrides=Overrides(set={"pump.screws": 7.0}))
 
 
 @pytest.mark.parametrize(
@@ -43,7 +48,10 @@ def world_of(words: list[str]) -> WorldSpec:
         WorldSpec(seed=3, level="high"),
         WorldSpec(seed=3, overrides=Overrides(without=("arm.friction",), set={"camera.place.x": 0.00762})),
         WorldSpec(seed=3, overrides=Overrides(set={"camera.place.x": 0.1 + 0.2 - 0.3 + 1 / 300})),
-        WorldSpec(seed=3, faults=faults(task().faults(3), ["gasket.off.x=6mm", "pin.1.missing"], from_start_only)),
+        WorldSpec(
+            seed=3, faults=faults(task().faults(SEVEN), ["gasket.off.x=6mm", "pin.1.missing"], from_start_only)
+        ),
+        msgspec.structs.replace(SEVEN, faults=(Fault(name="screw.7.missing"),)),
     ],
     ids=str,
 )  # fmt: skip

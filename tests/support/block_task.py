@@ -74,7 +74,7 @@ class Block(Task):
     park = np.array([24.0, 18.0, 0.0]) * INCH + np.array([0.0, 0.0, 0.8 - 12 * INCH])
     words = Words(product="the block", done="The block stands where it should.")
 
-    def variation(self, seed: int) -> Variation:
+    def variation(self) -> Variation:
         return VARIATION
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:

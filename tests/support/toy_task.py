@@ -19,7 +19,7 @@ class Counting(AnyTask):
     words = Words(product="the count", done="All is counted.")
     joint_kinds: Mapping[str, Literal["revolute", "prismatic"]] = {}
 
-    def variation(self, seed: int) -> Variation:
+    def variation(self) -> Variation:
         return Variation()
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:

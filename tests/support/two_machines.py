@@ -191,7 +191,7 @@ class BenchTask(AnyTask):
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
         return dict.fromkeys(TwoMachines.joints, "prismatic")
 
-    def variation(self, seed: int) -> Variation:
+    def variation(self) -> Variation:
         return Variation()
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:

@@ -75,9 +75,9 @@ class Whole:
         return sum(event.seconds for event in self.events if isinstance(event, CameraBusy))
 
 
-def whole_run(plan: Plan, seed: int) -> Whole:
-    """The plan, carried out in the drawn world of a seed."""
-    finished = run_plan(plan, world=WorldSpec(seed=seed))
+def whole_run(plan: Plan, world: WorldSpec) -> Whole:
+    """The plan, carried out in a drawn world."""
+    finished = run_plan(plan, world=world)
     return Whole(result=finished.result, runner=finished.runner)
 
 

@@ -13,13 +13,12 @@ from handeye.cell.threads import holes_of
 from handeye.core.resources import plans
 from handeye.core.source import Source
 from handeye.core.units import DEGREE, INCH
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan
 from handeye.planning.planner import make_plan
 from handeye.program.program import Position
 from handeye.program.taught import load_taught
-from handeye.tasks.water_pump.world.pump_world import PumpWorld
-from handeye.tasks.water_pump.world.variation import SEVENTH
 
 pytestmark = pytest.mark.slow
 
@@ -27,6 +26,7 @@ DOC = (Path(__file__).parents[2] / "docs/language/seventh-screw.md").read_text(e
 LESSON = re.findall(r"^teach> (.*)$", DOC, re.MULTILINE)
 (WHERE,) = re.findall(r"^ +TRANS +S7 .*\n", DOC, re.MULTILINE)
 (SCREW,) = re.findall(r"^ +SCREW +S7 .*\n", DOC, re.MULTILINE)
+(SETTING,) = (words.split() for words in re.findall(r"^\$ handeye teach seven.al (.*)$", DOC, re.MULTILINE))
 PUMP = (plans() / "water_pump.al").read_text(encoding="utf-8")
 BEHIND = PUMP.rindex("        RACK")
 
@@ -57,7 +57,7 @@ def planned(text: str, hole: Position) -> Plan:
 
 def test_the_lesson_teaches_the_position_that_the_exercise_shows(command: Command, hole: Position) -> None:
     Path("seven.toml").write_text((plans() / "water_pump.toml").read_text(encoding="utf-8"))
-    code, _, _ = command("teach", "seven.al", "--seed", str(SEVENTH), typed="\n".join(LESSON) + "\n")
+    code, _, _ = command("teach", "seven.al", *SETTING, typed="\n".join(LESSON) + "\n")
     assert code == 0
     taught = load_taught("seven.toml").positions["H6"]
     assert taught.of == "PUMP"
@@ -76,7 +76,9 @@ def test_the_script_makes_a_plan_that_differs_by_one_screw(hole: Position) -> No
 @pytest.fixture(scope="module")
 def whole(hole: Position) -> Whole:
     """The pump of the later make, assembled by the program with what the exercise adds to it."""
-    return whole_run(planned(edited(), hole), SEVENTH)
+    return whole_run(
+        planned(edited(), hole), WorldSpec(seed=0, overrides=Overrides(set={"pump.screws": 7.0}))
+    )
 
 
 @pytest.mark.row(57, drawn=1)
@@ -100,7 +102,3 @@ def test_row_58_the_times_of_another_run_add_up(whole: Whole) -> None:
     assert sum(stage.arm_s for stage in result.stages) == pytest.approx(timing.manipulation_s, abs=0.1)
     assert timing.working_s == pytest.approx(timing.manipulation_s + whole.lens(), abs=0.01)
     assert timing.vision_cpu_s < 0.02 * timing.working_s
-
-
-def test_worlds_below_the_later_make_have_six_screws() -> None:
-    assert [PumpWorld.sample(seed).screws for seed in (0, SEVENTH - 1, SEVENTH)] == [6, 6, 7]

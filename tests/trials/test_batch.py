@@ -97,6 +97,47 @@ def test_a_batch_goes_on_where_it_was_broken_off(tmp_path: Path) -> None:
     assert [each.seed for each in rows] == [5, 6, 7, 8, 9]
 
 
+def test_a_batch_of_seeds_that_do_not_follow_each_other_goes_on_with_the_same_ones(tmp_path: Path) -> None:
+    chosen = (20261126, 1795000000, 7, 2**53 - 1)
+    trial = replace(TRIAL, world=WorldSpec(seed=chosen[0]))
+    jobs = [Case(trials=(k,), seed=seed) for k, seed in enumerate(chosen)]
+
+    def listed(seeds: tuple[int, ...]) -> BatchFolder[Row]:
+        return BatchFolder(tmp_path, ASSEMBLY, trial.head(ASSEMBLY, seeds), trial.plan)
+
+    folder = listed(chosen)
+    with pytest.raises(KeyboardInterrupt):
+        carry_out(jobs, Canned(2), folder=folder)
+    folder.close()
+    with pytest.raises(InvalidInput, match="differs in seeds; "):
+        listed((*chosen[:3], 8))
+    again, engine = listed(chosen), Canned()
+    rows = carry_out(jobs, engine, folder=again)
+    again.close()
+    assert (engine.tried, [each.seed for each in rows]) == ([1, 0], [*chosen])
+    assert read_batch(tmp_path)[1] == rows
+
+
+def test_a_trial_of_a_seed_that_is_not_the_batch_s_is_refused(tmp_path: Path) -> None:
+    folder = BatchFolder(tmp_path, ASSEMBLY, TRIAL.head(ASSEMBLY, (5, 9)), TRIAL.plan)
+    folder.append(Row(trial=1, seed=6, result=RIGHT))
+    folder.close()
+    with pytest.raises(InvalidInput, match="line 2, has the seed 6, which trial 1 has not"):
+        read_batch(tmp_path)
+
+
+@pytest.mark.parametrize("seed", [-1, 2**53])
+def test_a_seed_that_there_is_none_of_is_refused_wherever_it_is_read(tmp_path: Path, seed: int) -> None:
+    with pytest.raises(InvalidInput, match=rf"^a seed is a whole number from 0 to .*; {seed} is not$"):
+        Case(trials=(0,), seed=seed)
+    folder = opened(tmp_path)
+    folder.close()
+    file = tmp_path / "trials.jsonl"
+    file.write_bytes(file.read_bytes().replace(b'"seed":5', f'"seed":{seed}'.encode()))
+    with pytest.raises(InvalidInput, match=r"line 1, .*Expected `int` .= .*`\$\.world\.seed`"):
+        read_batch(tmp_path)
+
+
 def test_a_folder_takes_one_batch(tmp_path: Path) -> None:
     opened(tmp_path).close()
     high = msgspec.structs.replace(WORLD, level="high")

@@ -54,11 +54,11 @@ def test_what_is_no_schedule_is_bad_input(command: Command, text: str) -> None:
 def test_a_fault_that_cannot_set_in_while_the_arm_works_is_refused() -> None:
     for name in ("gasket.missing@5", "lamp.dead"):
         with pytest.raises(InvalidInput):
-            Schedule(seed=3, start=0, faults=(name,)).given(task().faults(3))
+            Schedule(seed=3, start=0, faults=(name,)).given(task().faults(WorldSpec(seed=3)))
 
 
 def test_schedules_are_drawn_from_a_seed_and_can_be_told() -> None:
-    worlds, kinds = [(3, "nominal"), (4, "low")], task().faults(3)
+    worlds, kinds = [(3, "nominal"), (4, "low")], task().faults(WorldSpec(seed=3))
     again = [
         [draw(n, seed, worlds, [(0, 9), (5,)], kinds, [(1, 2), (4,)]) for n in range(60)]
         for seed in (1, 1, 2)
@@ -66,7 +66,7 @@ def test_schedules_are_drawn_from_a_seed_and_can_be_told() -> None:
     assert again[0] == again[1] != again[2]
     for schedule in again[0]:
         assert parse_schedule(str(schedule)) == schedule
-        schedule.given(task().faults(3))
+        schedule.given(task().faults(WorldSpec(seed=3)))
     assert {each.kind for schedule in again[0] for each in schedule.breaks} == {
         "panic",
         "pause",

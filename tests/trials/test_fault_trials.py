@@ -110,7 +110,7 @@ def test_outcomes_are_counted() -> None:
 
 
 def test_the_matrix_of_the_pump_has_thirty_faults_and_more() -> None:
-    assert len(task().faults(0).matrix) >= 30
+    assert len(task().faults(WorldSpec(seed=0)).matrix) >= 30
 
 
 @pytest.mark.slow
@@ -184,12 +184,12 @@ def test_the_panic_button_is_hit_once_in_the_middle_of_its_stage() -> None:
 
 
 def test_the_panic_button_is_in_the_matrix_and_named_by_what_the_operator_is_told() -> None:
-    catalogue = with_panic(task().faults(0))
+    catalogue = with_panic(task().faults(WorldSpec(seed=0)))
     assert "panic" in catalogue.matrix
     told = pause_sentence(Pause(kind="panic"))
     assert catalogue.kind("panic").expected.calls == (told,)
 
 
 def test_what_sets_in_with_a_later_stage_than_a_program_has_sets_in_with_its_last() -> None:
-    catalogue = with_panic(task("insertion").faults(0))
+    catalogue = with_panic(task("insertion").faults(WorldSpec(seed=0)))
     assert [*usual(catalogue, [catalogue.kind("panic")], None, 2)] == ["panic@2"]

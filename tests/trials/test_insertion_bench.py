@@ -268,7 +268,7 @@ def test_what_has_ended_is_told_when_it_is_broken_off(
         (("--clearance", "2"), "0.05 to 1 mm"),
         (("--sd", "-1"), "0 to 5 mm"),
         (("--sd", "nan"), "0 to 5 mm"),
-        (("--seed", "-1"), "from 0 up"),
+        (("--seed", "-1"), "from 0 to"),
     ],
 )
 def test_bad_input_gets_one_sentence(command: Command, words: tuple[str, ...], said: str) -> None:

@@ -55,7 +55,7 @@ def world_words(world: WorldSpec, of: str) -> list[str]:
     """The options that stand for a world of the task of a name, which is known here."""
     task = known(of)
     assert task is not None
-    quantities, faults = task.variation(world.seed).quantities, task.faults(world.seed)
+    quantities, faults = task.variation().quantities, task.faults(world)
     words = ["--seed", str(world.seed)]
     words += [] if world.level == "nominal" else ["--level", world.level]
     words += [word for name in world.overrides.without for word in ("--without", name)]

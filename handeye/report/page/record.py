@@ -105,7 +105,7 @@ def _quantities(run: RecordedRun) -> tuple[QuantityReport, ...]:
     task, world = known(run.trace.head.task), run.trace.head.world
     if task is None:
         return ()
-    variation = task.variation(world.seed)
+    variation = task.variation()
     drawn: World = variation.draw(world)
     return tuple(sorted(report(variation, drawn).quantities, key=lambda quantity: quantity.override is None))
 

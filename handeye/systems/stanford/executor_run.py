@@ -349,8 +349,8 @@ class PlanSystem(System):
         """Refuse a plan for another arm than the task's, and a world or faults that the task lacks."""
         world, plan = setup.world, plan_of(setup)
         task(setup.task).check_arm(plan)
-        task(setup.task).variation(world.seed).check(world)
-        task(setup.task).faults(world.seed).check(world.faults)
+        task(setup.task).variation().check(world)
+        task(setup.task).faults(world).check(world.faults)
         stages = len(plan.program.stages)
         late = next((fault for fault in world.faults if (fault.stage or 0) > stages), None)
         if late is not None:

@@ -37,7 +37,7 @@ class Insertion(InsertionTask):
     other_scripts = ("insertion_1973.al",)
     programs = MappingProxyType({"gentle": "insertion.al", "1973": "insertion_1973.al"})
 
-    def variation(self, seed: int) -> Variation:
+    def variation(self) -> Variation:
         from handeye.tasks.insertion.world import VARIATION
 
         return VARIATION

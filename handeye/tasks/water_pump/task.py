@@ -60,15 +60,15 @@ class WaterPump(Task):
     def fixtures(self) -> Mapping[str, Fixture]:
         return planned_fixtures()
 
-    def variation(self, seed: int) -> Variation:
+    def variation(self) -> Variation:
         from handeye.tasks.water_pump.world.variation import variation
 
-        return variation(seed)
+        return variation()
 
-    def faults(self, seed: int) -> Catalogue:
+    def faults(self, world: WorldSpec) -> Catalogue:
         from handeye.tasks.water_pump.faults.catalogue import catalogue
 
-        return catalogue(seed)
+        return catalogue(world)
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         from handeye.tasks.water_pump.scene import dressed

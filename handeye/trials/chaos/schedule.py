@@ -90,7 +90,7 @@ def parse_schedule(text: str) -> Schedule:
         )
     lists = {name: tuple(words[name].split(",")) for name in ("faults", "answers") if name in words}
     breaks = tuple(_break(word) for word in words.get("breaks", "").split(",") if word)
-    numbers = {name: int(words[name]) for name in ("seed", "start", "steps") if words.get(name, "").isdigit()}
+    numbers = {name: int(words[name]) for name in ("seed", "start", "steps") if is_count(words.get(name, ""))}
     try:
         made = msgspec.convert({**words, **lists, **numbers, "breaks": breaks}, Schedule)
     except msgspec.ValidationError as error:
@@ -99,9 +99,14 @@ def parse_schedule(text: str) -> Schedule:
     return made
 
 
+def is_count(text: str) -> bool:
+    """A text is a whole number of a length that a number here has."""
+    return re.fullmatch("[0-9]{1,18}", text) is not None
+
+
 def _break(word: str) -> dict[str, object]:
     kind, _, after = word.partition(":")
-    if kind not in get_args(BreakKind) or not after.isdigit():
+    if kind not in get_args(BreakKind) or not is_count(after):
         raise BadArgument(
             f"{quoted(word)} is no interruption: write {', '.join(get_args(BreakKind))} with :N behind it"
         )

@@ -128,7 +128,7 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
 def try_schedule(schedule: Schedule, sound: SoundRun) -> ScheduleResult:
     """Carry a schedule out, and check what must hold; raises InvalidInput for an unknown fault or start."""
     begun = sound.at(schedule.start)
-    start = with_faults(begun, schedule.given(any_task(begun.setup.task).faults(schedule.seed)))
+    start = with_faults(begun, schedule.given(any_task(begun.setup.task).faults(begun.setup.world)))
     ended, broken = "error", list[Violation]()
     with tempfile.TemporaryDirectory(prefix="handeye-chaos-") as name:
         try:
@@ -258,7 +258,7 @@ def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: AnyTask) ->
             seed,
             [(run.world.seed, run.world.level) for run in runs],
             [run.starts for run in runs],
-            work.faults(seed),
+            work.faults(runs[0].world),
             [run.stages for run in runs],
         )
 

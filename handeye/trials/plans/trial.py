@@ -47,11 +47,11 @@ class Trial:
     simulated_limit_s: float = SIMULATED_LIMIT_S
     wall_limit_s: float = WALL_LIMIT_S
 
-    def head(self, sweep: Sweep[Row]) -> Head:
-        """The head of a batch of them."""
+    def head(self, sweep: Sweep[Row], seeds: tuple[int, ...] = ()) -> Head:
+        """The head of a batch of them; `seeds` are those of the trials, if they do not follow each other."""
         return head_of(
             sweep, self.world, self.plan, self.settings, camera=self.camera, without=self.without,
-            on_stop=self.on_stop, simulated_limit_s=self.simulated_limit_s,
+            on_stop=self.on_stop, simulated_limit_s=self.simulated_limit_s, seeds=seeds,
         )  # fmt: skip
 
     @property

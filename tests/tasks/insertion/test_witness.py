@@ -117,7 +117,7 @@ def test_the_hole_is_as_wide_as_its_clearance_says(clearance: float) -> None:
 
 
 def test_the_bench_is_a_task_with_its_own_quantities_and_the_pumps_arm() -> None:
-    quantities = INSERTION.variation(0).quantities
+    quantities = INSERTION.variation().quantities
     assert {"hole.clearance", "hole.chamfer", "plate.x", "plate.y", "arm.offset.1", "hand.gap_offset"} <= set(
         quantities
     )

@@ -12,7 +12,7 @@ from handeye.cell.signal_lines import SignalLinesState
 from handeye.core.errors import ERRORS
 from handeye.core.faults import UNKNOWN, Fault
 from handeye.core.resources import plans
-from handeye.core.variation import WorldSpec
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.planfile.store import read_plan
 from handeye.program.flow_operations import Wait
 from handeye.program.motion_operations import Move
@@ -22,7 +22,6 @@ from handeye.tasks.water_pump.faults.devices import defects, device_faults
 from handeye.tasks.water_pump.faults.shared_expectations import PINNED, SCREWED
 from handeye.tasks.water_pump.task import WATER_PUMP
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
-from handeye.tasks.water_pump.world.variation import SEVENTH
 
 PROGRAM = read_plan(plans() / "water_pump.plan.json").program
 CALLS = {step.operation.message for step in PROGRAM.steps if isinstance(step.operation, Wait)}
@@ -65,22 +64,25 @@ def test_a_fault_goes_on_while_everything_in_the_cell_is_asleep() -> None:
 
 
 def test_the_catalogue_has_every_fault_of_a_device() -> None:
-    assert {fault.name for fault in device_faults()} <= WATER_PUMP.faults(0).kinds.keys()
+    assert {fault.name for fault in device_faults()} <= WATER_PUMP.faults(WorldSpec(seed=0)).kinds.keys()
 
 
 def test_a_fault_at_its_usual_size_is_one_that_can_be_had() -> None:
-    WATER_PUMP.faults(0).check(FAULTS)
+    WATER_PUMP.faults(WorldSpec(seed=0)).check(FAULTS)
 
 
 def test_of_every_fault_it_is_said_how_it_is_noticed_by_errors_and_calls_there_are() -> None:
-    for kind in WATER_PUMP.faults(0).kinds.values():
+    for kind in WATER_PUMP.faults(WorldSpec(seed=0)).kinds.values():
         assert kind.expected != UNKNOWN, kind.name
         assert {*kind.expected.errors} <= ERRORS.keys(), kind.name
         assert {*kind.expected.calls} <= CALLS, kind.name
 
 
+LATER = WorldSpec(seed=0, overrides=Overrides(set={"pump.screws": 7.0}))
+
+
 def test_of_a_later_make_what_the_program_does_not_use_is_the_only_unknown() -> None:
-    unknown = [name for name, kind in WATER_PUMP.faults(SEVENTH).kinds.items() if kind.expected == UNKNOWN]
+    unknown = [name for name, kind in WATER_PUMP.faults(LATER).kinds.items() if kind.expected == UNKNOWN]
     assert {name.split(".")[1] for name in unknown} == {"7"}
 
 

@@ -19,7 +19,7 @@ PERIOD = 1 / 60
 
 def cell_with(*names: str) -> SimulatedCell:
     """A cell in which faults set in with stage 2, at their usual size."""
-    faults = tuple(WATER_PUMP.faults(3).kind(name).usual(2) for name in sorted(names))
+    faults = tuple(WATER_PUMP.faults(WorldSpec(seed=3)).kind(name).usual(2) for name in sorted(names))
     return build_cell(PumpWorld.draw(WorldSpec(seed=3, faults=faults)), camera="ray")
 
 
@@ -106,4 +106,4 @@ def test_what_happens_happens_again_from_a_state_that_was_kept() -> None:
 
 
 def test_the_catalogue_has_all_that_can_happen_by_hand_or_by_chance() -> None:
-    assert {fault.name for fault in mishap_faults()} <= WATER_PUMP.faults(0).kinds.keys()
+    assert {fault.name for fault in mishap_faults()} <= WATER_PUMP.faults(WorldSpec(seed=0)).kinds.keys()

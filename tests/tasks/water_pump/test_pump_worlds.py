@@ -5,21 +5,29 @@ from functools import cache
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from msgspec.structs import replace as replaced
 
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import Array, hand
 from handeye.core.units import DEGREE, INCH
-from handeye.core.variation import Level, Overrides, WorldSpec
+from handeye.core.variation import LARGEST_SEED, Level, Overrides, WorldSpec
 from handeye.judge.measured import SettledState, tilt
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.referee.measure import deepest
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.world.pump_world import Placing, PumpWorld
-from handeye.tasks.water_pump.world.variation import BELT_X, BELT_Y, DRILLED, SEVENTH, STOOD, variation
+from handeye.tasks.water_pump.world.variation import BELT_X, BELT_Y, DRILLED, STOOD, variation
 
 NEAR = np.array([-25.0, 105.0, 0.0, 0.0, 75.0, 20.0]) * DEGREE + np.array([0, 0, 31 * INCH, 0, 0, 0])
+
+
+def later(seed: int) -> WorldSpec:
+    """The world of a seed, its pump with seven screws."""
+    return WorldSpec(seed=seed, overrides=Overrides(set={"pump.screws": 7.0}))
 
 
 @cache
@@ -81,26 +89,39 @@ def test_noise_streams_of_a_world_are_independent() -> None:
     assert world.generator("sensors").random() != world.generator("camera").random()
 
 
-def test_from_the_seventh_screw_on_the_world_has_one_more_hole_and_thread() -> None:
-    more = variation(SEVENTH).quantities.keys() - variation(SEVENTH - 1).quantities.keys()
+@pytest.mark.parametrize("seed", [0, 7_000_000, 20261126, 1_795_000_000, LARGEST_SEED])
+def test_seeds_are_random_numbers_and_every_pump_has_six_screws_unless_it_is_set(seed: int) -> None:
+    assert (PumpWorld.sample(seed).screws, PumpWorld.draw(later(seed)).screws) == (6, 7)
+
+
+@given(st.integers(0, LARGEST_SEED), st.sampled_from(["low", "nominal", "high"]))
+def test_a_seventh_screw_moves_no_other_draw(seed: int, level: Level) -> None:
+    six = variation().draw(WorldSpec(seed=seed, level=level)).values
+    seven = variation().draw(replaced(later(seed), level=level)).values
+    assert {name for name in six if six[name] != seven[name]} == {"pump.screws"}
+
+
+def test_a_pump_with_seven_screws_has_one_more_hole_and_thread() -> None:
+    more = variation().draw(later(0)).values.keys() - variation().draw(WorldSpec(seed=0)).values.keys()
     holes = {f"holes.{part}.7.{axis}" for part in DRILLED for axis in "xy"}
     assert more == {*holes, "thread_phase.7", "parts.screws.7.x", "parts.screws.7.y"}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [0, SEVENTH])
+@pytest.mark.parametrize("seed", [0, 7_000_000])
 def test_every_quantity_reaches_the_world(seed: int) -> None:
-    before = repr(PumpWorld.sample(seed))
-    for name, quantity in variation(seed).quantities.items():
+    before = PumpWorld.draw(later(seed))
+    for name, quantity in variation().quantities.items():
+        value = 6.0 if name == "pump.screws" else 0.5 * quantity.measure.size
         moved = PumpWorld.draw(
-            WorldSpec(seed=seed, overrides=Overrides(set={name: 0.5 * quantity.measure.size}))
+            WorldSpec(seed=seed, overrides=Overrides(set={"pump.screws": 7.0, name: value}))
         )
-        unlike = repr(replace(moved, drawn=PumpWorld.sample(seed).drawn))
-        assert unlike != before, name
+        unlike = repr(replace(moved, drawn=before.drawn))
+        assert unlike != repr(before), name
 
 
 def test_no_error_shares_its_name_with_a_sense() -> None:
-    first = {name.split(".")[0] for name in variation(0).quantities}
+    first = {name.split(".")[0] for name in variation().quantities}
     assert not first & {"sight", "vision", "touch", "force", "search"}
 
 
@@ -146,9 +167,7 @@ def test_without_the_arm_the_hand_is_where_the_controller_thinks() -> None:
 
 
 def test_every_quantity_says_where_its_figures_come_from() -> None:
-    assert [
-        name for name, q in variation(SEVENTH).quantities.items() if not q.source.endswith((".", '".'))
-    ] == []
+    assert [name for name, q in variation().quantities.items() if not q.source.endswith((".", '".'))] == []
 
 
 @pytest.mark.slow

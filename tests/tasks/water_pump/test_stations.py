@@ -35,9 +35,9 @@ def drawn(entry: str) -> Dimensions:
 def tray(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The drawing with one more entry."""
     monkeypatch.setattr(stations, "dimensions", lambda: drawn(ENTRY))
-    variation._variation.cache_clear()
+    variation.variation.cache_clear()
     yield
-    variation._variation.cache_clear()
+    variation.variation.cache_clear()
 
 
 def middle(model: mujoco.MjModel, body: str) -> Point:
@@ -59,11 +59,11 @@ def test_a_new_station_stands_in_the_scene_with_an_error_of_its_own() -> None:
 
 
 def test_a_new_station_moves_no_other_quantity(monkeypatch: pytest.MonkeyPatch) -> None:
-    before = task().variation(3).draw(WorldSpec(seed=3)).values
+    before = task().variation().draw(WorldSpec(seed=3)).values
     monkeypatch.setattr(stations, "dimensions", lambda: drawn(ENTRY))
-    variation._variation.cache_clear()
-    after = task().variation(3).draw(WorldSpec(seed=3)).values
-    variation._variation.cache_clear()
+    variation.variation.cache_clear()
+    after = task().variation().draw(WorldSpec(seed=3)).values
+    variation.variation.cache_clear()
     assert {name: after[name] for name in before} == before
     assert set(after) - set(before) == {
         f"fixtures.tool_tray.{axis}" for axis in ("x", "y", "z", "yaw", "pitch", "roll")

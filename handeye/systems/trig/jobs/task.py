@@ -44,10 +44,10 @@ class _BlocksTask(AnyTask):
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
         return {spec.name: spec.kind for spec in PURBRICK.axes}
 
-    def variation(self, seed: int) -> Variation:
+    def variation(self) -> Variation:
         return VARIATION
 
-    def faults(self, seed: int) -> Catalogue:
+    def faults(self, world: WorldSpec) -> Catalogue:
         return FAULTS
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:

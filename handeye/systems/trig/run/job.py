@@ -5,7 +5,7 @@ from typing import Final, Literal
 
 from handeye.core.plain_text import counted
 from handeye.core.record import Record
-from handeye.core.variation import WorldSpec
+from handeye.core.variation import Seed, WorldSpec
 from handeye.results.finishing import outcome
 from handeye.results.result import Check, Result
 from handeye.runs.advance import Pause, advance
@@ -30,7 +30,7 @@ class JobReport(Record, frozen=True, kw_only=True):
     """The result of a job."""
 
     job: JobName
-    seed: int  # of its world
+    seed: Seed  # of its world
     world: str = ""  # its specification in words, where that is more than a seed
     blocks: int | None = None
     interrupted_after: int | None = None  # steps after which it was reversed

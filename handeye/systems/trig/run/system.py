@@ -68,8 +68,8 @@ class TaughtSystem(System):
     def check(self, setup: Setup) -> None:
         super().check(setup)
         task, world = any_task(setup.task), setup.world
-        task.variation(world.seed).check(world)
-        task.faults(world.seed).check(world.faults)
+        task.variation().check(world)
+        task.faults(world).check(world.faults)
 
     def executed(self, plan: TaughtPlan, state: TaughtState) -> Sequence[CompletedStep]:
         return state.executed(plan)

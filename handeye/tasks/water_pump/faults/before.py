@@ -29,7 +29,6 @@ from handeye.core.pose import rotation_z
 from handeye.tasks.stanford_cell.dimensions import Point, base_top, dimensions, web_centre
 from handeye.tasks.water_pump.faults import shared_expectations as detect
 from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
-from handeye.tasks.water_pump.world.variation import screws
 
 if TYPE_CHECKING:
     import mujoco
@@ -55,21 +54,17 @@ _AWAY: Final = Size(unit="mm", usual=6.0, limits=(-50.0, 50.0))
 PartFault = PumpFault[Change]
 
 
-def part_faults(seed: int) -> tuple[PartFault, ...]:
-    """All faults of parts in worlds of the make of a seed's, in the order they are listed."""
-    return _part_faults(screws(seed))
-
-
 @cache
-def _part_faults(count: int) -> tuple[PartFault, ...]:
+def part_faults(screws: int) -> tuple[PartFault, ...]:
+    """All faults of parts of a pump with so many screws, in the order they are listed."""
     return (
-        *_base(), *_gasket(), *_top(), *_pins(), *_screws(count), *_holes(count), *_screwdriver_and_light()
+        *_base(), *_gasket(), *_top(), *_pins(), *_screws(screws), *_holes(screws), *_screwdriver_and_light()
     )  # fmt: skip
 
 
-def break_parts(spec: mujoco.MjSpec, faults: Sequence[Fault], seed: int) -> None:
+def break_parts(spec: mujoco.MjSpec, faults: Sequence[Fault], screws: int) -> None:
     """Make parts of a scene wrong; faults of devices change nothing in it."""
-    for fault, change in broken(part_faults(seed), faults):
+    for fault, change in broken(part_faults(screws), faults):
         change(spec, fault.value or 0.0)
 
 

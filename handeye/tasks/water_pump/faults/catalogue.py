@@ -3,9 +3,11 @@
 from typing import Final
 
 from handeye.core.faults import Catalogue
+from handeye.core.variation import WorldSpec
 from handeye.tasks.water_pump.faults.before import part_faults
 from handeye.tasks.water_pump.faults.devices import device_faults
 from handeye.tasks.water_pump.faults.during import mishap_faults
+from handeye.tasks.water_pump.world.variation import screws
 
 _TRIED: Final = {
     "finger_switch": ("stuck_closed", "minus_y.stuck_open"),
@@ -38,6 +40,6 @@ _TRIED: Final = {
 MATRIX: Final = tuple(f"{broken}.{how}" for broken, hows in _TRIED.items() for how in hows)
 
 
-def catalogue(seed: int) -> Catalogue:
-    """The faults of a seed's world: devices, parts, mishaps."""
-    return Catalogue(*device_faults(), *part_faults(seed), *mishap_faults(), matrix=MATRIX)
+def catalogue(world: WorldSpec) -> Catalogue:
+    """The faults of a world: devices, parts, mishaps."""
+    return Catalogue(*device_faults(), *part_faults(screws(world)), *mishap_faults(), matrix=MATRIX)

@@ -46,7 +46,7 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
     add_driver(shaper, world)
     add_plain_stations(shaper, world)
     add_merging(spec)
-    break_parts(spec, world.drawn.spec.faults, world.drawn.spec.seed)
+    break_parts(spec, world.drawn.spec.faults, world.screws)
     return spec
 
 

@@ -15,9 +15,9 @@ from handeye.tasks.water_pump.world.stations import stations
 from handeye.tasks.water_pump.world.variation import (
     DRILLED,
     RUBBING,
-    SEVENTH,
+    SCREWS,
     STOOD,
-    screws,
+    USUAL,
     variation,
 )
 
@@ -68,7 +68,7 @@ class PumpWorld(ArmWorld):
     @classmethod
     def of(cls, world: World) -> Self:
         """The values of a drawn world, sorted by device and part."""
-        numbers = range(1, screws(world.spec.seed) + 1)
+        numbers = range(1, round(world[SCREWS]) + 1)
         return cls(
             **arm_values(world, RUBBING),
             base=_placing(world, "base"),
@@ -87,7 +87,7 @@ class PumpWorld(ArmWorld):
     @classmethod
     def draw(cls, spec: WorldSpec) -> Self:
         """The world of a specification; raises InvalidInput if it cannot be drawn here."""
-        return cls.of(variation(spec.seed).draw(spec))
+        return cls.of(variation().draw(spec))
 
     @classmethod
     def sample(cls, seed: int) -> Self:
@@ -97,11 +97,11 @@ class PumpWorld(ArmWorld):
     @classmethod
     def nominal(cls, screws: int = 6) -> Self:
         """The world as the plan and the controller think it is: no error, noise or step, no friction in the joints."""
-        seed = 0 if screws == 6 else SEVENTH
-        table = variation(seed)
+        table = variation()
         everything = tuple(sorted({name.split(".")[0] for name in table.quantities}))
         smooth = {quantity.name: 0.0 for quantity in table.select("arm.friction")}
-        return cls.draw(WorldSpec(seed=seed, overrides=Overrides(without=everything, set=smooth)))
+        made = smooth if screws == USUAL else {**smooth, SCREWS: float(screws)}
+        return cls.draw(WorldSpec(seed=0, overrides=Overrides(without=everything, set=made)))
 
     @property
     def screws(self) -> int:
@@ -123,11 +123,11 @@ def _placing(world: World, name: str) -> Placing:
 def _parts(world: World) -> dict[str, Placing]:
     d = dimensions()
     screws_play = d("dispenser.hole_radius") - d("screw.shank_radius")
-    screws_of = range(1, screws(world.spec.seed) + 1)
+    numbers = range(1, round(world[SCREWS]) + 1)
     return {
         **{part: _placing(world, f"parts.{part}") for part in STOOD},
         "driver": _in_play(world, "parts.driver", d("rack.play")),
-        **{f"screw{k - 1}": _in_play(world, f"parts.screws.{k}", screws_play) for k in screws_of},
+        **{f"screw{k - 1}": _in_play(world, f"parts.screws.{k}", screws_play) for k in numbers},
     }
 
 

@@ -4,12 +4,13 @@ Search, sight and touch exist to beat these errors. Joints, holes and screws are
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 from itertools import chain
 from typing import Final
 
-from handeye.core.distributions import Noise, Normal, Phase, Range, Uniform
-from handeye.core.variation import Quantity, Variation
+from handeye.core.distributions import Choice, Noise, Normal, Phase, Range, Uniform
+from handeye.core.variation import Quantity, Variation, WorldSpec
 from handeye.tasks.stanford_cell.arm_variation import MOST, arm, group, hand, rubbing
 from handeye.tasks.water_pump.world.stations import stations
 
@@ -21,34 +22,46 @@ RUBBING: Final = ("pad", "table", "part", "thread")
 DRILLED: Final = ("base", "gasket", "top")  # the parts with screw holes, each drilled with errors of its own
 STOOD: Final = ("gasket", "top")
 """The parts that a person puts on a stand, which holds them by nothing but friction."""
-SEVENTH: Final = 7_000_000
-"""The first seed whose pump has seven screws. Chosen: no other worlds are drawn from so far up."""
+SCREWS: Final = "pump.screws"
+MAKES: Final = (6, 7)
+"""Numbers of screws, and of tapped holes, of the pumps that there are."""
+USUAL: Final = 6
 
 _VISION: Final = "Vision study, verdict 1."
 IN_PLAY: Final = 70.0
 """Percent of its play that a part can be off along an axis: it stays clear of the corners of its seat."""
 
 
-def screws(seed: int) -> int:
-    """Screws and tapped holes of the pump of a seed: from SEVENTH on it is of a later make, with a seventh."""
-    return 6 if seed < SEVENTH else 7
-
-
-def variation(seed: int) -> Variation:
-    """The quantities in which the world of a seed differs from others."""
-    return _variation(screws(seed))
+def screws(world: WorldSpec) -> int:
+    """Screws and tapped holes of the pump of a world."""
+    return round(variation().value(SCREWS, world))
 
 
 @cache
-def _variation(count: int) -> Variation:
+def variation() -> Variation:
+    """The quantities in which worlds differ."""
     return Variation(
-        *_belt(), *arm(), *hand(),
+        *_make(), *_belt(), *arm(), *hand(),
         *group(
             "screwdriver", {"torque_noise": Noise(0.004)}, "N m",
             "Noise of the screwdriver's motor current. Placeholder.",
         ),
-        *_camera(), *_light(), *_fixtures(), *_holes(count), *_parts(count),
+        *_camera(), *_light(), *_fixtures(), *_holes(), *_parts(),
     )  # fmt: skip
+
+
+def _make() -> Iterator[Quantity]:
+    yield Quantity(
+        name=SCREWS, unit="", distribution=Choice(tuple(map(float, MAKES))), nominal=float(USUAL),
+        source="How many screws the pump has, in as many tapped holes: the job, and no error. No seed draws it and no "
+        "level scales it. The seventh is that of a later make, of which the program of 1973 knows nothing.",
+    )  # fmt: skip
+
+
+def _of(number: int, quantities: Iterator[Quantity]) -> Iterator[Quantity]:
+    """Quantities of the screw or hole of a number, which pumps of fewer screws lack."""
+    where = (SCREWS, float(number)) if number > USUAL else None
+    return (replace(quantity, where=where) for quantity in quantities)
 
 
 def _belt() -> Iterator[Quantity]:
@@ -113,17 +126,17 @@ def _fixtures() -> Iterator[Quantity]:
         )  # fmt: skip
 
 
-def _holes(count: int) -> Iterator[Quantity]:
+def _holes() -> Iterator[Quantity]:
     for part in DRILLED:
-        for hole in range(1, count + 1):
-            yield from group(
+        for hole in range(1, max(MAKES) + 1):
+            yield from _of(hole, group(
                 f"holes.{part}.{hole}", {"x": Normal(0.0015), "y": Normal(0.0015)}, "in",
                 f"Where the screw hole of the {part} is against its drawing. Placeholder: drilled by jig, +-.003 in; "
                 "the base's are tapped, those of gasket and top drilled apart from them.",
-            )  # fmt: skip
+            ))  # fmt: skip
 
 
-def _parts(count: int) -> Iterator[Quantity]:
+def _parts() -> Iterator[Quantity]:
     stood = "Where a person has put the part on its stand, against the drawing. Honesty study, finding 9."
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
@@ -131,15 +144,16 @@ def _parts(count: int) -> Iterator[Quantity]:
         "level too. A pin has none: the bevel that it stands in puts it in the middle."
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
-    fitted = ("driver", *(f"screws.{screw}" for screw in range(1, count + 1)))
+    numbers = range(1, max(MAKES) + 1)
     masses = "Masses of base and top over those of the drawing. Placeholder."
-    phases = {str(screw): Phase() for screw in range(1, count + 1)}
+    starts = "Where the thread of a screw hole starts."
     return chain(
         *(group(f"parts.{part}", off, ("in", "in", "deg"), stood) for part in STOOD),
-        *(group(f"parts.{thing}", play, "%", played, greatest=IN_PLAY) for thing in fitted),
+        group("parts.driver", play, "%", played, greatest=IN_PLAY),
+        *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
             "Turn of the screwdriver in its guides. What their play allows beside its place.", greatest=0.6),
         [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses)],
         rubbing(RUBBING),
-        group("thread_phase", phases, "deg", "Where the thread of a screw hole starts."),
+        *(_of(k, group("thread_phase", {str(k): Phase()}, "deg", starts)) for k in numbers),
     )  # fmt: skip
