@@ -4,8 +4,9 @@ python docs/make_trials.py                                  # the table anew
 python docs/make_trials.py NAME COMMIT DIR                  # the file of the batch in DIR, and the table anew
 
 DIR is what `handeye trials assembly --out DIR` has left; of a batch that was broken off, the trials before the first
-that is missing count. A file has a line a trial, and above them command, commit, digests of code and plan, worlds and
-versions. Batches of one plan, one kind of worlds and the same code, scenes among it, are added up.
+that is missing count. A file has a line a trial, and above them command, commit, digests of code and plan, worlds,
+versions, and (since it is recorded) the renderer of its pictures. Batches of one plan, one kind of worlds, the same
+code, scenes among it, and one renderer are added up.
 """
 
 import csv
@@ -41,10 +42,13 @@ PAIRED: Final = """The same worlds in pairs, something left out or another progr
 
 | batch | beside | assembled | beside it | only here | only beside it | p | noticed | silent | broken off | arm | p |
 |---|---|---|---|---|---|---|---|---|---|---|---|"""
-FACTS: Final = ("command", "commit", "code", "plan", "worlds", "versions")
+FACTS: Final = ("command", "commit", "code", "plan", "worlds", "versions", "renderer")
 """What stands above the trials of a batch."""
 FIGURES: Final = Kind("page of figures", b"# Forces", ending=".md")
 TRIALS: Final = Kind("file of trials", b"# command: ", ending=".csv")
+
+
+BatchKind = tuple[str, str, str, str]  # plan, worlds, code and renderer
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,9 +60,9 @@ class Batch:
     trials: Sequence[Mapping[str, str]]
 
     @property
-    def kind(self) -> tuple[str, str, str]:
-        """Plan, worlds and code: batches of one kind are added up."""
-        return self.facts["plan"], self.facts["worlds"], self.facts["code"]
+    def kind(self) -> BatchKind:
+        """Plan, worlds, code and renderer: batches of one kind are added up."""
+        return self.facts["plan"], self.facts["worlds"], self.facts["code"], self.facts.get("renderer", "")
 
     @property
     def level(self) -> str:
@@ -87,7 +91,10 @@ def file_of(head: Head, rows: Sequence[Row], commit: str) -> bytes:
     """A batch as a file."""
     if head.kind != "assembly":
         raise SystemExit(f"these are no trials of assembling, but of this: {head.kind}")
-    facts = (_command(head, len(rows)), commit, head.code, head.plan, worlds(head), _versions(head.versions))
+    facts = (
+        _command(head, len(rows)), commit, head.code, head.plan, worlds(head), _versions(head.versions),
+        renderers(rows) or head.camera,
+    )  # fmt: skip
     out = io.StringIO()
     for name, value in zip(FACTS, facts, strict=True):
         out.write(f"# {name}: {value}\n")
@@ -102,12 +109,16 @@ def worlds(head: Head) -> str:
     return shlex.join([head.world.level, *_options(head)])
 
 
+def renderers(rows: Sequence[Row]) -> str:
+    """How the pictures of a batch were made, by its trials: `OpenGL (EGL)`."""
+    return ", ".join(sorted({row.result.camera.renderer for row in rows if row.result is not None}))
+
+
 def _options(head: Head) -> list[str]:
     """Words of the command that carries out a batch, but for seed, level and number."""
     _, _, *words = world_words(head.world, PROGRAM)
     words = words if head.world.level == "nominal" else words[2:]
     words += sense_words(head.without)
-    words += [] if head.camera == "auto" else ["--camera", head.camera]
     words += [] if head.on_stop == "abort" else ["--on-stop", head.on_stop]
     limit = head.simulated_limit_s
     return words + ([] if limit in (None, SIMULATED_LIMIT_S) else ["--simulated-limit", f"{limit:g}"])
@@ -117,7 +128,12 @@ def _command(head: Head, n: int) -> str:
     """The command that carries out a batch; a plan that is not the task's own is made by `handeye plan`."""
     level = [] if head.world.level == "nominal" else ["--level", head.world.level]
     plan = [] if head.program == PROGRAM else ["--plan", f"{head.program}.plan.json"]
-    words = ["--n", str(n), "--seed", str(head.world.seed), *level, *_options(head), *plan]
+    seeds = (
+        ["--seeds", ",".join(map(str, head.seeds[:n]))]
+        if head.seeds
+        else ["--n", str(n), "--seed", str(head.world.seed)]
+    )
+    words = [*seeds, *level, *_options(head), "--camera", head.camera, *plan]
     return shlex.join(["handeye", "trials", "assembly", *words])
 
 
@@ -135,8 +151,9 @@ def _values(row: Row) -> tuple[object, ...]:
 def read(file: Path) -> Batch:
     """A batch from its file."""
     lines = file.read_text(encoding="utf-8").splitlines()
-    facts = dict(line.removeprefix("# ").split(": ", 1) for line in lines[: len(FACTS)])
-    return Batch(file.stem, facts, tuple(csv.DictReader(lines[len(FACTS) :])))
+    above = [line for line in lines if line.startswith("# ")]
+    facts = dict(line.removeprefix("# ").split(": ", 1) for line in above)
+    return Batch(file.stem, facts, tuple(csv.DictReader(lines[len(above) :])))
 
 
 # -- the table -------------------------------------------------------------------------------------------
@@ -148,7 +165,7 @@ def table(batches: Sequence[Batch]) -> str:
     return "\n".join((_rows(batches, kinds), *_pairs(batches), *_failures(batches)))
 
 
-def _rows(batches: Sequence[Batch], kinds: Mapping[tuple[str, str, str], None]) -> str:
+def _rows(batches: Sequence[Batch], kinds: Mapping[BatchKind, None]) -> str:
     lines = [
         "| worlds | plan | command | commit | assembled | silent | Wilson 95 % | at least | arm, s | CPU h |",
         "|---|---|---|---|---|---|---|---|---|---|",
@@ -163,7 +180,7 @@ def _rows(batches: Sequence[Batch], kinds: Mapping[tuple[str, str, str], None]) 
     return "\n".join(lines) + "\n"
 
 
-def _row(trials: Sequence[Mapping[str, str]], kind: tuple[str, str, str], command: str, commit: str) -> str:
+def _row(trials: Sequence[Mapping[str, str]], kind: BatchKind, command: str, commit: str) -> str:
     verdicts = Counter(trial["verdict"] for trial in trials)
     sure = rate(verdicts["assembled"], len(trials))
     if sure.wilson95 is None or sure.p_s is None:
@@ -172,7 +189,7 @@ def _row(trials: Sequence[Mapping[str, str]], kind: tuple[str, str, str], comman
     arm = sorted(float(trial["arm_s"]) for trial in trials if trial["verdict"] == "assembled")
     times = f"{arm[0]:.0f} to {arm[-1]:.0f}, median {median(arm):.0f}" if arm else ""
     hours = sum(float(trial["cpu_s"]) for trial in trials) / 3600
-    plan, worlds, _ = kind
+    plan, worlds, *_ = kind
     return (
         f"| {worlds} | `{plan[:8]}` | {command} | {commit} | {sure.successes} of {sure.trials} | {verdicts['silent']} "
         f"| {low:.1%} to {high:.1%} | {sure.p_s:.1%} | {times} | {hours:.1f} |"

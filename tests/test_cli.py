@@ -157,11 +157,11 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
         ),
         (("trials", "assembly", "--n", "0"), "at least one trial is needed; 0 is too few"),
         (
-            ("trials", "assembly", "--wall-limit", "0"),
+            ("trials", "assembly", "--cpu-limit", "0"),
             "a limit of time is a number of seconds above 0; 0 is not",
         ),
         (
-            ("trials", "assembly", "--wall-limit", "inf"),
+            ("trials", "assembly", "--cpu-limit", "inf"),
             "a limit of time is a number of seconds above 0; inf is",
         ),
         (

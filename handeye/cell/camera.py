@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import replace
-from typing import Final
+from typing import Final, Literal
 
 import mujoco
 import numpy as np
@@ -176,6 +176,12 @@ def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
             )
         ),
     )
+
+
+def renderer_here(kind: str) -> Literal["gl", "ray"]:
+    """`gl` or `ray`: the renderer that a kind stands for on this computer; raises InvalidInput if there is none."""
+    made = make_renderer(kind, mujoco.MjModel.from_xml_string("<mujoco/>"))
+    return "gl" if made.identity.method == "opengl" else "ray"
 
 
 def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:

@@ -10,7 +10,16 @@ from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import LONGEST_NUMBER, Camera, Json, WholeNumber, positive, put_json, screen
+from handeye.cli.common import (
+    LONGEST_NUMBER,
+    Camera,
+    Json,
+    WholeNumber,
+    camera_here,
+    positive,
+    put_json,
+    screen,
+)
 from handeye.cli.programs import plan_or_own
 from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
@@ -72,15 +81,20 @@ def assembly_trials(
     simulated_limit: Annotated[
         float, Parameter(help="Seconds of the cell's clock after which a trial counts as failed.")
     ] = 3600.0,
-    wall_limit: Annotated[
-        float, Parameter(help="Seconds of this computer after which a trial counts as failed.")
+    cpu_limit: Annotated[
+        float,
+        Parameter(
+            help="Seconds of a processor after which a trial is broken off. Time in which the computer sleeps or does "
+            "other work is not counted."
+        ),
     ] = 1800.0,
     options: SweepOptions = ANY,
 ) -> int:
     """Assemble in many worlds and count: how often, how sure that is, and what failed where.
 
     The figures are the same for any number of workers. A trial whose process is killed is tried once more; an
-    exception counts as a failure. With --out the figures are drawn on a page, too: figures.html in the folder.
+    exception counts as a failure. What this computer broke off is tried again where the batch goes on. With --out the
+    figures are drawn on a page, too: figures.html in the folder.
 
     Exit code 0: no silent failure; 1: every trial broke off; 3: in some world the program said done and the referee
     disagreed; 2: bad input; 130: interrupted.
@@ -95,7 +109,7 @@ def assembly_trials(
     chosen = _chosen(n, seed, seeds)
     numbers = _numbers(len(chosen), only)
     positive(options.jobs, "worker")
-    for limit in (simulated_limit, wall_limit):
+    for limit in (simulated_limit, cpu_limit):
         if not 0 < limit < inf:
             raise BadArgument(f"a limit of time is a number of seconds above 0; {limit:g} is not")
     senses, errors = errors.senses, errors.errors()
@@ -110,11 +124,11 @@ def assembly_trials(
     trial = Trial(
         plan=record,
         world=world,
-        camera=camera,
+        camera=camera_here(camera),
         without=senses,
         on_stop=on_stop,
         simulated_limit_s=simulated_limit,
-        wall_limit_s=wall_limit,
+        cpu_limit_s=cpu_limit,
     )
     following = all(seed == chosen[0] + k for k, seed in enumerate(chosen))
     where = (
@@ -136,16 +150,16 @@ def assembly_trials(
             command + _task_words(record.task, plan),
             [] if on_stop == "abort" else ["--on-stop", on_stop],
         ),
-        engine=_engine(engine, options.jobs, scheduler, wall_limit),
+        engine=_engine(engine, options.jobs, scheduler, cpu_limit),
     )
 
 
-def _engine(name: str, jobs: int, scheduler: str | None, wall_limit_s: float) -> "Engine":
+def _engine(name: str, jobs: int, scheduler: str | None, cpu_limit_s: float) -> "Engine":
     """The engine that carries out trials."""
     from handeye.trials.sweep import processes
 
     if name == "process":
-        return processes(jobs, wall_limit_s)
+        return processes(jobs, cpu_limit_s)
     from handeye.trials.dask_engine import dask_workers
 
     return dask_workers(jobs, scheduler)
@@ -188,7 +202,7 @@ def dismantling_trials(
         )
     world = broken(errors.spec(seed), fault, errors.work, record.program)
     stage = "" if to is None else record.program.stages[stage_number(to, record.program)]
-    trial = DismantlingTrial(plan=record, world=world, camera=camera, without=senses, to=stage)
+    trial = DismantlingTrial(plan=record, world=world, camera=camera_here(camera), without=senses, to=stage)
     built = f"up to {stage}" if stage else "wholly"
     made = ([] if plan is None else ["--plan", str(plan)]) + (["--to", stage] if stage else [])
     return carry_out_sweep(
@@ -200,7 +214,7 @@ def dismantling_trials(
         title=f"{record.program.name} carried out {built} and undone, in worlds from {world} on",
         plan=record,
         again=_again(trial, ["trials", "dismantling", "--n", "1"], made + _task_words(record.task, plan)),
-        engine=processes(options.jobs, trial.wall_limit_s),
+        engine=processes(options.jobs, trial.cpu_limit_s),
     )
 
 
@@ -290,7 +304,7 @@ def _again(trial: "Trial", command: list[str], options: list[str]) -> "Callable[
 
     from handeye.report.facts.again import sense_words, world_words
 
-    made = sense_words(trial.without) + ([] if trial.camera == "auto" else ["--camera", trial.camera])
+    made = [*sense_words(trial.without), "--camera", trial.camera]
 
     def told(row: "Row") -> str:
         words = world_words(replace(trial.world, seed=row.seed), trial.plan.task)

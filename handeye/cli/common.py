@@ -45,6 +45,13 @@ TaskWords = Annotated[
 CameraKind = Literal["auto", "gl", "ray"]
 
 
+def camera_here(kind: CameraKind) -> Literal["gl", "ray"]:
+    """What `auto` stands for on this computer: a batch records how its pictures are really made."""
+    from handeye.cell.camera import renderer_here
+
+    return kind if kind != "auto" else renderer_here(kind)
+
+
 def whole(_: type, tokens: Sequence[Token]) -> int:
     """A whole number as typed; raises ValueError if it is none, as 1.5 is, or larger than anything here."""
     typed = tokens[0].value

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, WholeNumber, positive, put, screen
+from handeye.cli.common import Camera, WholeNumber, camera_here, positive, put, screen
 from handeye.cli.programs import plan_or_own
 from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.world_options import ANY_WORLD, WorldOptions, stage_of
@@ -63,7 +63,7 @@ def faults(
     if listed:
         return _list(catalogue, kinds, json=options.json)
     options.check()
-    plan = plan_or_own(None, world.task)
+    plan, camera = plan_or_own(None, world.task), camera_here(camera)
     first = None if stage is None else stage_of(plan.program)(stage)
     given = usual(catalogue, kinds, first, len(plan.program.stages))
     return carry_out_sweep(

@@ -127,7 +127,10 @@ def carry_out_sweep(
         ]
         found = figures(sweep, ordered, again, wall_s=timer.wall_s)
         if ordered:
-            _tell(sweep, ordered, found, options, title, more or {})
+            _tell(sweep, ordered, found, options, title, more or {}, head.camera)
+        again_later = sum(row.to_be_tried_again for row in ordered)
+        if folder is not None and again_later:
+            note(f"{counted(again_later, 'trial')} broken off by this computer; the same command tries again")
     return found.exit_code
 
 
@@ -138,6 +141,7 @@ def _tell(
     options: SweepOptions,
     title: str,
     more: Mapping[str, object],
+    camera: str,
 ) -> None:
     """Write page and tables, and print the figures."""
     from handeye.trace.tables import csv_bytes, write_tables
@@ -146,12 +150,12 @@ def _tell(
     from handeye.trials.tables import tables, trials
 
     if options.out is not None and options.out.suffix.lower() == ROWS:
-        write_over(options.out, csv_bytes(trials(sweep, rows)), TABLE)
+        write_over(options.out, csv_bytes(trials(sweep, rows, camera)), TABLE)
     elif options.out is not None:
         page = options.out if options.folder is None else options.out / FIGURES
         write_over(page, sweep_page(title, sweep, rows, found), PAGE)
     if options.folder is not None and options.tables is not None:
-        made = tables(sweep, rows, found)
+        made = tables(sweep, rows, found, camera)
         write_tables(options.folder / TABLES, made, options.tables, "Figures are in the unit of their column")
     if options.json:
         put_json({**json_of(sweep, rows, found), **more})

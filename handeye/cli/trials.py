@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, TaskWords, WholeNumber, positive, say
+from handeye.cli.common import Camera, TaskWords, WholeNumber, camera_here, positive, say
 from handeye.cli.programs import plan_or_own
 from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.tally import Tally
@@ -67,12 +67,13 @@ class AttemptOptions:
         if name not in work.trials:
             raise NoSuchName(f"the task {quoted(work.name)} has no trial {quoted(name)}")
         sweep = eye_sweep(name, work.trials[name])
+        camera = camera_here(self.camera)
         settings = {"eye": self.eye, "number of worlds": str(number), "task": work.name}
         return carry_out_sweep(
             sweep,
-            EyeWork(task=work.name, trial=name, world=first, camera=self.camera, known=self.eye),
+            EyeWork(task=work.name, trial=name, world=first, camera=camera, known=self.eye),
             eye_cases(first.seed, count, number),
-            head_of(sweep, first, settings=settings, camera=self.camera),
+            head_of(sweep, first, settings=settings, camera=camera),
             options,
             title=f"{name} in worlds from {first} on, the camera known by {self.eye}",
             more={"worlds": number, "eye": self.eye},
@@ -156,7 +157,7 @@ def disturbed_trials(
         for each in chosen:
             say(f"{each.name:16} {each.meaning}")
         return 0
-    plan, spec = plan_or_own(None, world.task), world.spec
+    plan, spec, camera = plan_or_own(None, world.task), world.spec, camera_here(camera)
     return carry_out_sweep(
         DISTURBED,
         DisturbanceWork(plan=plan, world=spec, camera=camera),
@@ -230,6 +231,7 @@ def chaos_trials(
     checked_seed(seed + max(worlds, count) - 1)
     options.check()
     given = [parse_schedule(text) for text in schedule or ()]
+    camera = camera_here(camera)
     setup = _own_setup(task, camera)
     plan = setup.plan if isinstance(setup.plan, Plan) else None
     settings = {"worlds drawn from": str(worlds), "plan of the system": "" if plan else digest_of(setup)}

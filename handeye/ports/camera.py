@@ -53,7 +53,11 @@ class TvCamera(ABC):
 
     @abstractmethod
     def pots(self) -> tuple[float, float]:
-        """Pan and tilt as the potentiometers read them now (rad), noise included."""
+        """Pan and tilt as the potentiometers read them now (rad).
+
+        The mount is driven until they read what `aim` was given, so that they do. What they read wrongly is in where
+        it then stands.
+        """
 
     @abstractmethod
     def digitise(self, *, hold_target: bool = False) -> Picture:

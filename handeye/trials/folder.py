@@ -118,7 +118,7 @@ class BatchFolder(Generic[R]):
             raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
         self._file = LineFile(path / TRIALS, "another command", again=not anew)
         self.rows: dict[tuple[str, int], R] = {}
-        """Trials that have ended, by condition and number."""
+        """Trials that have ended, by condition and number, but for those that are to be tried again."""
         try:
             self._begin(head, plan)
         except BaseException:
@@ -141,7 +141,8 @@ class BatchFolder(Generic[R]):
         if empty:
             self._file.append(msgspec.json.encode(head) + b"\n")
             return
-        self.rows = {row.key: row for row in _same_batch(self.path, self._sweep, head)}
+        known = _same_batch(self.path, self._sweep, head)
+        self.rows = {row.key: row for row in known if not row.to_be_tried_again}
 
 
 def read_batch(path: Path) -> tuple[Head, tuple[Any, ...]]:

@@ -20,19 +20,25 @@ from handeye.trials.workers import Answer, answers
 if TYPE_CHECKING:
     from handeye.trials.folder import BatchFolder
 
-Ended = Literal["ended", "raised", "killed", "simulated limit", "wall limit", "not built"]
-"""A trial's end: by itself; by an exception; because its process was killed; at a limit of simulated seconds, or of
-the host's; before there was anything to try it on."""
+Ended = Literal[
+    "ended", "raised", "machine", "killed", "simulated limit", "processor limit", "wall limit", "not built"
+]
+"""A trial's end: by itself; by an exception; because this computer had no memory or no file for it; because its process
+was killed; at a limit of simulated seconds, of seconds of the processor, or (in older batches) of the wall clock;
+before there was anything to try it on."""
 Standing = Literal["right", "wrong", "silent", "uncounted"]
 """The class of an outcome: a success; a failure; a failure that was taken for a success; not at all."""
 
 FAILED: Final = "failed"  # Outcome of a trial that broke off
 GRACE: Final = 1.1
-"""Multiple of the limit of wall time at which a process is ended from outside: it hangs where nothing looks at it."""
+"""Multiple of the limit of processor time at which a process ends: it hangs where nothing looks at the limit."""
 _CAME_TO_AN_END: Final = ("ended", "not built")
+_OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
+"""Ends that a trial need not come to again: they are this computer's, not the program's."""
 _BROKEN_OFF: Final[Mapping[str, str]] = {
     "killed": "its process was killed twice",
     "simulated limit": "over the limit of simulated time",
+    "processor limit": "over the limit of processor time",
     "wall limit": "over the limit of wall time",
 }
 
@@ -70,6 +76,11 @@ class TrialRow(Record, frozen=True, kw_only=True):
     def broken_off(self) -> bool:
         """True if it did not end by itself."""
         return self.ended not in _CAME_TO_AN_END
+
+    @property
+    def to_be_tried_again(self) -> bool:
+        """True if this computer broke it off, which says nothing about the program."""
+        return self.ended in _OF_THE_MACHINE
 
     @property
     def verdict(self) -> str:
@@ -201,7 +212,8 @@ class GuardedWork(Generic[R]):
         try:
             rows = list(self.work(case))
         except Exception as error:
-            rows = lost(self.row, case, ended="raised", raised=f"{type(error).__name__}: {error}")
+            ended: Ended = "machine" if isinstance(error, (MemoryError, OSError)) else "raised"
+            rows = lost(self.row, case, ended=ended, raised=f"{type(error).__name__}: {error}")
         each = {"wall_s": round(timer.wall_s / len(rows), 3), "cpu_s": round(timer.cpu_s / len(rows), 3)}
         return [msgspec.structs.replace(row, **each) for row in rows]
 
@@ -215,15 +227,19 @@ Engine = Callable[[GuardedWork[Any], Sequence[Case]], Generator[Answer[Case, lis
 """Carries out cases in any order; one whose process is lost is tried once more."""
 
 
-def processes(jobs: int, wall_limit_s: float | None = None) -> Engine:
-    """Processes on this computer, kept from case to case; this one, if one is enough and nothing limits its time."""
+def processes(jobs: int, cpu_limit_s: float | None = None) -> Engine:
+    """Processes on this computer, kept from case to case; this one, if one is enough and nothing limits its time.
+
+    Args:
+        cpu_limit_s: seconds of the processor after which a case has taken too long.
+    """
 
     def carry_out(
         work: GuardedWork[Any], cases: Sequence[Case]
     ) -> Generator[Answer[Case, list[Any]], None, None]:
-        if wall_limit_s is None and min(jobs, len(cases)) <= 1:
+        if cpu_limit_s is None and min(jobs, len(cases)) <= 1:
             return (Answer(item=case, value=work(case)) for case in cases)
-        return answers(work, cases, jobs, limit_s=None if wall_limit_s is None else wall_limit_s * GRACE)
+        return answers(work, cases, jobs, limit_s=None if cpu_limit_s is None else cpu_limit_s * GRACE)
 
     return carry_out
 
@@ -265,5 +281,5 @@ def rows_of(sweep: Sweep[R], answer: Answer[Case, list[R]]) -> list[R]:
             if answer.killed
             else answer.value
         )
-    ended: Ended = "wall limit" if answer.overdue else "killed"
+    ended: Ended = "processor limit" if answer.overdue else "killed"
     return lost(sweep.row, answer.item, ended=ended, killed=answer.killed, wall_s=round(answer.wall_s, 3))

@@ -14,9 +14,9 @@ from handeye.trials.sweep import R, Sweep
 ROWS: Final = Kind("table of trials", b"trial,seed,condition,", ending=".csv")
 
 
-def tables(sweep: Sweep[R], rows: Sequence[R], found: Figures) -> tuple[Table, ...]:
+def tables(sweep: Sweep[R], rows: Sequence[R], found: Figures, camera: str = "") -> tuple[Table, ...]:
     """A table a subject: trials, those of the kind, measures, conditions, failures; empty ones are left out."""
-    made = [trials(sweep, rows)]
+    made = [trials(sweep, rows, camera)]
     made += [_of_records(each.name, each.title, each.rows) for each in sweep.details(rows) if each.rows]
     flat: dict[str, Sequence[Record]] = {"conditions": found.conditions, "failures": found.failures}
     made += [
@@ -27,8 +27,8 @@ def tables(sweep: Sweep[R], rows: Sequence[R], found: Figures) -> tuple[Table, .
     return tuple(table for table in made if table.rows)
 
 
-def trials(sweep: Sweep[R], rows: Sequence[R]) -> Table:
-    """A row a trial: how it ended, why it failed, and all that was measured."""
+def trials(sweep: Sweep[R], rows: Sequence[R], camera: str = "") -> Table:
+    """A row a trial: how it ended, why it failed, and all that was measured; with a camera, also its renderer."""
     failed = [sweep.standing(row) != "right" for row in rows]
     columns = [
         column("trial", "number of the trial", [row.trial for row in rows]),
@@ -51,6 +51,8 @@ def trials(sweep: Sweep[R], rows: Sequence[R]) -> Table:
         words, _, unit = name.rpartition(", ")
         values = [each.get(name, np.nan) for each in known]
         columns.append(column(words or name, "measured", values, unit if words else ""))
+    if camera:
+        columns.append(column("camera", "how pictures were made", [camera] * len(rows)))
     columns.append(column("cpu", "of the host", [row.cpu_s for row in rows], "s"))
     return Table(name="trials", about="A row a trial.", columns=tuple(columns))
 

@@ -17,8 +17,10 @@ from handeye.core.host_time import HostTimer
 Item = TypeVar("Item")
 T = TypeVar("T")
 
+_OVERDUE: Final = getattr(signal, "SIGPROF", 0)  # Ends a process that has had the processor for too long
 TRIES: Final = 2  # Times that a trial is begun whose process is killed
-LONGEST_WAIT_S: Final = 86400.0  # Longest single wait; the system accepts at most 24 days
+LONGEST_LIMIT_S: Final = 1e8  # Longest limit that a system is asked to keep: three years
+SHORTEST_LIMIT_S: Final = 1e-6  # Shortest that it knows from none
 
 
 class WorkerLost(HandeyeError):
@@ -33,7 +35,7 @@ class Answer(Generic[Item, T]):
     value: T | None = None
     error: BaseException | None = None
     killed: int = 0  # How often its process was killed
-    overdue: bool = False  # Its process was ended because it took too long
+    overdue: bool = False  # Its process was ended because it took too much of the processor
     wall_s: float = 0.0  # Duration of the last attempt
 
     @property
@@ -45,10 +47,10 @@ class Answer(Generic[Item, T]):
 class Worker:
     """A process that carries out one trial after the other."""
 
-    def __init__(self, trial: Callable[[Any], Any]) -> None:
+    def __init__(self, trial: Callable[[Any], Any], limit_s: float | None = None) -> None:
         """Begin the process. Ctrl-C at the terminal is for us: it does not hear it."""
         self.here, there = get_context("spawn").Pipe()
-        self.process = get_context("spawn").Process(target=_serve, args=(there,), daemon=True)
+        self.process = get_context("spawn").Process(target=_serve, args=(there, limit_s), daemon=True)
         with deaf_to_interrupts():
             self.process.start()
         there.close()  # so that each end notices when the other is gone
@@ -87,19 +89,20 @@ def answers(
 ) -> Generator[Answer[Item, T], None, None]:
     """Answers for each item, in the order they end, from processes, which end with whoever asks.
 
-    A trial whose process is killed is begun once more in a new one; one that takes `limit_s` is ended for good.
+    A trial whose process is killed is begun once more in a new one; one that takes `limit_s` seconds of the processor
+    is ended. Time in which the process is paused, or another has the processor, is not counted.
     """
     todo = deque(_Assignment[Item](item=item) for item in items)
     workers: list[Worker] = []
     try:
         while todo or any(worker.given for worker in workers):
             while todo and len(workers) < count:
-                workers.append(Worker(trial))
+                workers.append(Worker(trial, limit_s))
             for worker in workers:
                 if worker.given is None and todo:
                     worker.give(todo.popleft())
-            for worker in _heard(workers, limit_s):
-                answer = _answer(worker, limit_s)
+            for worker in _heard(workers):
+                answer = _answer(worker)
                 if answer.lost and answer.killed < TRIES:
                     todo.appendleft(_Assignment(item=answer.item, killed=answer.killed))
                 else:
@@ -155,45 +158,57 @@ def deaf_to_interrupts() -> Iterator[None]:
         raise KeyboardInterrupt
 
 
-def _heard(workers: list[Worker], limit_s: float | None) -> list[Worker]:
-    """Wait for workers that have answered, were lost, or have taken too long."""
+def _heard(workers: list[Worker]) -> list[Worker]:
+    """Wait for workers that have answered or were lost."""
     busy = [worker for worker in workers if worker.given is not None]
-    left = None if limit_s is None else max(min(limit_s - w.given.timer.wall_s for w in busy if w.given), 0.0)
-    told = connection.wait([worker.here for worker in busy], left and min(left, LONGEST_WAIT_S))
-    return [w for w in busy if w.here in told or _overdue(w, limit_s)]
+    told = connection.wait([worker.here for worker in busy])
+    return [worker for worker in busy if worker.here in told]
 
 
-def _overdue(worker: Worker, limit_s: float | None) -> bool:
-    return limit_s is not None and worker.given is not None and worker.given.timer.wall_s >= limit_s
-
-
-def _answer(worker: Worker, limit_s: float | None) -> Answer[Any, Any]:
+def _answer(worker: Worker) -> Answer[Any, Any]:
     """The answer of a worker, which is idle afterwards unless it is lost."""
     given = worker.given
     assert given is not None
-    wall_s, overdue = given.timer.wall_s, _overdue(worker, limit_s) and not worker.here.poll()
-    if not overdue:
-        try:
-            value, error = worker.here.recv()
-        except (EOFError, OSError):
-            return Answer(item=given.item, killed=given.killed + 1, wall_s=wall_s)
-        worker.given = None
-        return Answer(item=given.item, value=value, error=error, killed=given.killed, wall_s=wall_s)
-    return Answer(item=given.item, killed=given.killed, overdue=True, wall_s=wall_s)
+    wall_s = given.timer.wall_s
+    try:
+        value, error = worker.here.recv()
+    except (EOFError, OSError):
+        worker.process.join()
+        if worker.process.exitcode == -_OVERDUE:
+            return Answer(item=given.item, killed=given.killed, overdue=True, wall_s=wall_s)
+        return Answer(item=given.item, killed=given.killed + 1, wall_s=wall_s)
+    worker.given = None
+    return Answer(item=given.item, value=value, error=error, killed=given.killed, wall_s=wall_s)
 
 
 # -- in the process -----------------------------------------------------------------------------------
 
 
-def _serve(there: Connection) -> None:
+def _serve(there: Connection, limit_s: float | None) -> None:
     """Carry out what comes, until nothing more does."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
     try:
         trial = there.recv()
         while True:
-            there.send(_tried(trial, there.recv()))
+            item = there.recv()
+            with _limited(limit_s):
+                answer = _tried(trial, item)
+            there.send(answer)
     except (EOFError, OSError):
         return
+
+
+@contextmanager
+def _limited(limit_s: float | None) -> Iterator[None]:
+    """While a trial goes on: let the system end this process when it has had the processor for so long."""
+    if limit_s is None or not hasattr(signal, "setitimer"):  # as on Windows
+        yield
+        return
+    signal.setitimer(signal.ITIMER_PROF, max(min(limit_s, LONGEST_LIMIT_S), SHORTEST_LIMIT_S))
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
 
 
 def _tried(trial: Callable[[Any], Any], item: Any) -> tuple[Any, BaseException | None]:

@@ -2,7 +2,7 @@
 
 import os
 import signal
-import threading
+import subprocess
 from pathlib import Path
 
 from handeye.core.errors import InvalidInput
@@ -29,10 +29,18 @@ def killed_always(item: Path) -> str:
 
 
 def hung(item: str) -> str:
-    """Hang where nobody asks for the time."""
-    if item == "hung":
-        threading.Event().wait()
+    """Hang, at work, where nothing looks at a limit."""
+    while item == "hung":
+        pass
     return "done"
+
+
+def paused(item: str) -> str:
+    """Be stopped for longer than the limit of a trial, and go on."""
+    goes_on = f"sleep .6; kill -CONT {os.getpid()}"
+    with subprocess.Popen(["/bin/sh", "-c", goes_on]):
+        os.kill(os.getpid(), signal.SIGSTOP)
+    return item
 
 
 def refused(item: int) -> int:

@@ -3,6 +3,7 @@
 import json
 import resource
 import signal
+import time
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -29,7 +30,7 @@ from handeye.trials.folder import BatchFolder, Head, read_batch
 from handeye.trials.page import sweep_page
 from handeye.trials.plans.distributions import margins
 from handeye.trials.plans.row import Contact, Row, SearchEnd, contacts, searches
-from handeye.trials.plans.trial import ASSEMBLY, DISMANTLING, Trial, answered
+from handeye.trials.plans.trial import ASSEMBLY, DISMANTLING, Trial, Watch, answered
 from handeye.trials.sweep import Case, Engine, GuardedWork, cases, processes, rows_of
 from handeye.trials.sweep import carry_out as carry_out_sweep
 from handeye.trials.tables import tables as tables_of
@@ -95,6 +96,47 @@ def test_a_batch_goes_on_where_it_was_broken_off(tmp_path: Path) -> None:
     assert (sorted(again.rows), engine.tried) == ([("", k) for k in range(5)], [2, 1, 0])
     assert rows == carry_out(jobs, Canned()) == read_batch(tmp_path)[1]
     assert [each.seed for each in rows] == [5, 6, 7, 8, 9]
+
+
+@pytest.mark.parametrize("ended", ["killed", "processor limit", "wall limit", "machine"])
+def test_what_the_machine_broke_off_is_tried_again_when_the_batch_goes_on(tmp_path: Path, ended: str) -> None:
+    folder = opened(tmp_path)
+    folder.append(Row(trial=0, seed=5, ended=ended))  # type: ignore[arg-type]
+    folder.append(Row(trial=1, seed=6, ended="raised", raised="ValueError: one that comes again"))
+    folder.append(Row(trial=2, seed=7, ended="simulated limit"))
+    folder.close()
+    again, engine = opened(tmp_path), Canned()
+    rows = carry_out(cases(5, range(3)), engine, folder=again)
+    again.close()
+    assert (engine.tried, [each.verdict for each in rows]) == ([0], ["assembled", "failed", "failed"])
+    assert read_batch(tmp_path)[1] == rows
+    opened(tmp_path).close()
+
+
+@pytest.mark.parametrize(
+    ("error", "ended"),
+    [
+        (MemoryError(), "machine"),
+        (OSError(28, "No space left on device"), "machine"),
+        (ValueError("no"), "raised"),
+    ],
+)
+def test_an_exception_is_the_machine_s_or_the_program_s(error: Exception, ended: str) -> None:
+    def work(_: Case) -> list[Row]:
+        raise error
+
+    (found,) = GuardedWork(work, Row)(Case(trials=(0,), seed=5))
+    assert (found.ended, found.verdict) == (ended, "failed")
+
+
+def test_a_paused_trial_is_not_over_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    watch = Watch(simulated_s=9.0, cpu_s=1.0)
+    later = time.monotonic() + 1e6
+    monkeypatch.setattr(time, "monotonic", lambda: later)
+    assert not watch.over()
+    spent = time.process_time() + 1.1
+    monkeypatch.setattr(time, "process_time", lambda: spent)
+    assert (watch.over(), watch.ended) == (True, "processor limit")
 
 
 def test_a_batch_of_seeds_that_do_not_follow_each_other_goes_on_with_the_same_ones(tmp_path: Path) -> None:
@@ -293,12 +335,10 @@ def test_an_exception_is_a_result() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("simulated", "wall", "ended"), [(1.0, 99.0, "simulated limit"), (99.0, 1e-6, "wall limit")]
+    ("simulated", "cpu", "ended"), [(1.0, 99.0, "simulated limit"), (99.0, 1e-6, "processor limit")]
 )
-def test_a_trial_that_takes_too_long_has_failed(simulated: float, wall: float, ended: str) -> None:
-    trial = Trial(
-        plan=plan_of(FEEL), world=WORLD, camera="ray", simulated_limit_s=simulated, wall_limit_s=wall
-    )
+def test_a_trial_that_takes_too_long_has_failed(simulated: float, cpu: float, ended: str) -> None:
+    trial = Trial(plan=plan_of(FEEL), world=WORLD, camera="ray", simulated_limit_s=simulated, cpu_limit_s=cpu)
     found = trial(cases(5, range(1))[0])[0]
     assert (found.ended, found.verdict) == (ended, "failed")
 

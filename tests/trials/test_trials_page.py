@@ -1,10 +1,12 @@
 """The table of trials in docs/figures.md is that of the files in docs/trials/, and these are what batches have left."""
 
 import importlib.util
+import re
 from pathlib import Path
 from types import ModuleType
 
 import pytest
+from results import result
 
 from handeye.core.faults import Fault
 from handeye.core.variation import Overrides, WorldSpec
@@ -34,8 +36,10 @@ def test_the_table_is_that_of_the_files(maker: ModuleType) -> None:
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_no_seed_is_left_out_of_a_file_and_none_counts_twice(maker: ModuleType, file: Path) -> None:
-    seeds = [int(trial["seed"]) for trial in maker.read(file).trials]
-    assert seeds == [*range(seeds[0], seeds[0] + len(seeds))]
+    batch = maker.read(file)
+    seeds = [int(trial["seed"]) for trial in batch.trials]
+    named = re.search(r"--seeds ([0-9,]+)", batch.facts["command"])
+    assert seeds == ([*map(int, named[1].split(","))] if named else [*range(seeds[0], seeds[0] + len(seeds))])
 
 
 def test_no_world_counts_twice_in_a_sum(maker: ModuleType) -> None:
@@ -61,10 +65,10 @@ def test_what_a_batch_has_left_is_told_and_added_up(maker: ModuleType, tmp_path:
         file = tmp_path / f"{number}.csv"
         file.write_bytes(maker.file_of(head, rows, "c0ffee"))
         batches.append(maker.read(file))
-    options = "--set camera.place.x=0.00762m --fault gasket.thick=0.11811in@4 --without touch --camera ray"
+    options = "--set camera.place.x=0.00762m --fault gasket.thick=0.11811in@4 --without touch"
     options += " --on-stop 'unwind:the pins'"
-    command = f"handeye trials assembly --n 2 --seed 7 --level high {options} --plan p.plan.json"
-    assert batches[0].facts["command"] == command
+    command = f"handeye trials assembly --n 2 --seed 7 --level high {options} --camera ray --plan p.plan.json"
+    assert (batches[0].facts["command"], batches[0].facts["renderer"]) == (command, "ray")
     told = maker.table(batches)
     worlds = f"high {options}"
     assert (
@@ -73,6 +77,23 @@ def test_what_a_batch_has_left_is_told_and_added_up(maker: ModuleType, tmp_path:
     )
     assert f"| {worlds} | `abababab` | together |  | 0 of 4 | 0 | 0.0% to 49.0% | 0.0% |  | 2.0 |" in told
     assert "- : failed, Bad: luck (2: 7, 8)" in told
+
+
+def test_a_file_names_the_renderer_that_was_used_and_seeds_that_were_named(
+    maker: ModuleType, tmp_path: Path
+) -> None:
+    head = Head(
+        kind="assembly", plan="ab" * 8, program="water_pump", world=WorldSpec(seed=9), seeds=(9, 3), camera="gl",
+        simulated_limit_s=3600.0, versions={"handeye": "1"}, code="c",
+    )  # fmt: skip
+    made = result(completed=True, assembled=True)
+    rows = [Row(trial=k, seed=seed, result=made) for k, seed in enumerate((9, 3))]
+    file = tmp_path / "drawn.csv"
+    file.write_bytes(maker.file_of(head, rows, "c0ffee"))
+    batch = maker.read(file)
+    assert batch.facts["renderer"] == made.camera.renderer
+    assert batch.facts["command"] == "handeye trials assembly --seeds 9,3 --camera gl"
+    assert (batch.whole, [trial["seed"] for trial in batch.trials]) == (True, ["9", "3"])
 
 
 def test_batches_of_the_same_code_and_level_are_paired_with_the_whole_program(maker: ModuleType) -> None:

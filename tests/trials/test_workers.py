@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from trial_functions import hung, killed_always, killed_once, process, refused
+from trial_functions import hung, killed_always, killed_once, paused, process, refused
 
 from handeye.core.errors import InvalidInput
 from handeye.trials.workers import WorkerLost, answers, in_processes
@@ -32,12 +32,18 @@ def test_a_trial_whose_process_is_killed_twice_costs_no_other(tmp_path: Path) ->
 
 
 def test_a_trial_that_hangs_is_ended_and_not_tried_again() -> None:
-    found = {each.item: each for each in answers(hung, ["hung", "well"], 1, limit_s=5.0)}
+    found = {each.item: each for each in answers(hung, ["hung", "well"], 1, limit_s=0.1)}
     assert (found["hung"].overdue, found["hung"].lost, found["well"].value) == (True, False, "done")
 
 
+def test_a_process_that_is_stopped_for_longer_than_its_limit_goes_on() -> None:
+    (found,) = answers(paused, ["went on"], 1, limit_s=0.4)
+    assert (found.value, found.killed, found.overdue) == ("went on", 0, False)
+    assert found.wall_s > 0.5
+
+
 @pytest.mark.parametrize("limit", [1e9, 1e300])
-def test_a_limit_may_be_longer_than_the_system_waits_at_once(limit: float) -> None:
+def test_a_limit_may_be_longer_than_the_system_can_keep(limit: float) -> None:
     assert [each.value for each in answers(refused, [2], 1, limit_s=limit)] == [2]
 
 

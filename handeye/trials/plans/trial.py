@@ -1,7 +1,6 @@
 """One trial of a planned program, or of taking apart what it built, from a seed to the row that is kept of it."""
 
 import hashlib
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final
@@ -31,7 +30,7 @@ from handeye.trials.plans.row import APART, OUTCOMES, Row, contacts, searches
 from handeye.trials.sweep import Case, Ended, Sweep
 
 SIMULATED_LIMIT_S: Final = 3600.0  # Of the cell's clock: five times what a whole pump takes
-WALL_LIMIT_S: Final = 1800.0  # Of the host's: thirty times what a whole pump takes
+CPU_LIMIT_S: Final = 1800.0  # Of a processor: thirty times what a whole pump takes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,7 +44,7 @@ class Trial:
     on_stop: str = "abort"
     """The policy that answers calls of the operator, as `parse_policy` reads it; it must not ask a person."""
     simulated_limit_s: float = SIMULATED_LIMIT_S
-    wall_limit_s: float = WALL_LIMIT_S
+    cpu_limit_s: float = CPU_LIMIT_S
 
     def head(self, sweep: Sweep[Row], seeds: tuple[int, ...] = ()) -> Head:
         """The head of a batch of them; `seeds` are those of the trials, if they do not follow each other."""
@@ -61,7 +60,7 @@ class Trial:
 
     def __call__(self, case: Case) -> list[Row]:
         """Carry one out."""
-        timer, watch = HostTimer(), Watch(simulated_s=self.simulated_limit_s, wall_s=self.wall_limit_s)
+        timer, watch = HostTimer(), Watch(simulated_s=self.simulated_limit_s, cpu_s=self.cpu_limit_s)
         (number,), world = case.trials, msgspec.structs.replace(self.world, seed=case.seed)
         try:
             found = self._facts(world, timer, watch)
@@ -111,12 +110,12 @@ def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
 
 @dataclass(slots=True, kw_only=True)
 class Watch:
-    """Ends a run that takes too long, as the panic button does."""
+    """Ends a run that takes too long, as the panic button does. A paused or slow computer does not make it longer."""
 
     simulated_s: float
-    wall_s: float
+    cpu_s: float  # Seconds of the processor
     ended: Ended = "ended"
-    begun: float = field(default_factory=time.monotonic)
+    timer: HostTimer = field(default_factory=HostTimer)
     clock: Callable[[], float] = lambda: 0.0
 
     def looking_on(self, runner: Runner) -> tuple[Observer, ...]:
@@ -128,8 +127,8 @@ class Watch:
         """Tell whether it has taken too long."""
         if self.clock() > self.simulated_s:
             self.ended = "simulated limit"
-        elif time.monotonic() - self.begun > self.wall_s:
-            self.ended = "wall limit"
+        elif self.timer.cpu_s > self.cpu_s:
+            self.ended = "processor limit"
         return self.ended != "ended"
 
 
