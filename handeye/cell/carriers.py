@@ -120,10 +120,14 @@ class Carriers:
 
     def _show(self, hole: int, *, there: bool) -> None:
         """Let head and shank meet other parts and be seen, or not."""
-        model, solid = self._model, self._solid[hole]
+        self.meet(hole, self._model, there=there)
+        self._model.geom_group[self._looks[hole]] = SEEN if there else LATENT
+
+    def meet(self, hole: int, model: mujoco.MjModel, *, there: bool) -> None:
+        """Let head and shank of a hole meet other parts, or not, in a model of this scene."""
+        solid = self._solid[hole]
         contype, conaffinity = self._bits[hole] if there else (0, 0)
         model.geom_contype[solid], model.geom_conaffinity[solid] = contype, conaffinity
-        model.geom_group[self._looks[hole]] = SEEN if there else LATENT
 
 
 def _helix(model: mujoco.MjModel, slide: int, turn: int) -> int:

@@ -1,5 +1,6 @@
 """A cell whose state can be saved and restored: a MuJoCo model, and mechanisms with their own states."""
 
+import copy
 from collections.abc import Sequence
 from typing import Any, Final
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import CellState, check_noise, noise_state, set_noise
-from handeye.cell.truth import DrawnScene, Truth
+from handeye.cell.truth import Truth
 from handeye.core.errors import BadFile, InvalidInput
 from handeye.ports.camera import Renderer
 
@@ -29,7 +30,7 @@ class SnapshotCell:
     ) -> None:
         """Take a scene that will not change, and mechanisms in the order of their action, each of a name of its own."""
         self._model, self._data, self._noise = model, data, noise
-        self._drawn = DrawnScene(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())
+        self._drawn = copy.deepcopy(model)
         self._mechanisms = tuple(mechanisms)
         names = [part.name for part in self._mechanisms]
         if len({*names}) < len(names):

@@ -289,11 +289,22 @@ class Threads(Mechanism[ThreadsState]):
             return
         state = self.holes[hole]
         clamp = (state.clamp + self.head_force(hole)) / 2  # a head that chatters on its seat still presses
-        torque = RUNNING_TORQUE + self._figures.friction * THREAD_RADIUS * clamp
-        if state.crossed:
-            torque = BACKING_TORQUE if back else CROSSED_TORQUE
-        self._model.dof_frictionloss[self._carriers.friction_of(hole)] = min(torque, CROSSED_TORQUE)
-        self._set(hole, msgspec.structs.replace(state, clamp=clamp))
+        rubbed = msgspec.structs.replace(state, clamp=clamp)
+        self._model.dof_frictionloss[self._carriers.friction_of(hole)] = self._torque(rubbed, back=back)
+        self._set(hole, rubbed)
+
+    def _torque(self, thread: Thread, *, back: bool = False) -> float:
+        """Torque with which a thread rubs as its screw is turned in or back, N m."""
+        if thread.crossed:
+            return BACKING_TORQUE if back else CROSSED_TORQUE
+        return min(RUNNING_TORQUE + self._figures.friction * THREAD_RADIUS * thread.clamp, CROSSED_TORQUE)
+
+    def write(self, holes: tuple[Thread, ...], model: mujoco.MjModel) -> None:
+        """Write into a model of this scene, as it was drawn, what the threads in these states make of it."""
+        for hole, thread in enumerate(holes):
+            self._carriers.meet(hole, model, there=thread.screw is not None)
+            if thread.screw is not None:
+                model.dof_frictionloss[self._carriers.friction_of(hole)] = self._torque(thread)
 
     def head_force(self, hole: int) -> float:
         """Force with which the head of a hole's screw presses on the part beneath it, N."""

@@ -8,17 +8,8 @@ from typing import Any
 import msgspec
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from handeye.cell.mechanism import Mechanism
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DrawnScene:
-    """Looks of a scene before anything happened in it."""
-
-    groups: NDArray[np.int32]  # group of each shape
-    colours: NDArray[np.float32]  # red, green, blue and alpha of each material, shape (n, 4)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,7 +18,8 @@ class Truth:
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    drawn: DrawnScene
+    drawn: mujoco.MjModel
+    """The scene before anything happened in it."""
     states: Mapping[str, msgspec.Struct]
     """States of the cell's mechanisms, by their names, when this truth was asked for."""
     mechanisms: tuple[Mechanism[Any], ...]

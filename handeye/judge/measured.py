@@ -2,7 +2,7 @@
 
 import copy
 from collections.abc import Sequence
-from math import acos
+from math import acos, degrees
 
 import mujoco
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from handeye.cell.truth import Truth
 from handeye.core.pose import Array, Pose, inverse, pose
+from handeye.judge.finding import Finding, at_most
 
 
 class SettledState:
@@ -18,8 +19,9 @@ class SettledState:
     def __init__(self, truth: Truth, settle: float = 0.0) -> None:
         """Copy the state, wake everything and let some time pass (s)."""
         self.model, self.data = truth.copy()
-        self._start = mujoco.MjData(truth.model)
-        mujoco.mj_kinematics(truth.model, self._start)
+        self.drawn = truth.drawn  # the scene as it was drawn, to compare with
+        self._start = mujoco.MjData(truth.drawn)
+        mujoco.mj_kinematics(truth.drawn, self._start)
         mujoco.mj_step(self.model, self.data, round(settle / self.model.opt.timestep))
 
     def pose(self, body: str) -> Pose:
@@ -31,12 +33,17 @@ class SettledState:
         """Pose of `body` in the frame of `other`."""
         return inverse(self.pose(other)) @ self.pose(body)
 
+    def from_site(self, body: str, site: str) -> float:
+        """Distance of a body from where a site was at first, m."""
+        there = self._start.site_xpos[self.drawn.site(site).id]
+        return float(np.linalg.norm(self.pose(body)[:3, 3] - there))
+
     def strayed(self, bodies: Sequence[str], places: Sequence[str]) -> float:
         """Greatest distance of the bodies from their places, m; a place is where a body of `places` was at first.
 
         Any body may have any place, but each place takes one only: nearest first.
         """
-        firsts = self._start.xpos[[self.model.body(name).id for name in places]]
+        firsts = self._start.xpos[[self.drawn.body(name).id for name in places]]
         now = np.reshape([self.pose(name)[:3, 3] for name in bodies], (-1, 3))
         away = np.linalg.norm(now[:, None] - firsts, axis=-1)
         farthest = 0.0
@@ -51,6 +58,15 @@ class SettledState:
         number = self.model.body(body).id
         R = self._start.xmat[number].reshape(3, 3).T @ self.data.xmat[number].reshape(3, 3)
         return acos(max(-1.0, min(1.0, (float(np.trace(R)) - 1) / 2)))
+
+    def speed(self, body: int) -> float:
+        """Greatest speed of any point of a body, at most, m/s."""
+        model, data, found = self.model, self.data, np.zeros(6)
+        mujoco.mj_objectVelocity(model, data, int(mujoco.mjtObj.mjOBJ_BODY), body, found, 0)
+        mine = np.flatnonzero(model.geom_bodyid == body)
+        away = np.linalg.norm(data.geom_xpos[mine] - data.xipos[body], axis=1) + model.geom_rbound[mine]
+        turn, way = np.linalg.norm(found.reshape(2, 3), axis=1)
+        return float(way + turn * away.max(initial=0.0))
 
     def gap(self, geom: str, other: str) -> float:
         """Signed distance between two geoms, m; negative when they overlap."""
@@ -81,6 +97,16 @@ class SettledState:
         mujoco.mj_comPos(model, data)
         mujoco.mj_collision(model, data)
         return data.contact.geom.copy(), np.maximum(0.0, -data.contact.dist)
+
+
+def mm(value_m: float, limit_mm: float, subject: str) -> Finding:
+    """A length that may reach a limit."""
+    return at_most(value_m * 1e3, limit_mm, "mm", subject)
+
+
+def deg(value_rad: float, limit_deg: float, subject: str) -> Finding:
+    """An angle that may reach a limit."""
+    return at_most(degrees(value_rad), limit_deg, "deg", subject)
 
 
 def tilt(X: Pose) -> float:

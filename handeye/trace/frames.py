@@ -20,7 +20,7 @@ from handeye.trace.messages import Poses, stamp
 def looks(truth: Truth, body: int) -> list[int]:
     """The shapes by which a body is seen, or will be."""
     mine = np.flatnonzero(truth.model.geom_bodyid == body)
-    return [int(shape) for shape in mine if truth.drawn.groups[shape] in (SEEN, LATENT)]
+    return [int(shape) for shape in mine if truth.drawn.geom_group[shape] in (SEEN, LATENT)]
 
 
 def scene(truth: Truth, time: int) -> bytes:
@@ -39,7 +39,7 @@ def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
     """Add a shape to the entity of its body. A lamp, the only ball, is left out."""
     model = truth.model
     material = model.geom_matid[shape]
-    r, g, b, a = _short(truth.drawn.colours[material] if material >= 0 else model.geom_rgba[shape])
+    r, g, b, a = _short(truth.drawn.mat_rgba[material] if material >= 0 else model.geom_rgba[shape])
     qw, qx, qy, qz = _short(model.geom_quat[shape])
     pose = Pose(position=_vector(model.geom_pos[shape]), orientation=Quaternion(x=qx, y=qy, z=qz, w=qw))
     color, size, kind = Color(r=r, g=g, b=b, a=a), model.geom_size[shape], model.geom_type[shape]

@@ -29,6 +29,7 @@ CLAMP: Final = 40.0  # N, each: with friction .2 the two hold 16 N sideways. Cho
 
 _MOTORED: Final = ("base", "driver")
 _LAYERS: Final = ("gasket", "top")
+WELDS: Final = tuple(f"merge_{layer}" for layer in _LAYERS)
 _LANDS: Final = (64, 128)  # contact bits of the lands of gasket and top; scenes/water_pump/workcell.xml
 
 
@@ -52,8 +53,8 @@ class Clamping(Mechanism[ClampingState]):
         self._model, self._data, self._threads, self._allowed = model, data, threads, allowed
         self._base = model.body("base").id
         self._layers = [model.body(name).id for name in _LAYERS]
-        self._welds = [model.equality(f"merge_{name}").id for name in _LAYERS]
-        self._lands = np.flatnonzero(np.isin(model.geom_contype, _LANDS))
+        self._welds = [model.equality(name).id for name in WELDS]
+        self._lands = lands_of(model)
         self._friction = float(model.geom_friction[self._lands, 0].max())
         root = model.body_rootid[model.geom_bodyid]
         self._of_layer = [root == layer for layer in self._layers]
@@ -129,3 +130,8 @@ class Clamping(Mechanism[ClampingState]):
         """Give the layers their contacts back, in this model or a copy of it."""
         data.eq_active[self._welds] = 0
         model.geom_contype[self._lands], model.geom_conaffinity[self._lands] = self._bits
+
+
+def lands_of(drawn: mujoco.MjModel) -> NDArray[np.intp]:
+    """The lands of gasket and top in a scene in which nothing is clamped."""
+    return np.flatnonzero(np.isin(drawn.geom_contype, _LANDS))

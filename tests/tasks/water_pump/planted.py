@@ -18,6 +18,7 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, hand, inverse, planar, pose, rotation, rotation_x, translated
 from handeye.core.units import DEGREE
 from handeye.tasks.stanford_cell.dimensions import PARK, dimensions, screw_holes, standard
+from handeye.tasks.water_pump.clamping import ClampingState
 
 MM = 1e-3
 PUMP = ("base", "gasket", "top")
@@ -148,12 +149,14 @@ def leant(hole: int, angle: float) -> Planting:
 
 
 def rotor(**fields: object) -> Planting:
-    """Something about the rotor's joint: its friction (N m), range or place (rad)."""
+    """Something about the rotor's joint: its friction (N m), damping (N m s/rad), range or place (rad)."""
 
     def change(truth: Truth) -> Truth:
         joint = truth.model.joint("rotor")
         if "friction" in fields:
             truth.model.dof_frictionloss[joint.dofadr[0]] = fields["friction"]
+        if "damping" in fields:
+            truth.model.dof_damping[joint.dofadr[0]] = fields["damping"]
         if "stops" in fields:
             truth.model.jnt_limited[joint.id], truth.model.jnt_range[joint.id] = 1, fields["stops"]
         if "at" in fields:
@@ -162,6 +165,102 @@ def rotor(**fields: object) -> Planting:
         return truth
 
     return change
+
+
+_NUMBERS = {
+    "body": lambda model, name: [model.body(name).id],
+    "geom": lambda model, name: shapes(model, name),
+    "site": lambda model, name: [model.site(name).id],
+    "jnt": lambda model, name: [model.joint(name).id],
+    "dof": lambda model, name: [model.joint(name).dofadr[0]],
+    "eq": lambda model, name: [model.equality(name).id],
+}  # fmt: skip
+
+
+def shapes(model: mujoco.MjModel, name: str) -> list[int]:
+    """The shape of a name, or the solid shapes of a body."""
+    named = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, name)
+    solid = (model.geom_contype | model.geom_conaffinity) != 0
+    return (
+        [named] if named >= 0 else np.flatnonzero((model.geom_bodyid == model.body(name).id) & solid).tolist()
+    )
+
+
+def figure(field: str, name: str, value: object, which: int | None = None) -> Planting:
+    """A figure of the scene altered behind its back, of all shapes of a body or of one."""
+
+    def change(truth: Truth) -> Truth:
+        rows = _NUMBERS[field.partition("_")[0]](truth.model, name)
+        getattr(truth.model, field)[rows if which is None else rows[which]] = value
+        mujoco.mj_forward(truth.model, truth.data)
+        return truth
+
+    return change
+
+
+def moved_on(field: str, name: str, by: object, which: int | None = None) -> Planting:
+    """The same, by so much."""
+
+    def change(truth: Truth) -> Truth:
+        rows = _NUMBERS[field.partition("_")[0]](truth.model, name)
+        getattr(truth.model, field)[rows if which is None else rows[which]] += by
+        mujoco.mj_forward(truth.model, truth.data)
+        return truth
+
+    return change
+
+
+def going(joint: str, rate: float, way: int = 0) -> Planting:
+    """A joint that moves, rad/s or m/s."""
+
+    def change(truth: Truth) -> Truth:
+        truth.data.qvel[truth.model.joint(joint).dofadr[0] + way] = rate
+        mujoco.mj_forward(truth.model, truth.data)
+        return truth
+
+    return change
+
+
+def in_the_way(truth: Truth) -> Truth:
+    """A pin on the far side of the hub."""
+    put(truth, "pin0", lie(truth, "rotor") @ planar(dimensions()("rotor.crank_radius"), 0.0, 0.03, 0.0))
+    return truth
+
+
+def bored(name: str, wider: float) -> Planting:
+    """The wedges around a hole drawn outward, m."""
+
+    def change(truth: Truth) -> Truth:
+        mesh = truth.model.mesh(name)
+        corners = truth.model.mesh_vert[int(mesh.vertadr[0]) :][: int(mesh.vertnum[0])]
+        corners[:, :2] += wider * np.sign(corners[:, :2].mean(axis=0))
+        return truth
+
+    return change
+
+
+def pushed(body: str, force: float) -> Planting:
+    def change(truth: Truth) -> Truth:
+        truth.data.xfrc_applied[truth.model.body(body).id, 2] = force
+        return truth
+
+    return change
+
+
+def switched_on(truth: Truth) -> Truth:
+    driver = msgspec.structs.replace(truth.states["screwdriver"], command=20.0)
+    return replace(truth, states={**truth.states, "screwdriver": driver})
+
+
+def weightless(truth: Truth) -> Truth:
+    truth.model.opt.gravity[:] = 0.0
+    return truth
+
+
+def glued(truth: Truth) -> Truth:
+    truth = replace(truth, states={**truth.states, "clamping": ClampingState(clamped=False)})
+    truth.data.eq_active[truth.model.equality("merge_top").id] = 1
+    return truth
 
 
 def reaching(x: float, y: float, z: float) -> Planting:
@@ -216,6 +315,8 @@ def wrong() -> Iterator[tuple[str, str, Planting]]:
     yield from _screws()
     yield from _rotors()
     yield from _around()
+    yield from _parts()
+    yield from _going()
 
 
 def _layers() -> Iterator[tuple[str, str, Planting]]:
@@ -277,7 +378,14 @@ def _rotors() -> Iterator[tuple[str, str, Planting]]:
     yield "rotor jammed", "rotor", rotor(friction=5.0)
     yield "rotor stiff", "rotor", rotor(friction=0.4)
     yield "rotor that moves 6 degrees and jams", "rotor", rotor(stops=(-6 * DEGREE, 6 * DEGREE))
-    yield "rotor that jams after 50 degrees one way", "rotor", rotor(stops=(-50 * DEGREE, 180 * DEGREE))
+    for low, high in ((-50, 180), (-400, 61), (-400, 70), (-100, 400), (-300, 400), (-400, 350)):
+        name = f"rotor that turns from {low} to {high} degrees"
+        yield name, "rotor", rotor(stops=(low * DEGREE, high * DEGREE))
+    yield "rotor as stiff as the check of 1973 lets pass", "rotor", rotor(friction=0.25)
+    yield "rotor that springs back", "rotor", figure("jnt_stiffness", "rotor", 0.28)
+    yield "rotor that springs back gently", "rotor", figure("jnt_stiffness", "rotor", 0.02)
+    yield "rotor in hardened grease", "rotor", rotor(damping=0.03)
+    yield "pin in the way of the crank", "rotor", in_the_way
 
 
 def _around() -> Iterator[tuple[str, str, Planting]]:
@@ -304,6 +412,85 @@ def _around() -> Iterator[tuple[str, str, Planting]]:
     yield "hand on the pump", "hand", reaching(x, y, 0.09)
 
 
+def _parts() -> Iterator[tuple[str, str, Planting]]:
+    """Parts that are not as this world has them."""
+    yield "rotor 10 mm out of its bearing", "rotor_place", moved_on("body_pos", "rotor", (0.0, 0.0, 10 * MM))
+    yield "rotor 5 mm beside its bearing", "rotor_place", moved_on("body_pos", "rotor", (5 * MM, 0.0, 0.0))
+    lean = np.zeros(4)
+    mujoco.mju_mat2Quat(lean, rotation_x(2 * DEGREE).ravel())
+    yield "rotor that leans in its bearing", "rotor_lean", figure("body_quat", "rotor", lean)
+    yield "crank pin bent", "rotor_place", moved_on("geom_pos", "crank", (0.0, 2 * MM, 0.0))
+    yield "crank pin broken short", "rotor_place", figure("geom_size", "crank", (5 * MM, 4 * MM, 0.0))
+    yield "crank pin gone", "as_drawn", figure("geom_conaffinity", "crank", 0)
+    yield "gasket torn off at its narrow end", "as_drawn", figure("geom_size", "gasket_lands", 1e-6, 4)
+    yield "gasket torn at hole 3", "as_drawn", moved_on("geom_pos", "gasket", (0.0, 0.0, 0.1), 20)
+    yield "land missing at hole 4", "as_drawn", figure("geom_contype", "gasket_lands", 0, 3)
+    yield "gasket without its web", "as_drawn", figure("geom_size", "gasket_web", (1e-6, 1e-6, 1e-6))
+    yield "gasket of lead", "as_drawn", figure("body_mass", "gasket", 0.5)
+    yield "top hollow", "as_drawn", figure("body_mass", "top", 0.1)
+    yield "top on another centre of mass", "as_drawn", moved_on("body_ipos", "top", (0.01, 0.0, 0.0))
+    yield "top oiled", "as_drawn", figure("geom_friction", "top_lands", 0.0)
+    yield "hole of the top bored wide", "as_drawn", figure("site_size", "top_hole2", 4.5 * MM)
+    yield "tapped holes bored to 3.2 mm", "as_drawn", bored("tap", 0.65 * MM)
+    yield "tapped hole without thread", "as_drawn", figure("eq_active0", "thread3", 0)
+    yield "coarse thread", "as_drawn", figure("eq_data", "thread3", 2e-4, 0)
+    yield "thread without friction", "screws_hold", figure("dof_frictionloss", "thread_turn2", 0.0)
+    yield "thread that rubs half as much", "as_drawn", figure("dof_frictionloss", "thread_turn2", 0.05)
+    yield "screw turned home with 1 N m", "screws_turned", thread(2, clamp=856.0)
+    half = (dimensions()("screw.length") - dimensions()("screw.point_length")) / 2
+    for what, longer in (("5 mm short", -5 * MM), ("4 mm long", 4 * MM)):
+        size = (dimensions()("screw.shank_radius"), half + longer / 2, 0.0)
+        yield f"screw {what}", "screws_size", figure("geom_size", "shank3", size)
+        yield f"screw {what} before it was driven", "screws_size", figure("geom_size", "screw3", size, 0)
+    yield (
+        "screw with a head of another kind",
+        "screws_size",
+        figure("geom_size", "head1", (4 * MM, 2 * MM, 0.0)),
+    )
+    yield (
+        "screw with a burr on its point",
+        "screws_size",
+        figure("geom_size", "screw1", (2.7 * MM, 1.5 * MM, 0.0), 1),
+    )
+    yield "soft screw", "as_drawn", figure("geom_solref", "head1", (0.05, 1.0))
+    yield "base without its left half", "as_drawn", figure("geom_size", "plate", (0.01, 0.05, 0.01))
+    yield (
+        "blocks moved with the pump",
+        "as_drawn",
+        both(moved_on("body_pos", "blocks", 0.01), shifted(*PUMP, by=(0.01,) * 3)),
+    )
+    yield "pin holder moved with its pins", "as_drawn", moved_on("body_pos", "pin_holder", (0.001, 0.0, 0.0))
+    yield "pin thinner than it was", "as_drawn", figure("geom_size", "pin1", (1 * MM, 1 * MM, 1 * MM))
+    yield "bit worn away", "as_drawn", figure("geom_size", "bit", (1 * MM, 1 * MM, 0.0))
+    yield "table oiled", "as_drawn", figure("geom_friction", "table", 0.01)
+    yield "no weight", "as_drawn", weightless
+    yield "top glued", "bonds", glued
+    yield "thread torn out of the base", "bonds", open_bond
+    yield "top pressed down by an unseen hand", "held", pushed("top", -30.0)
+    for part, other in (("screw2", "dispenser"), ("screw2", "base")):
+        yield f"screw both in its thread and at the {other}", "tray", beside(part, other, (0.0, 0.0, 0.1))
+
+
+def open_bond(truth: Truth) -> Truth:
+    truth.data.eq_active[truth.model.equality("thread4").id] = 0
+    return truth
+
+
+def _going() -> Iterator[tuple[str, str, Planting]]:
+    """Cells that are not at rest."""
+    for joint in ("j1", "j4", "j6"):
+        yield f"arm under way in {joint}", "arm_still", going(f"stanford/{joint}", 2.0)
+    yield "arm creeping", "arm_still", going("stanford/j1", 0.02)
+    yield "boom running out", "arm_still", going("stanford/j3", 0.05)
+    yield "rotor spinning", "still", going("rotor", 3.0)
+    yield "spindle spinning", "still", going("spindle", 2.0)
+    yield "screwdriver switched on", "motor", switched_on
+    yield "screw turning out", "still", going("thread_turn3", 1.0)
+    yield "pump sliding", "still", going("base", 0.02)
+    yield "pump turning", "still", going("base", 0.2, 5)
+    yield "pin falling", "still", going("pin0", -0.2, 2)
+
+
 # -- right pumps -----------------------------------------------------------------------------------
 
 
@@ -322,12 +509,13 @@ def right() -> Iterator[tuple[str, int | None, Planting]]:
         yield f"top turned as far as screws let it, {sign:+d}", None, laid("top", turn=turn)
     for at in (60.0, -60.0, 200.0):
         yield f"rotor at {at:.0f} degrees", None, rotor(at=at * DEGREE)
-    yield "rotor stiff, but not too stiff", None, rotor(friction=0.25)
+    yield "rotor at 179 degrees", None, rotor(at=179 * DEGREE)
+    yield "rotor stiff, but not too stiff", None, rotor(friction=0.08)
+    yield "rotor loose", None, rotor(friction=0.0)
     yield "base off its blocks", None, shifted(*PUMP, by=(1.0 * MM, -1.0 * MM, 0.0))
     yield "thread scarred, its screw backed out and driven home", None, thread(1, scarred=True)
-    bored = narrow("top", 3, dimensions()("screw.shank_radius") + 0.55 * MM)
-    yield "top aside, one hole bored narrow", None, both(laid("top", x=0.5 * MM), bored)
     yield "pins changed about", None, _pins_changed
+    yield "screws changed about", None, both(thread(1, screw=4), thread(4, screw=1))
     yield "driver askew in its guides", None, turned("driver", by=planar(0, 0, 0, 1 * DEGREE)[:3, :3])
     yield "driver at the end of its play", None, shifted("driver", by=(0.45 * MM, -0.45 * MM, 0.0))
     for seed in (910031, 910032, 910033):

@@ -74,11 +74,15 @@ CHANGES: dict[str, tuple[Callable[[Truth], Truth], set[str]]] = {
     "a pin that lies on the table": (fallen_pin, {"pins", "pins_tilt"}),
     # it stands on its socket, which the table bears: nothing overlaps
     "a driver that falls beside its rack": (moved("driver", 0.1, 0.0, 0.0), {"rack"}),
-    "a driver in a post of its rack": (moved("driver", 0.02, 0.0, 0.0), {"rack", "rack_tilt", "overlap"}),
+    "a driver in a post of its rack": (
+        moved("driver", 0.02, 0.0, 0.0),
+        {"rack", "rack_tilt", "overlap", "still"},
+    ),
     "a crossed screw": (crossed, {"screws_crossed"}),
-    "a screw that stands high": (high_screw, {"screws_depth", "screws_thread", "screws_clamp"}),
+    # its thread is stiff, so that it stays there
+    "a screw that stands high": (high_screw, {"screws_depth", "screws_thread", "screws_clamp", "as_drawn"}),
     "a jammed rotor": (jammed, {"rotor"}),
-    "a missing screw": (missing_screw, {"screws", "dispenser", "floor"}),
+    "a missing screw": (missing_screw, {"screws", "dispenser", "floor", "as_drawn"}),
 }
 
 

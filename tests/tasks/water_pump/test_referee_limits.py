@@ -4,7 +4,6 @@ A right finished pump is spoilt as little as a finding needs: parts are moved in
 quantity that it measures has a given value. The referee looks at once, so that nothing falls back into its place.
 """
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
@@ -15,17 +14,18 @@ import mujoco
 import numpy as np
 import pytest
 from finished import put, rested
+from planted import figure, open_bond, pushed, switched_on
 
 from handeye.cell.threads import ThreadsState, holes_of
 from handeye.cell.truth import Truth
 from handeye.core.pose import Array, Pose, inverse, planar, pose, rotation_x, translated
-from handeye.core.resources import plans
+from handeye.core.resources import scenes
 from handeye.core.units import DEGREE
 from handeye.judge.finding import Findings
 from handeye.judge.measured import SettledState
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.referee import limits, measure
-from handeye.tasks.water_pump.referee.findings import judge
+from handeye.tasks.water_pump.referee.findings import judge, judge_apart
 from handeye.tasks.water_pump.referee.measure import head_force
 
 pytestmark = pytest.mark.slow
@@ -189,15 +189,56 @@ def under_the_hand(truth: Truth, value: float) -> None:
         shift(truth, ("pin0",), 0.0, 0.0, (judge(truth)["hand"].value - value) * MM)
 
 
-def clamp(truth: Truth, value: float) -> None:
-    """Turn a screw out until it clamps with a force, N."""
-    low, high = 0.0, 0.1 * MM
+def clamp(truth: Truth, value: float, *, hole: int = 2, low: float = 0.0) -> None:
+    """Turn a screw out, from `low` (mm) on, until it clamps with a force, N."""
+    low, high = low * MM, 0.1 * MM
     start = truth.data.qpos.copy()
     for _ in range(20):
         way = (low + high) / 2
         truth.data.qpos[:] = start
-        draw_screw(truth, 2, way)
-        low, high = (way, high) if head_force(SettledState(truth), 2) > value else (low, way)
+        draw_screw(truth, hole, way)
+        low, high = (way, high) if head_force(SettledState(truth), hole) > value else (low, way)
+
+
+def screw_short(truth: Truth, value: float) -> None:
+    """The radius of a screw's shank off."""
+    truth.model.geom("shank2").size[0] -= value * MM
+
+
+def turned_home(truth: Truth, value: float) -> Truth:
+    """A screw whose head pressed so much when it was last turned."""
+    return thread(truth, clamp=value)
+
+
+def held_back(truth: Truth, value: float) -> None:
+    """A thread that rubs so little that a torque turns its screw back, N m."""
+    friction = value - measure.loosening_torque(SettledState(truth), 2)
+    truth.model.dof_frictionloss[truth.model.joint("thread_turn2").dofadr[0]] += friction
+
+
+def rotor_aside(truth: Truth, value: float) -> None:
+    truth.model.body("rotor").pos[0] += value * MM
+    mujoco.mj_forward(truth.model, truth.data)
+
+
+def rotor_lean(truth: Truth, value: float) -> None:
+    rotor = truth.model.body("rotor").id
+    mujoco.mju_mat2Quat(truth.model.body_quat[rotor], rotation_x(value * DEGREE).ravel())
+    mujoco.mj_forward(truth.model, truth.data)
+
+
+def off_the_tray(truth: Truth, value: float) -> None:
+    at = truth.data.site("park3").xpos
+    put(truth, "screw3", pose(np.eye(3), at + np.array([0.0, 0.0, value * MM])))
+
+
+def going(truth: Truth, value: float, *, joint: str, body: str) -> None:
+    """A joint that turns so fast that a point of its body goes at a speed, mm/s."""
+    dof, number = truth.model.joint(joint).dofadr[0], truth.model.body(body).id
+    truth.data.qvel[:], truth.data.qvel[dof] = 0.0, 1e-3
+    mujoco.mj_forward(truth.model, truth.data)
+    truth.data.qvel[dof] *= value * MM / SettledState(truth).speed(number)
+    mujoco.mj_forward(truth.model, truth.data)
 
 
 def thread(truth: Truth, **changed: object) -> Truth:
@@ -221,6 +262,8 @@ class Spoiling:
     """-1 where less is wrong."""
 
 
+ALTERED = frozenset({"as_drawn"})
+"""What no cell can do is not as drawn either."""
 PRESSED = frozenset({"screws_clamp"})
 """A layer out of its place is clamped otherwise."""
 PRESSED_IN = PRESSED | {"overlap"}
@@ -244,12 +287,26 @@ SPOILT: Final = {
     "pins_tilt": Spoiling(limit=10.0, by=partial(leaning, part="pin0"), also=frozenset({"overlap_bores"})),
     "rack": Spoiling(limit=3.0, by=partial(over_its_place, part="driver")),
     "rack_tilt": Spoiling(limit=5.0, by=partial(leaning, part="driver"), also=frozenset({"overlap"})),
-    "dispenser": Spoiling(limit=3.0, by=stray_screw, also=frozenset({"screws"})),
+    "dispenser": Spoiling(limit=3.0, by=stray_screw, also=frozenset({"screws", "as_drawn"})),
     "floor": Spoiling(limit=-5.0, by=beneath, also=frozenset({"pins"}), sign=-1),
     "hand": Spoiling(limit=25.0, by=under_the_hand, also=frozenset({"pins"}), sign=-1),
     "overlap_bores": Spoiling(limit=0.03, by=pin_in_wall),
+    "screws_size": Spoiling(limit=0.35, by=screw_short, also=ALTERED),
+    "screws_strain": Spoiling(limit=420.0, by=partial(clamp, hole=1, low=-0.1), also=PRESSED),
+    "screws_turned": Spoiling(limit=400.0, by=turned_home, also=ALTERED),
+    "screws_hold": Spoiling(limit=0.02, by=held_back, also=ALTERED, sign=-1),
+    "rotor_place": Spoiling(limit=0.1, by=rotor_aside, also=ALTERED),
+    "rotor_lean": Spoiling(limit=0.1, by=rotor_lean, also=ALTERED),
+    "tray": Spoiling(limit=3.0, by=off_the_tray),
+    "still": Spoiling(limit=1.0, by=partial(going, joint="rotor", body="rotor")),
+    "arm_still": Spoiling(limit=1.0, by=partial(going, joint="stanford/j6", body="stanford/link6")),
     "overlap": Spoiling(limit=0.15, by=lambda truth, value: base_height(truth, -value)),
 }  # fmt: skip
+ABSOLUTE: Final = {
+    "as_drawn": figure("body_mass", "top", 0.1), "bonds": open_bond, "held": pushed("top", 1e-3),
+    "motor": switched_on,
+}  # fmt: skip
+"""Findings whose limit is zero: the least that is wrong."""
 COUNTED: Final = {
     "screws": {"screw": None}, "screws_crossed": {"crossed": True}, "threads_scarred": {"scarred": True},
 }  # fmt: skip
@@ -276,22 +333,28 @@ def test_one_wrong_screw_of_six_is_found(pump: Truth, name: str) -> None:
     assert findings[name].value == {"screws": 5, "screws_crossed": 1, "threads_scarred": 1}[name]
 
 
-@pytest.mark.parametrize(("friction", "right"), [(0.3, True), (0.36, False)])
+@pytest.mark.parametrize("name", ABSOLUTE)
+@pytest.mark.usefixtures("at_once")
+def test_what_may_not_be_at_all_is_found(pump: Truth, name: str) -> None:
+    assert wrong(judge(ABSOLUTE[name](pump))) - PRESSED == {name}
+
+
+@pytest.mark.parametrize(("friction", "right"), [(0.08, True), (0.1, False)])
 def test_the_rotor_is_right_if_it_turns_before_its_limit(pump: Truth, friction: float, right: bool) -> None:
     pump.model.dof_frictionloss[pump.model.joint("rotor").dofadr[0]] = friction
     rotor = judge(pump)["rotor"]
-    assert (rotor.ok, rotor.limit) == (right, 0.35)
-
-
-def test_the_rotor_is_swung_as_far_as_the_program_turns_it() -> None:
-    script = (plans() / "water_pump.al").read_text(encoding="utf-8")
-    turns = [abs(float(angle)) for angle in re.findall(r"\bTURN\s+ROTOR\s+(-?[\d.]+)", script)]
-    assert max(turns) == limits.ROTOR_SWING
+    assert (rotor.ok, rotor.limit) == (right, 0.1)
 
 
 @pytest.mark.usefixtures("at_once")
 def test_every_finding_there_is_has_been_made_to_fail(pump: Truth) -> None:
-    assert set(judge(pump)) == {*SPOILT, *COUNTED, "rotor"}
+    assert set(judge(pump)) == {*SPOILT, *COUNTED, *ABSOLUTE, "rotor"}
+
+
+@pytest.mark.usefixtures("at_once")
+def test_the_page_of_the_scene_tells_of_every_finding(pump: Truth) -> None:
+    page = (scenes() / "water_pump" / "README.md").read_text(encoding="utf-8")
+    assert {name for name in {**judge(pump), **judge_apart(pump)} if f"`{name}`" not in page} == set()
 
 
 @pytest.mark.usefixtures("at_once")

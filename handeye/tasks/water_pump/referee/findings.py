@@ -1,8 +1,6 @@
 """The referee's findings on a finished pump, and on one that was taken apart, point by point."""
 
-from collections.abc import Iterable, Sequence
 from math import degrees, isfinite
-from typing import Final
 
 import numpy as np
 
@@ -11,14 +9,10 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import yaw
 from handeye.core.units import INCH
 from handeye.judge.finding import Finding, Findings, at_least, at_most, worse
-from handeye.judge.measured import SettledState, tilt
-from handeye.tasks.stanford_cell.arm import ARM
+from handeye.judge.measured import SettledState, deg, mm, tilt
 from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.referee import limits, measure
-from handeye.tasks.water_pump.referee.measure import deepest
-
-_PINS: Final = ("pin0", "pin1")
-_PARTS: Final = {"base": limits.APART, "gasket": limits.APART_GASKET, "top": limits.APART}
+from handeye.tasks.water_pump.referee.cell_findings import PARTS, PINS, around, loose_screws, made
 
 
 def judge(truth: Truth) -> Findings:
@@ -29,18 +23,11 @@ def judge(truth: Truth) -> Findings:
     """
     left, settled = _as_left_and_settled(truth)
     holes = holes_of(truth)
-    forces = [measure.head_force(settled, k) for k, thread in enumerate(holes) if thread.screw is not None]
-    clamp, torque = min(forces, default=0.0), measure.rotor_torque(settled)
-    value = torque if isfinite(torque) else 2 * limits.ROTOR_TORQUE  # did not turn all the way
     return {
         **worse(_places(left, holes), _places(settled, holes)),
-        "screws_clamp": at_least(clamp, limits.SCREW_CLAMP, "N", "weakest clamp of a screw"),
-        "rotor": at_most(
-            value,
-            limits.ROTOR_TORQUE,
-            "N m",
-            f"torque that turns the rotor {limits.ROTOR_SWING:.0f} degrees and back",
-        ),
+        **_pressing(settled, holes),
+        **made(left, truth),
+        "rotor": _turning(settled),
     }
 
 
@@ -49,26 +36,15 @@ def _as_left_and_settled(truth: Truth) -> tuple[SettledState, SettledState]:
 
 
 def _places(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
-    bores, others = deepest(measured)
     return {
         **_base(measured),
         **_layer(measured, "gasket", holes),
         **_layer(measured, "top", holes),
         **_screws(measured, holes),
+        **_rotor(measured),
         **_cell(measured, holes),
-        "overlap_bores": _mm(
-            bores.depth, limits.SOFT, f"deepest cut of a shank or pin into a bore, of {bores.between}"
-        ),
-        "overlap": _mm(others.depth, limits.PENETRATION, f"deepest overlap, of {others.between}"),
+        **around(measured, holes),
     }
-
-
-def _mm(value_m: float, limit_mm: float, subject: str) -> Finding:
-    return at_most(value_m * 1e3, limit_mm, "mm", subject)
-
-
-def _deg(value_rad: float, limit_deg: float, subject: str) -> Finding:
-    return at_most(degrees(value_rad), limit_deg, "deg", subject)
 
 
 def _base(measured: SettledState) -> Findings:
@@ -77,12 +53,12 @@ def _base(measured: SettledState) -> Findings:
     gaps = {side: abs(measured.gap("plate", f"block_{side}")) for side in ("far", "left")}
     return {
         **{
-            f"base_{side}": _mm(gap, limits.BLOCK_GAP, f"gap between the base and the {side} block")
+            f"base_{side}": mm(gap, limits.BLOCK_GAP, f"gap between the base and the {side} block")
             for side, gap in gaps.items()
         },
         "base_yaw": at_most(abs(turn), limits.BASE_YAW, "deg", "turn of the base against the blocks"),
-        "base_height": _mm(abs(X_WB[2, 3]), limits.BASE_HEIGHT, "height of the base off the table"),
-        "base_tilt": _deg(tilt(X_WB), limits.BASE_TILT, "tilt of the base"),
+        "base_height": mm(abs(X_WB[2, 3]), limits.BASE_HEIGHT, "height of the base off the table"),
+        "base_tilt": deg(tilt(X_WB), limits.BASE_TILT, "tilt of the base"),
     }  # fmt: skip
 
 
@@ -93,11 +69,11 @@ def _layer(measured: SettledState, layer: str, holes: tuple[Thread, ...]) -> Fin
     apart = [measure.misfit(measured, layer, k) for k in range(len(holes))]
     hole = max(range(len(holes)), key=lambda k: apart[k] - margin[k])
     return {
-        f"{layer}_height": _mm(
+        f"{layer}_height": mm(
             off, limits.LAYER_HEIGHT,
             f"farthest corner of the {layer} off its nominal {measure.under(layer) / INCH:.2f} in",
         ),
-        f"{layer}_place": _mm(
+        f"{layer}_place": mm(
             apart[hole], round(margin[hole] * 1e3 + limits.SOFT, 3),
             f"axis of screw hole {hole + 1} of the base from that of the {layer}",
         ),
@@ -112,18 +88,27 @@ def _screws(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     )  # no screw is like one that stands full length high
     aside = max((measure.thread_offset(measured, k) for k in filled), default=0.0)
     length = min((measure.thread_length(measured, k) for k in filled), default=0.0)
+    size_off = max(
+        (
+            measure.screw_deviation(measured, thread.screw, k)
+            for k, thread in enumerate(holes)
+            if thread.screw is not None
+        ),
+        default=0.0,
+    )
     lean = max((measure.screw_lean(measured, k) for k in filled), default=0.0)
     crossed, scarred = sum(thread.crossed for thread in holes), sum(thread.scarred for thread in holes)
     return {
         "screws": at_least(
             len({holes[k].screw for k in filled}), len(holes), "screws", "screws in their threads"
         ),
-        "screws_depth": _mm(gap, limits.SCREW_GAP, "greatest gap under a screw's head"),
+        "screws_depth": mm(gap, limits.SCREW_GAP, "greatest gap under a screw's head"),
         "screws_thread": at_least(
             length * 1e3, limits.SCREW_THREAD, "mm", "shortest thread of a screw in the base"
         ),
-        "screws_place": _mm(aside, limits.SCREW_PLACE, "farthest axis of a screw from that of its tapped hole"),
-        "screws_lean": _deg(lean, limits.SCREW_LEAN, "greatest lean of a screw"),
+        "screws_place": mm(aside, limits.SCREW_PLACE, "farthest axis of a screw from that of its tapped hole"),
+        "screws_size": mm(size_off, limits.SCREW_SIZE, "length or radius of a screw off the drawing"),
+        "screws_lean": deg(lean, limits.SCREW_LEAN, "greatest lean of a screw"),
         "screws_crossed": at_most(crossed, 0, "screws", "cross-threaded screws"),
         "threads_scarred": at_most(
             scarred, limits.SCARS, "threads", "threads that a crossed screw has scarred", caution=True
@@ -131,71 +116,93 @@ def _screws(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     }  # fmt: skip
 
 
-def _cell(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
-    screws = [f"screw{k}" for k in range(len(holes))]
-    in_threads = {thread.screw for thread in holes}
-    loose = [name for k, name in enumerate(screws) if k not in in_threads]
-    parts = ("base", "gasket", "top", *_PINS, "driver", *loose)
-    lowest = min(measured.pose(name)[2, 3] for name in parts)
-    rack = measured.strayed(("driver",), ("driver",))
-    dispenser = measured.strayed(loose, screws)
+def _pressing(settled: SettledState, holes: tuple[Thread, ...]) -> Findings:
+    """Forces and torques of the screws, which are up to date when the cell has settled."""
+    filled = [k for k, thread in enumerate(holes) if thread.screw is not None]
+    forces = [measure.head_force(settled, k) for k in filled]
+    turned = [holes[k].clamp for k in filled]
+    held = [measure.loosening_torque(settled, k) for k in filled]
     return {
-        "pins": _mm(measured.strayed(_PINS, _PINS), limits.PIN_PLACE, "farther pin from its hole in the holder"),
-        "pins_tilt": _tilt(measured, _PINS, limits.PIN_TILT, "lean of a pin in its holder"),
-        "rack": _mm(rack, limits.RACK_PLACE, "screwdriver from its rack"),
-        "rack_tilt": _tilt(measured, ("driver",), limits.RACK_TILT, "lean of the screwdriver in its rack"),
-        "dispenser": _mm(dispenser, limits.PIN_PLACE, "loose screw from the dispenser"),
-        "floor": at_least(lowest * 1e3, limits.FLOOR, "mm", "lowest part over the table top"),
-        "hand": _hand(measured, parts),
-    }  # fmt: skip
+        "screws_clamp": at_least(
+            min(forces, default=0.0), limits.SCREW_CLAMP, "N", "weakest clamp of a screw"
+        ),
+        "screws_strain": at_most(
+            max(forces, default=0.0), limits.SCREW_STRAIN, "N", "strongest clamp of a screw"
+        ),
+        "screws_turned": at_most(
+            max(turned, default=0.0), limits.SCREW_TURNED, "N", "clamp to which a screw was turned home"
+        ),
+        "screws_hold": at_least(
+            min(held, default=0.0), limits.SCREW_HOLD, "N m", "torque that turns a screw back"
+        ),
+    }
 
 
-def _tilt(measured: SettledState, bodies: Sequence[str], limit_deg: float, subject: str) -> Finding:
-    return _deg(max(tilt(measured.pose(body)) for body in bodies), limit_deg, subject)
+def _cell(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
+    rack = measured.strayed(("driver",), ("driver",))
+    dispenser = measured.strayed(loose_screws(holes), [f"screw{k}" for k in range(len(holes))])
+    return {
+        "pins": mm(measured.strayed(PINS, PINS), limits.PIN_PLACE, "farther pin from its hole in the holder"),
+        "rack": mm(rack, limits.RACK_PLACE, "screwdriver from its rack"),
+        "dispenser": mm(dispenser, limits.PIN_PLACE, "loose screw from the dispenser"),
+    }
 
 
-def _hand(measured: SettledState, parts: Iterable[str]) -> Finding:
-    """Distance of the hand from the nearest of some parts and what is fixed to them; at most twice its limit."""
-    model = measured.model
-    solid = (model.geom_contype | model.geom_conaffinity) != 0
-    tree = model.body_rootid[model.geom_bodyid]
-    arm = np.array([model.body(body).name.startswith(ARM) for body in model.geom_bodyid])
-    mine = np.isin(tree, [model.body(part).id for part in parts])
-    nearest = measured.nearest(
-        np.flatnonzero(arm & solid), np.flatnonzero(mine & solid), 2 * limits.HAND_CLEAR / 1e3
+def _rotor(measured: SettledState) -> Findings:
+    return {
+        "rotor_place": mm(
+            measure.rotor_deviation(measured), limits.ROTOR_PLACE, "rotor or its crank pin from its place"
+        ),
+        "rotor_lean": deg(
+            measure.rotor_lean(measured), limits.ROTOR_LEAN, "lean of the rotor against the top"
+        ),
+    }
+
+
+def _turning(settled: SettledState) -> Finding:
+    torque = measure.rotor_torque(settled)
+    value = torque if isfinite(torque) else 2 * limits.ROTOR_TORQUE  # did not turn all the way
+    return at_most(
+        value,
+        limits.ROTOR_TORQUE,
+        "N m",
+        "torque that turns the rotor all the way round, either way and back",
     )
-    return at_least(nearest * 1e3, limits.HAND_CLEAR, "mm", "hand from the nearest part")
 
 
 def judge_apart(truth: Truth) -> Findings:
     """Measure the parts as they were left and when they have settled; the worse finding counts."""
-    filled = sum(thread.screw is not None for thread in holes_of(truth))
-    in_threads = at_most(filled, 0, "screws", "screws left in their threads")
+    holes = holes_of(truth)
+    filled = sum(thread.screw is not None for thread in holes)
     left, settled = _as_left_and_settled(truth)
-    return {**worse(_apart(left), _apart(settled)), "screws_out": in_threads}
+    return {
+        **worse(_apart(left, holes), _apart(settled, holes)),
+        **made(left, truth),
+        "screws_out": at_most(filled, 0, "screws", "screws left in their threads"),
+        "rotor": _turning(settled),
+    }
 
 
-def _apart(measured: SettledState) -> Findings:
-    names = [measured.model.body(number).name for number in range(measured.model.nbody)]
-    screws = [name for name in names if name.startswith("screw") and name[5:].isdecimal()]
-    turned = max(measured.turned(name) for name in _PARTS)
+def _apart(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
+    screws = [f"screw{k}" for k in range(len(holes))]
+    turned = max(measured.turned(name) for name in PARTS)
+    apart = {"base": limits.APART, "gasket": limits.APART_GASKET, "top": limits.APART}
     return {
         **{
-            f"{name}_back": _mm(measured.strayed((name,), (name,)), limit, f"{name} from where the run found it")
-            for name, limit in _PARTS.items()
+            f"{name}_back": mm(measured.strayed((name,), (name,)), limit, f"{name} from where the run found it")
+            for name, limit in apart.items()
         },
-        "parts_turn": _deg(
+        "parts_turn": deg(
             turned, limits.APART_TURN, "turn of base, gasket or top against how the run found it"
         ),
         **{
-            name: _mm(measured.strayed(things, things), limits.APART, what)
+            name: mm(measured.strayed(things, things), limits.APART, what)
             for name, things, what in (
-                ("pins", _PINS, "farther pin from its hole in the holder"),
+                ("pins", PINS, "farther pin from its hole in the holder"),
                 ("dispenser", screws, "farthest screw from its place in the dispenser"),
                 ("rack", ("driver",), "screwdriver from its rack"),
             )
         },
-        "pins_tilt": _tilt(measured, _PINS, limits.PIN_TILT, "lean of a pin in its holder"),
-        "rack_tilt": _tilt(measured, ("driver",), limits.RACK_TILT, "lean of the screwdriver in its rack"),
-        "hand": _hand(measured, (*_PARTS, *_PINS, "driver", *screws)),
+        **_rotor(measured),
+        **around(measured, holes),
     }  # fmt: skip

@@ -14,7 +14,17 @@ LAYER_HEIGHT: Final = 0.3
 
 SCREW_GAP: Final = 0.2
 """mm between head and flange. A crossed screw stands 4.4 to 5.7 mm high; assembly study."""
-SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 65 to 214 N
+SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 56 to 250 N
+SCREW_TURNED: Final = 400.0
+"""N with which a head pressed when it was last turned. Pumps that the arm has made have up to 240; the driver's clutch,
+.32 N m, makes up to 357 where thread and head rub as little as in any world. Twice its torque makes 530 to 560."""
+SCREW_STRAIN: Final = 420.0
+"""N under a head. Screws turned home later shift the load: pumps that the arm has made have up to 298."""
+SCREW_HOLD: Final = 0.02
+"""N m to turn a screw back: what a clean thread rubs with where nothing clamps it. With 40 N it is .026 at the least
+friction of any world; without friction the clamp itself turns the screw out."""
+SCREW_SIZE: Final = 0.35
+"""mm off the drawing in any length or radius: the play of a screw's point in a tapped hole."""
 SCREW_THREAD: Final = 6.35
 """mm in the base: one diameter of 1/4 in, the rule for steel. A seated screw has 6.93."""
 SCREW_PLACE: Final = 0.12
@@ -33,8 +43,17 @@ PIN_TILT: Final = 10.0  # deg: the pin stands, it does not lean out
 RACK_TILT: Final = 5.0  # deg: what the play of the guides allows, and no more than leaning
 RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevels
 
-ROTOR_TORQUE: Final = 0.35  # N m: 40 oz at the crank's 1.25 in, the reference's check of the rotor
-ROTOR_SWING: Final = 60.0  # deg, to either side and back: the turn that the program makes
+ROTOR_TORQUE: Final = 0.1
+"""N m to turn the rotor all the way round, either way and back: twice its friction, .05 N m in every world, which no
+quantity varies. Its inertia and bearing add .01 at the rate of the referee's turn. The reference's check, 40 oz at
+the crank, is .35 N m: a rotor that needs as much binds."""
+
+ROTOR_PLACE: Final = 0.1  # mm from its bearing, and of its crank: the bearing is drawn without play
+ROTOR_LEAN: Final = 0.1  # deg against the top, which it is drawn square to
+
+STILL: Final = 1.0
+"""mm/s of any point of a part or of the arm: as contacts come to rest, parts that lie still go at up to .1 mm/s; a
+joint that its brake holds creeps by 9e-6 rad/s, .01 mm/s at the hand."""
 
 HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or touches something is nearer
 
@@ -47,5 +66,10 @@ APART_TURN: Final = (
 )
 
 SETTLE: Final = 0.2  # s: forces come up to date, and what hangs in the air falls
+TRAY: Final = 3.0
+"""mm from its place on the tray under the floor, where the body of a screw lies that a thread stands for: one that is
+elsewhere would be there twice."""
+FORCE: Final = 0.0  # N and N m from outside on a part: nothing is held by an unseen hand
+ALTERED: Final = 0  # parts: a scene is made the same to the byte whenever it is made
 FLOOR: Final = -5.0  # mm: nothing may be lower than this under the table top
 PENETRATION: Final = 0.15  # mm of parts pressed on each other: contacts are soft; six screws make it .06 mm

@@ -1,5 +1,6 @@
 """Measurements that only a pump needs: its screws in their holes, how easily its rotor turns, and overlapping parts."""
 
+import copy
 from dataclasses import dataclass
 from functools import reduce
 from math import cos, pi, radians, sin
@@ -13,12 +14,12 @@ from handeye.core.pose import inverse, pose
 from handeye.judge.measured import SettledState, tilt
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
-from handeye.tasks.water_pump.referee.limits import ROTOR_SWING, ROTOR_TORQUE
+from handeye.tasks.water_pump.referee.limits import ROTOR_TORQUE
 
-_SWING: Final = 1.5  # s: once to one side, once to the other, and back
+_SWING: Final = 8.0  # s: once round one way, once the other, and back
 _BEHIND: Final = radians(2.0)  # so far behind its guide, the rotor is turned with its limit
 _GAIN: Final = ROTOR_TORQUE / _BEHIND  # N m/rad
-_DAMPING: Final = 0.07  # N m s/rad: with the rotor's inertia it swings into place without going beyond
+_DAMPING: Final = 0.04  # N m s/rad: with the rotor's inertia it swings into place without going beyond
 
 BORE = 4 | 512
 FLAT = 16 | 32 | 64 | 128
@@ -95,29 +96,83 @@ def screw_lean(measured: SettledState, hole: int) -> float:
     return tilt(inverse(measured.pose("base")) @ pose(axis, np.zeros(3)))
 
 
-def rotor_torque(measured: SettledState) -> float:
-    """Greatest torque that it takes to swing the rotor to either side and back, N m.
-
-    Infinite if the limit does not bring it all the way. Done on a further copy.
-    """
+def loosening_torque(measured: SettledState, hole: int) -> float:
+    """Torque that turns a screw back: the friction of its thread, less what its clamp turns by itself, N m."""
     model = measured.model
-    data = mujoco.MjData(model)
-    mujoco.mj_copyData(data, model, measured.data)
+    friction = float(model.dof_frictionloss[model.joint(f"thread_turn{hole}").dofadr[0]])
+    return friction - dimensions()("screw.pitch") / (2 * pi) * head_force(measured, hole)
+
+
+def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
+    """Greatest deviation of a screw from the drawing in length or radius, loose and as it is in its thread, m."""
+    model, size = measured.model, dimensions()
+    length, tip, head = size("screw.length"), size("screw.point_length"), size("screw.head_height")
+    shank, point = (size(f"screw.{name}_radius") for name in ("shank", "point"))
+    loose = np.flatnonzero(
+        (model.geom_bodyid == model.body(f"screw{screw}").id) & (model.geom_conaffinity != 0)
+    )
+    cylinders = [*loose, *(model.geom(f"{name}{hole}").id for name in ("shank", "head"))]
+    made = np.array([(*model.geom_size[geom][:2] * (1, 2), model.geom_pos[geom][2]) for geom in cylinders])
+    wide = (size("screw.head_radius"), head, length + head / 2)
+    long = (shank, length - tip, (length + tip) / 2)
+    drawn = np.array([long, (point, tip, tip / 2), wide, long, wide])
+    return float(np.abs(made - drawn).max()) if made.shape == drawn.shape else length
+
+
+def rotor_deviation(measured: SettledState) -> float:
+    """Distance of the rotor from its bearing on the top, or of the end of its crank pin from its place, m."""
+    model, size = measured.model, dimensions()
+    height = size("top.flange") + size("top.hub_height")
+    away = measured.relative("rotor", "top")[:3, 3] - (0.0, 0.0, height)
+    crank, end = model.geom("crank"), size("rotor.arm_height") + size("rotor.crank_height")
+    aside = np.array([*crank.pos[:2], crank.pos[2] + crank.size[1]]) - (-size("rotor.crank_radius"), 0.0, end)
+    return float(max(np.linalg.norm(away), np.linalg.norm(aside)))
+
+
+def rotor_lean(measured: SettledState) -> float:
+    """Angle between the rotor's axis and that of the top, rad."""
+    return tilt(measured.relative("rotor", "top"))
+
+
+def rotor_torque(measured: SettledState) -> float:
+    """Greatest torque that it takes to turn the rotor all the way round, either way and back, N m.
+
+    Infinite if the limit does not bring it round. Done on a further copy, in which all else stands still and the crank
+    meets whatever is in its way.
+    """
+    model, data = _alone(measured)
     dof, adr = model.joint("rotor").dofadr[0], model.joint("rotor").qposadr[0]
-    start, steps = float(data.qpos[adr]), round(_SWING / model.opt.timestep)
-    swing, greatest = radians(ROTOR_SWING), 0.0
+    rest, start = data.qpos.copy(), float(data.qpos[adr])
+    steps, greatest = round(_SWING / model.opt.timestep), 0.0
     for i in range(1, steps + 1):
         phase = pi * (1 - cos(pi * i / steps))  # sets off and stops gently
         rate = pi**2 / _SWING * sin(pi * i / steps)
-        behind = swing * sin(phase) - (data.qpos[adr] - start)
-        slower = swing * cos(phase) * rate - data.qvel[dof]
-        torque = _GAIN * behind + _DAMPING * slower
-        data.qfrc_applied[dof] = np.clip(torque, -ROTOR_TORQUE, ROTOR_TORQUE)
-        mujoco.mj_step(model, data)
+        behind = 2 * pi * sin(phase) - (data.qpos[adr] - start)
+        slower = 2 * pi * cos(phase) * rate - data.qvel[dof]
+        torque = float(np.clip(_GAIN * behind + _DAMPING * slower, -ROTOR_TORQUE, ROTOR_TORQUE))
         if abs(behind) > 2 * _BEHIND:
             return float("inf")
-        greatest = max(greatest, abs(float(data.qfrc_applied[dof])))
+        greatest = max(greatest, abs(torque))
+        turned, going = data.qpos[adr], data.qvel[dof]
+        data.qpos[:], data.qvel[:], data.qpos[adr], data.qvel[dof] = rest, 0.0, turned, going
+        data.qfrc_applied[dof] = torque
+        mujoco.mj_step(model, data)
     return greatest
+
+
+def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """A copy in which nothing has contacts but the rotor with all that is solid, and none rubs or is bound but it."""
+    model, rotor = copy.deepcopy(measured.model), measured.model.body("rotor").id
+    crank = model.geom_bodyid == rotor
+    solid = (model.geom_contype | model.geom_conaffinity) != 0
+    model.geom_contype[:], model.geom_conaffinity[:] = crank & solid, ~crank & solid
+    model.body_contype[:], model.body_conaffinity[:] = 0, 1
+    model.body_contype[rotor] = 1
+    model.dof_frictionloss[model.dof_bodyid != rotor] = 0.0
+    data = mujoco.MjData(model)
+    mujoco.mj_copyData(data, model, measured.data)
+    data.eq_active[:] = 0
+    return model, data
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

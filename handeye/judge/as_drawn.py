@@ -1,0 +1,115 @@
+"""Which parts of a scene are not as it was drawn, and in what; looks and sleep do not count."""
+
+from collections.abc import Iterator, Mapping
+from typing import Final
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+Mask = NDArray[np.bool_]
+
+_COUNTS: Final = {"body": "nbody", "jnt": "njnt", "dof": "nv", "geom": "ngeom", "site": "nsite", "eq": "neq"}
+_LOOKS: Final = ("group", "matid", "rgba", "castshadow", "user", "sameframe")
+_KINDS: Final = {
+    "place": ("body_pos", "body_quat"),
+    "mass": ("body_ipos", "body_iquat", "body_mass", "body_inertia", "body_gravcomp"),
+    "friction": ("dof_frictionloss", "dof_damping", "dof_armature", "geom_friction", "geom_priority"),
+    "contacts": ("geom_contype", "geom_conaffinity", "geom_condim"),
+}
+_WORDS: Final = {
+    "body": "joining",
+    "jnt": "joint",
+    "dof": "joint",
+    "geom": "shape",
+    "site": "hole",
+    "eq": "bond",
+}
+_PHYSICS: Final = (
+    "gravity",
+    "wind",
+    "magnetic",
+    "density",
+    "viscosity",
+    "impratio",
+    "o_margin",
+    "disableflags",
+)
+
+
+def altered(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> dict[str, list[str]]:
+    """Which of some bodies are otherwise than drawn, each with the kinds of its figures that differ.
+
+    `parts`, shape (nbody,), has the bodies that count. Figures count wherever they differ at all: a scene is made the
+    same to the byte whenever it is made.
+    """
+    if any(getattr(model, count) != getattr(drawn, count) for count in (*_COUNTS.values(), "nmeshvert")):
+        return {"the scene": ["number of things in it"]}
+    found: dict[str, set[str]] = {}
+    for owner, kind in _differences(model, drawn, parts):
+        found.setdefault(owner, set()).add(kind)
+    return {owner: sorted(kinds) for owner, kinds in sorted(found.items())}
+
+
+def told(differing: Mapping[str, list[str]]) -> str:
+    """What differs, in words: `rotor (joint, place), gasket (shape)`."""
+    return ", ".join(f"{part} ({', '.join(kinds)})" for part, kinds in differing.items())
+
+
+def _differences(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> Iterator[tuple[str, str]]:
+    for field, bodies in _fields(drawn):
+        one, other = (np.asarray(getattr(m, field)).reshape(len(bodies), -1) for m in (model, drawn))
+        for row in np.flatnonzero((one != other).any(axis=1) & parts[bodies]):
+            yield _owner(drawn, field, int(row), int(bodies[row])), _kind(field)
+    for number in np.flatnonzero(_meshes(model, drawn)):
+        for geom in np.flatnonzero((drawn.geom_dataid == number) & parts[drawn.geom_bodyid]):
+            yield _owner(drawn, "geom", int(geom), int(drawn.geom_bodyid[geom])), "shape"
+    if any(np.any(getattr(model.opt, name) != getattr(drawn.opt, name)) for name in _PHYSICS):
+        yield "the cell", "physics"
+
+
+def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
+    """Names of the figures that count, each with the body that each of its rows belongs to."""
+    bodies = {
+        "body": np.arange(drawn.nbody, dtype=np.int32), "jnt": drawn.jnt_bodyid, "dof": drawn.dof_bodyid,
+        "geom": drawn.geom_bodyid, "site": drawn.site_bodyid, "eq": _bonded(drawn),
+    }  # fmt: skip
+    for field in dir(drawn):
+        kind, _, what = field.partition("_")
+        if (
+            what
+            and kind in _COUNTS
+            and what not in _LOOKS
+            and len(getattr(drawn, field)) == len(bodies[kind])
+        ):
+            yield field, bodies[kind]
+    joint = np.searchsorted(drawn.jnt_qposadr, np.arange(drawn.nq), side="right") - 1
+    yield from (("qpos0", drawn.jnt_bodyid[joint]), ("qpos_spring", drawn.jnt_bodyid[joint]))
+
+
+def _bonded(drawn: mujoco.MjModel) -> NDArray[np.int32]:
+    """The body of the first of two things that each equality binds; of what has none, the world."""
+    of_joint = drawn.eq_type == mujoco.mjtEq.mjEQ_JOINT
+    of_body = drawn.eq_objtype == mujoco.mjtObj.mjOBJ_BODY
+    first = np.where(of_joint | of_body, drawn.eq_obj1id, 0)
+    return np.where(of_joint, drawn.jnt_bodyid[np.where(of_joint, first, 0)], first).astype(np.int32)
+
+
+def _meshes(model: mujoco.MjModel, drawn: mujoco.MjModel) -> Mask:
+    """Which meshes have other corners, shape (nmesh,)."""
+    mesh = np.repeat(np.arange(drawn.nmesh), drawn.mesh_vertnum)
+    other = np.zeros(drawn.nmesh, bool)
+    other[mesh[(model.mesh_vert != drawn.mesh_vert).any(axis=1)]] = True
+    return other
+
+
+def _owner(drawn: mujoco.MjModel, field: str, row: int, body: int) -> str:
+    """Name of the body, or of the shape that is fixed to the world itself."""
+    if body == 0 and field.startswith("geom"):
+        return drawn.geom(row).name or "the cell"
+    return drawn.body(body).name
+
+
+def _kind(field: str) -> str:
+    named = (kind for kind, fields in _KINDS.items() if field in fields)
+    return next(named, _WORDS.get(field.partition("_")[0], "joint"))

@@ -1,0 +1,145 @@
+"""Findings on the cell around a pump, whole or apart: all of it at rest, and every part there once, as drawn."""
+
+import copy
+from collections.abc import Sequence
+from typing import Final
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.cell.hand import ScrewdriverState, SimulatedScrewdriver
+from handeye.cell.threads import Thread, Threads, holes_of
+from handeye.cell.truth import Truth
+from handeye.judge.as_drawn import altered, told
+from handeye.judge.finding import Finding, Findings, at_least, at_most
+from handeye.judge.measured import SettledState, deg, mm, tilt
+from handeye.tasks.stanford_cell.arm import ARM
+from handeye.tasks.water_pump.clamping import WELDS, Clamping, ClampingState, lands_of
+from handeye.tasks.water_pump.referee import limits
+from handeye.tasks.water_pump.referee.measure import deepest
+
+PINS: Final = ("pin0", "pin1")
+PARTS: Final = ("base", "gasket", "top")
+
+Mask = NDArray[np.bool_]
+
+
+def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
+    """Findings on places and speeds in the cell, from one look."""
+    model = measured.model
+    parts = [*PARTS, *PINS, "driver", *loose_screws(holes)]
+    lowest = min(measured.pose(name)[2, 3] for name in parts)
+    bores, others = deepest(measured)
+    in_threads = [hole.screw for hole in holes if hole.screw is not None]
+    there = _parts(measured)
+    arm = ~there
+    there[[0, *(model.body(f"screw{screw}").id for screw in in_threads)]] = False
+    return {
+        "pins_tilt": _upright(measured, PINS, limits.PIN_TILT, "lean of a pin in its holder"),
+        "rack_tilt": _upright(measured, ("driver",), limits.RACK_TILT, "lean of the screwdriver in its rack"),
+        "floor": at_least(lowest * 1e3, limits.FLOOR, "mm", "lowest part over the table top"),
+        "tray": mm(
+            max((measured.from_site(f"screw{k}", f"park{k}") for k in in_threads), default=0.0), limits.TRAY,
+             "body of a screw that is in its thread from the tray under the floor",
+        ),
+        "hand": _hand(measured, parts),
+        "still": _speed(measured, np.flatnonzero(there), "part"),
+        "arm_still": _speed(measured, np.flatnonzero(arm), "link of the arm"),
+        "overlap_bores": mm(
+            bores.depth, limits.SOFT, f"deepest cut of a shank or pin into a bore, of {bores.between}"
+        ),
+        "overlap": mm(others.depth, limits.PENETRATION, f"deepest overlap, of {others.between}"),
+    }  # fmt: skip
+
+
+def made(left: SettledState, truth: Truth) -> Findings:
+    """Findings on what does not change as a cell settles: how parts are made, and what acts on them from outside."""
+    driver = truth.states[SimulatedScrewdriver.name]
+    assert isinstance(driver, ScrewdriverState)
+    model, data, parts = left.model, left.data, _parts(left)
+    forces = np.abs(data.xfrc_applied[parts]).max(), np.abs(data.qfrc_applied[parts[model.dof_bodyid]]).max()
+    differing = altered(truth.model, _as_it_is_to_be(truth), parts)
+    return {
+        "as_drawn": at_most(
+            len(differing), limits.ALTERED, "parts",
+            "parts that are not as drawn" + (f": {told(differing)}" if differing else ""),
+        ),
+        "bonds": at_most(_bonds(truth), 0, "bonds", "bonds that are open or closed and should not be"),
+        "held": at_most(max(forces), limits.FORCE, "N", "greatest force from outside on a part"),
+        "motor": at_most(abs(driver.command), 0.0, "rad/s", "speed that the screwdriver is set to"),
+    }  # fmt: skip
+
+
+def loose_screws(holes: tuple[Thread, ...]) -> list[str]:
+    """Screws that are in no thread."""
+    in_threads = {thread.screw for thread in holes}
+    return [f"screw{k}" for k in range(len(holes)) if k not in in_threads]
+
+
+def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
+    """The scene as drawn, with what its devices rightly change in it, and with what other findings judge as it is."""
+    model, scene, holes = truth.model, copy.deepcopy(truth.drawn), holes_of(truth)
+    (threads,) = (part for part in truth.mechanisms if isinstance(part, Threads))
+    threads.write(holes, scene)
+    for hole, thread in enumerate(holes):
+        carrier, turn = model.body(f"carrier{hole}").id, model.joint(f"thread_turn{hole}").dofadr[0]
+        if thread.screw is None or thread.crossed:  # an empty one rubs as when its last screw left it
+            scene.dof_frictionloss[turn] = model.dof_frictionloss[turn]
+        if thread.screw is not None:  # `screws_place` and `screws_lean`
+            scene.body_pos[carrier], scene.body_quat[carrier] = (
+                model.body_pos[carrier],
+                model.body_quat[carrier],
+            )
+    rotor = model.joint("rotor").dofadr[0]
+    for figures in ("dof_frictionloss", "dof_damping", "dof_armature"):  # `rotor`
+        getattr(scene, figures)[rotor] = getattr(model, figures)[rotor]
+    welds = [model.equality(name).id for name in WELDS]  # where they have found the layers
+    scene.eq_data[welds] = model.eq_data[welds]
+    lands = lands_of(scene)
+    if _clamped(truth) and not model.geom_contype[lands].any():  # the welds hold, and the lands meet nothing
+        scene.geom_contype[lands] = scene.geom_conaffinity[lands] = 0
+    return scene
+
+
+def _bonds(truth: Truth) -> int:
+    """How many of the scene's bonds are open or closed and should not be; a copy of a cell may have its welds open."""
+    right, active = truth.drawn.eq_active0 != 0, truth.data.eq_active != 0
+    welds = [truth.drawn.equality(name).id for name in WELDS]
+    right[welds] = active[welds] & _clamped(truth)
+    return int((active != right).sum())
+
+
+def _clamped(truth: Truth) -> bool:
+    state = truth.states[Clamping.name]
+    assert isinstance(state, ClampingState)
+    return state.clamped
+
+
+def _parts(measured: SettledState) -> Mask:
+    """Which bodies are not the arm's, shape (nbody,)."""
+    model = measured.model
+    return np.array([not model.body(body).name.startswith(ARM) for body in range(model.nbody)])
+
+
+def _upright(measured: SettledState, bodies: Sequence[str], limit_deg: float, subject: str) -> Finding:
+    return deg(max(tilt(measured.pose(body)) for body in bodies), limit_deg, subject)
+
+
+def _speed(measured: SettledState, bodies: NDArray[np.intp], kind: str) -> Finding:
+    """Greatest speed of some bodies."""
+    speeds = [measured.speed(int(body)) for body in bodies]
+    fastest = measured.model.body(bodies[int(np.argmax(speeds))]).name.removeprefix(ARM)
+    return at_most(1e3 * max(speeds), limits.STILL, "mm/s", f"speed of the fastest {kind}, {fastest}")
+
+
+def _hand(measured: SettledState, parts: Sequence[str]) -> Finding:
+    """Distance of the hand from the nearest of some parts and what is fixed to them; at most twice its limit."""
+    model = measured.model
+    solid = (model.geom_contype | model.geom_conaffinity) != 0
+    tree, arm = model.body_rootid[model.geom_bodyid], ~_parts(measured)[model.geom_bodyid]
+    mine = np.isin(tree, [model.body(part).id for part in parts])
+    nearest = measured.nearest(
+        np.flatnonzero(arm & solid), np.flatnonzero(mine & solid), 2 * limits.HAND_CLEAR / 1e3
+    )
+    return at_least(nearest * 1e3, limits.HAND_CLEAR, "mm", "hand from the nearest part")
