@@ -7,6 +7,7 @@ that MuJoCo reads when it is first imported: what works must not depend on who i
 import contextlib
 import ctypes
 import importlib
+import os
 from collections.abc import Iterator, Mapping
 from functools import cache, cached_property
 from typing import Any, Final
@@ -25,6 +26,8 @@ PLATFORMS: Final = (
     ("OSMesa", "mujoco.osmesa", ("libOSMesa.so.8", "libOSMesa.so"), ()),
 )
 """Name, module, and alternatives for the libraries it needs."""
+SETTINGS: Final = ("EGL_", "GALLIUM_", "LIBGL_", "MESA_", "MUJOCO_EGL_", "PYOPENGL_", "__EGL_", "__GLX_")
+"""Beginnings of the environment variables by which people choose a device or a driver."""
 NEAR, FAR = 0.3, 10.0  # clipping planes, m
 MOST_GEOMS: Final = 10000
 
@@ -62,11 +65,7 @@ class OpenGlRenderer(SceneRenderer):
     @cached_property
     def _context(self) -> mujoco.MjrContext:
         """The scene as OpenGL keeps it, made for the first picture: longer work than building the cell."""
-        self._gl.make_current()
-        with replaced(self._model.vis.quality, _QUALITY):
-            made = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_100)
-        mujoco.mjr_resizeOffscreen(_WIDTH, _HEIGHT, made)
-        return made
+        return drawing(self._model, _QUALITY, _WIDTH, _HEIGHT)
 
     def render(self, data: mujoco.MjData, view: View) -> Luminance:
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
@@ -115,10 +114,24 @@ def replaced(record: Any, values: Mapping[str, int]) -> Iterator[None]:
             setattr(record, name, value)
 
 
+def drawing(
+    model: mujoco.MjModel, quality: Mapping[str, int], width: int, height: int
+) -> mujoco.MjrContext:
+    """A scene as OpenGL keeps it, for pictures of a size in points; raises Refused where the driver cannot keep it."""
+    context()[1].make_current()
+    try:
+        with replaced(model.vis.quality, quality):
+            made = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
+        mujoco.mjr_resizeOffscreen(width, height, made)
+    except mujoco.FatalError as error:
+        raise Refused(f"the OpenGL of this machine cannot draw {width} x {height} points: {error}") from None
+    return made
+
+
 @cache
 def driver() -> str:
     """Names that the OpenGL library here gives itself; raises what `context` does."""
-    context()
+    context()[1].make_current()
     gl = importlib.import_module("OpenGL.GL")  # which MuJoCo needs, too
     return ", ".join(gl.glGetString(name).decode() for name in (gl.GL_RENDERER, gl.GL_VERSION))
 
@@ -128,19 +141,32 @@ def context() -> tuple[str, Any]:
     """The platform's name and the one OpenGL context of this program.
 
     Every renderer shares it, so that the objects of one are never freed in the context of another.
-    Raises InvalidInput if OpenGL does not work here.
+    Raises InvalidInput if OpenGL does not work here: it is tried with an empty scene, since one that is too old says
+    so only when it is given a scene.
     """
+    set_here = sorted(name for name, value in os.environ.items() if name.startswith(SETTINGS) and value != "egl")
+    reasons, present = [], False
     for name, module, *libraries in PLATFORMS:
         if not all(_loads(alternatives) for alternatives in libraries if alternatives):
             continue
+        present = True
         # what a broken driver raises is not documented: ImportError, AttributeError, errors of PyOpenGL
         with contextlib.suppress(Exception):
             gl = importlib.import_module(module).GLContext(_WIDTH, _HEIGHT)
             gl.make_current()
+            try:
+                mujoco.MjrContext(mujoco.MjModel.from_xml_string("<mujoco/>"), mujoco.mjtFontScale.mjFONTSCALE_100)
+            except mujoco.FatalError as error:
+                reasons.append(str(error))
+                continue
             return name, gl
+    if present and set_here:
+        reasons.append(f"it may work without {' and '.join(set_here)} in the environment")
+    if not reasons:
+        reasons.append("on Debian, install libegl1, libgl1-mesa-dri and libopengl0")
     raise Refused(
-        "OpenGL does not work on this machine (on Debian, install libegl1, libgl1-mesa-dri and libopengl0);"
-        " photographs need it, and so does the camera without `--camera ray`"
+        f"OpenGL does not work on this machine ({'; '.join(reasons)}); photographs need it, and so does the camera "
+        "without `--camera ray`"
     )
 
 

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.cell.opengl import MOST_GEOMS, context, replaced
+from handeye.cell.opengl import MOST_GEOMS, context, drawing
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.files import Kind
 
@@ -42,15 +42,12 @@ class Photographer:
     ) -> None:  # fmt: skip
         """Make ready for pictures; a smaller map of shadows takes half the time; raises InvalidInput without OpenGL."""
         _, self._gl = context()
-        self._gl.make_current()
-        with replaced(scene.vis.quality, {"shadowsize": shadow, "offsamples": samples}):
-            self._drawing = mujoco.MjrContext(scene, mujoco.mjtFontScale.mjFONTSCALE_100)
+        self._drawing = drawing(scene, {"shadowsize": shadow, "offsamples": samples}, width, height)
         self._viewport = mujoco.MjrRect(0, 0, width, height)
         self._scene = mujoco.MjvScene(scene, maxgeom=MOST_GEOMS)
         self._option = mujoco.MjvOption()
         self._option.geomgroup[:] = SHOWN
         self._option.sitegroup[:] = 0
-        mujoco.mjr_resizeOffscreen(width, height, self._drawing)
 
     def take(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> Photograph:
         """A photograph of the scene, or of a copy with other groups shown; raises InvalidInput without the camera."""

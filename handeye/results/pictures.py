@@ -1,5 +1,6 @@
 """The pictures that a run leaves: those the program took, with its findings, and the end."""
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 
 from handeye.cell.photograph import photograph_png
 from handeye.cell.posed import as_it_stands
-from handeye.core.errors import BadFile, CannotWrite
+from handeye.core.errors import BadFile, CannotWrite, Refused
 from handeye.core.files import write_whole
 from handeye.runs.runner import Runner
 from handeye.runs.system import RunningSystem
@@ -45,7 +46,7 @@ def _annotated(system: RunningSystem, name: str) -> NDArray[np.uint8]:
 
 
 def keep_pictures(folder: Path, runner: Runner) -> None:
-    """Write the program's pictures, and with OpenGL photographs of the cell as it is; raises InvalidInput."""
+    """Write the program's pictures, and where OpenGL can take them photographs of the cell; raises InvalidInput."""
     try:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
     except OSError as error:
@@ -57,4 +58,5 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
     if runner.cell.renderer.method == "opengl" and runner.task.photographs:
         posed = as_it_stands(runner.task.shown(runner.setup.world, written(runner.setup)), runner.cell.truth)
         for camera in runner.task.photographs:
-            write_whole(folder / f"end_{camera}.png", photograph_png(*posed, camera, 1280, 960))
+            with suppress(Refused):  # a driver that draws the camera's pictures may lack room for larger ones
+                write_whole(folder / f"end_{camera}.png", photograph_png(*posed, camera, 1280, 960))
