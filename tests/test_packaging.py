@@ -1,12 +1,18 @@
 """What pyproject.toml says of the package is so, and the locks hold what it asks for."""
 
+import os
 import re
+import subprocess
 import sys
+import tarfile
 import tomllib
+import zipfile
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
+from hatchling.builders.sdist import SdistBuilder
+from hatchling.builders.wheel import WheelBuilder
 from import_reading import imports
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
@@ -87,3 +93,43 @@ def test_every_entry_point_leads_somewhere(group: str, name: str) -> None:
 def test_the_package_says_that_it_is_typed() -> None:
     assert (ROOT / "handeye" / "py.typed").exists()
     assert "Typing :: Typed" in PROJECT["classifiers"]
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A wheel that was built out of a source distribution, unpacked."""
+    place = tmp_path_factory.mktemp("built")
+    (sdist,) = SdistBuilder(str(ROOT)).build(directory=str(place))
+    with tarfile.open(sdist) as archive:
+        archive.extractall(place, filter="data")
+    unpacked = place / f"handeye-{PROJECT['version']}"
+    (wheel,) = WheelBuilder(str(unpacked)).build(directory=str(place), versions=["standard"])
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(place / "wheel")
+    return place / "wheel"
+
+
+@pytest.mark.slow
+def test_a_wheel_out_of_the_source_distribution_holds_all_data(installed: Path) -> None:
+    def files(folder: Path) -> set[str]:
+        return {path.relative_to(folder).as_posix() for path in folder.rglob("*.*") if path.suffix != ".pyc"}
+
+    data = PYPROJECT["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
+    for name, place in data.items():
+        assert files(installed / place) == files(ROOT / name)
+    assert files(installed / "handeye") >= files(ROOT / "handeye")
+
+
+@pytest.mark.slow
+def test_a_wheel_out_of_the_source_distribution_runs_in_an_empty_folder(
+    installed: Path, tmp_path: Path
+) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "handeye", "check", "water_pump"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(installed), "PYTHONSAFEPATH": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (0, f"{installed}/handeye/_data/plans/water_pump.al: no errors\n")

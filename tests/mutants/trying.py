@@ -8,13 +8,13 @@ import subprocess
 import sys
 import threading
 import time
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Literal
 
 import first_failure
+from hatchling.builders.sdist import SdistBuilder
 from mutant_table import Mutant
 
 ROOT: Final = Path(__file__).resolve().parents[2]
@@ -185,16 +185,10 @@ def tried(mutant: Mutant, copy: Copy, sound: Unmutated) -> Outcome:
 
 def _copy_project(root: Path) -> None:
     """Copy what a source distribution holds, which is all that the tests need."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    included = [name.lstrip("/") for name in project["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]]
-    root.mkdir()
-    for pattern in ("pyproject.toml", *included):
-        for found in ROOT.glob(pattern):
-            if found.is_dir():
-                ignored = shutil.ignore_patterns("__pycache__", ".*")
-                shutil.copytree(found, root / found.name, ignore=ignored)
-            else:
-                shutil.copy(found, root / found.name)
+    for file in SdistBuilder(str(ROOT)).recurse_included_files():
+        copy = root / file.distribution_path
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(file.path, copy)
 
 
 def rewrite(file: Path, code: str) -> None:
