@@ -9,8 +9,9 @@ True
 Names are loaded when they are first used, so that the import itself costs next to nothing.
 """
 
-from typing import TYPE_CHECKING
-
+TYPE_CHECKING = (
+    False  # as type checkers read it; `typing` would take most of the time, in which Ctrl-C is not ours yet
+)
 if TYPE_CHECKING:
     from handeye import tasks, trials, vision
     from handeye.api.begin import assemble, begin

@@ -1,28 +1,38 @@
 """The way in: `handeye`, and `python -m handeye`."""
 
-import gc
 import os
 import signal
-from typing import Final, NoReturn
 
-ALLOCATIONS: Final = 100_000
+ALLOCATIONS = 100_000
 """Objects between two collections of garbage: with Python's 700, they take a tenth of the time of a short command."""
 
 
-def main() -> NoReturn:
-    """Run the command line; Ctrl-C ends it even while it is still being imported."""
+def main() -> None:
+    """Run the command line; Ctrl-C ends it while it is still being imported too, and is ignored once it is over."""
+    _hear(signal.SIGINT)  # before anything is imported
+    import atexit
+    import gc
+
+    from handeye.core.signals import ENDING
+
+    for number in ENDING:
+        if _hear(number):
+            atexit.register(signal.signal, number, signal.SIG_IGN)
     # MuJoCo, as it is imported, would load the OpenGL named here, or try windows; `cell.opengl` looks for its own
     os.environ["MUJOCO_GL"] = "disable"
     gc.set_threshold(ALLOCATIONS)
-    heard = signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    if heard:  # not raised: modules written in C make an ImportError of it
-        signal.signal(signal.SIGINT, lambda *_: os._exit(130))
     import handeye.core.host_time  # noqa: F401 - a command's time counts from here
     from handeye.cli import main as run
 
-    if heard:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
     run()
+
+
+def _hear(number: int) -> bool:
+    """Have a signal end the program at once, unless it is ignored, as after `nohup`."""
+    if signal.getsignal(number) == signal.SIG_IGN:
+        return False
+    signal.signal(number, lambda *_: os._exit(130))
+    return True
 
 
 if __name__ == "__main__":

@@ -2,11 +2,11 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tarfile
 import tomllib
-import zipfile
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
@@ -104,8 +104,7 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
         archive.extractall(place, filter="data")
     unpacked = place / f"handeye-{PROJECT['version']}"
     (wheel,) = WheelBuilder(str(unpacked)).build(directory=str(place), versions=["standard"])
-    with zipfile.ZipFile(wheel) as archive:
-        archive.extractall(place / "wheel")
+    shutil.unpack_archive(wheel, place / "wheel", "zip")
     return place / "wheel"
 
 
@@ -132,4 +131,7 @@ def test_a_wheel_out_of_the_source_distribution_runs_in_an_empty_folder(
         text=True,
         check=False,
     )
-    assert (done.returncode, done.stdout) == (0, f"{installed}/handeye/_data/plans/water_pump.al: no errors\n")
+    assert (done.returncode, done.stdout) == (
+        0,
+        f"{installed}/handeye/_data/plans/water_pump.al: no errors\n",
+    )

@@ -114,9 +114,7 @@ def replaced(record: Any, values: Mapping[str, int]) -> Iterator[None]:
             setattr(record, name, value)
 
 
-def drawing(
-    model: mujoco.MjModel, quality: Mapping[str, int], width: int, height: int
-) -> mujoco.MjrContext:
+def drawing(model: mujoco.MjModel, quality: Mapping[str, int], width: int, height: int) -> mujoco.MjrContext:
     """A scene as OpenGL keeps it, for pictures of a size in points; raises Refused where the driver cannot keep it."""
     context()[1].make_current()
     try:
@@ -144,7 +142,9 @@ def context() -> tuple[str, Any]:
     Raises InvalidInput if OpenGL does not work here: it is tried with an empty scene, since one that is too old says
     so only when it is given a scene.
     """
-    set_here = sorted(name for name, value in os.environ.items() if name.startswith(SETTINGS) and value != "egl")
+    set_here = sorted(
+        name for name, value in os.environ.items() if name.startswith(SETTINGS) and value != "egl"
+    )
     reasons, present = [], False
     for name, module, *libraries in PLATFORMS:
         if not all(_loads(alternatives) for alternatives in libraries if alternatives):
@@ -155,7 +155,9 @@ def context() -> tuple[str, Any]:
             gl = importlib.import_module(module).GLContext(_WIDTH, _HEIGHT)
             gl.make_current()
             try:
-                mujoco.MjrContext(mujoco.MjModel.from_xml_string("<mujoco/>"), mujoco.mjtFontScale.mjFONTSCALE_100)
+                mujoco.MjrContext(
+                    mujoco.MjModel.from_xml_string("<mujoco/>"), mujoco.mjtFontScale.mjFONTSCALE_100
+                )
             except mujoco.FatalError as error:
                 reasons.append(str(error))
                 continue

@@ -12,9 +12,9 @@ from cyclopts import App, CycloptsError, Parameter
 from handeye.cli import completion
 from handeye.cli.commands import COMMANDS, add_commands
 from handeye.cli.common import complain, note, notes, screen
-from handeye.cli.panic_button import terminable
 from handeye.core.entries import entries
 from handeye.core.errors import HandeyeError
+from handeye.core.signals import break_in, heard
 from handeye.core.versions import HANDEYE
 
 BAD_INPUT: Final = 2
@@ -55,7 +55,7 @@ def main() -> NoReturn:
 def _carried_out() -> int:
     """The exit code of the command that was typed; raises OSError if what there was to say cannot be written."""
     try:
-        with terminable():
+        with heard(break_in):
             code = app(result_action="return_value", exit_on_error=False, print_error=False)
     except CycloptsError as error:
         from handeye.cli.usage import usage_sentence

@@ -130,7 +130,7 @@ class _Work:
                 self.folder.checkpoint(runner.checkpoint())
         if pause.kind == "panic":
             return self._interrupted(runner)
-        with self.panic.aside():
+        with self.panic.released():
             code = self._finished(runner, pause)
         return code or 2 * (self.refused and not sys.stdin.isatty())
 

@@ -7,38 +7,9 @@ import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import Final, Self
+from typing import Any, Self
 
-from handeye.core.errors import BadFile
-
-ENDING: Final = (signal.SIGINT, signal.SIGTERM)
-
-
-@contextmanager
-def terminable() -> Iterator[None]:
-    """While being told to end interrupts as Ctrl-C does, so that nothing half done stays behind.
-
-    It does so within an import too: modules written in C make an ImportError of a KeyboardInterrupt, and the loader of
-    commands a BadFile of that.
-    """
-    heard = []
-
-    def interrupt(number: int, frame: FrameType | None) -> None:
-        heard.append(number)
-        raise KeyboardInterrupt
-
-    before = {signal.SIGTERM: signal.signal(signal.SIGTERM, interrupt)}
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # not where Ctrl-C is ignored
-        before[signal.SIGINT] = signal.signal(signal.SIGINT, interrupt)
-    try:
-        yield
-    except (ImportError, BadFile):
-        if heard:
-            raise KeyboardInterrupt from None
-        raise
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
+from handeye.core.signals import ToldToEnd, break_in, heard
 
 
 class PanicButton:
@@ -46,15 +17,16 @@ class PanicButton:
 
     def __init__(self) -> None:
         self._pressed = False
+        self._told = False
         self._asking = False
+        self._hearing = heard(self._press)
 
     def __enter__(self) -> Self:
-        self._before = {number: signal.signal(number, self._press) for number in ENDING}
+        self._hearing.__enter__()
         return self
 
-    def __exit__(self, *_: object) -> None:
-        for number, handler in self._before.items():
-            signal.signal(number, handler)
+    def __exit__(self, *how: Any) -> None:
+        self._hearing.__exit__(*how)
 
     def __call__(self) -> bool:
         """True if it was pressed since the last call."""
@@ -63,7 +35,15 @@ class PanicButton:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """While nothing moves and a person is asked: Ctrl-C interrupts as usual."""
+        """While a person is asked: Ctrl-C interrupts as usual, and who was told to end is not asked any more."""
+        if self._told:
+            raise ToldToEnd
+        with self.released():
+            yield
+
+    @contextmanager
+    def released(self) -> Iterator[None]:
+        """While nothing moves any more: Ctrl-C interrupts as usual."""
         self._asking = True
         try:
             yield
@@ -71,6 +51,10 @@ class PanicButton:
             self._asking = False
 
     def _press(self, number: int, frame: FrameType | None) -> None:
-        if self._asking or self._pressed:
-            raise KeyboardInterrupt
+        impatient = (
+            self._pressed and number == signal.SIGINT
+        )  # systems repeat themselves, as when a terminal closes
         self._pressed = True
+        self._told |= number != signal.SIGINT
+        if self._asking or impatient:
+            break_in(number, frame)

@@ -9,6 +9,8 @@ from queue import Empty, SimpleQueue
 from threading import Thread
 from types import ModuleType
 
+from handeye.core.signals import ToldToEnd
+
 editing: ModuleType | None
 try:  # at once: the graphics driver of a cell may bring a library that looks like this one, and would be taken for it
     import readline as editing
@@ -39,8 +41,8 @@ def typed_lines(
                 line = input(prompt) if terminal else sys.stdin.readline()
             except EOFError:
                 return
-            except KeyboardInterrupt:
-                if not (terminal and droppable):
+            except KeyboardInterrupt as told:
+                if isinstance(told, ToldToEnd) or not (terminal and droppable):
                     raise
                 sys.stdout.write("\n")
                 continue

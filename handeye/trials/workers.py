@@ -5,7 +5,7 @@ import signal
 import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from multiprocessing import connection, get_context, parent_process, resource_tracker
 from multiprocessing.connection import Connection
@@ -13,6 +13,7 @@ from typing import Any, Final, Generic, TypeVar
 
 from handeye.core.errors import HandeyeError
 from handeye.core.host_time import HostTimer
+from handeye.core.signals import ENDING, break_in, heard
 
 Item = TypeVar("Item")
 T = TypeVar("T")
@@ -139,23 +140,20 @@ def deaf_to_interrupts() -> Iterator[None]:
         yield
         return
     resource_tracker.ensure_running()  # where it begins by itself, it takes the mask away
-    masked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    masked = signal.pthread_sigmask(signal.SIG_BLOCK, {*ENDING} - {signal.SIGTERM})
     told: list[int] = []
-    handles = threading.current_thread() is threading.main_thread()  # no other thread may, or is interrupted
     # A thread of a library may be there that is not masked: it takes Ctrl-C to our handler all the same.
-    before = {
-        each: signal.signal(each, lambda number, _: told.append(number))
-        for each in (signal.SIGINT, signal.SIGTERM)
-        if handles
-    }
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, masked)
-        for each, handler in before.items():
-            signal.signal(each, handler)
+    with ExitStack() as hearing:
+        if (
+            threading.current_thread() is threading.main_thread()
+        ):  # no other thread may hear, or is interrupted
+            hearing.enter_context(heard(lambda number, _: told.append(number)))
+        try:
+            yield
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, masked)
     if told:
-        raise KeyboardInterrupt
+        break_in(told[0], None)
 
 
 def _heard(workers: list[Worker]) -> list[Worker]:

@@ -47,11 +47,15 @@ def test_where_opengl_is_too_old_pictures_are_ray_cast(old: None) -> None:
 
 
 def test_asked_for_by_name_it_is_refused_with_the_driver_s_reason(old: None) -> None:
-    with pytest.raises(Refused, match=rf"^OpenGL does not work on this machine \({TOO_OLD}\); photographs need it"):
+    with pytest.raises(
+        Refused, match=rf"^OpenGL does not work on this machine \({TOO_OLD}\); photographs need it"
+    ):
         make_renderer("gl", MODEL)
 
 
-def test_the_refusal_names_the_settings_that_may_be_at_fault(old: None, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_refusal_names_the_settings_that_may_be_at_fault(
+    old: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("MESA_GL_VERSION_OVERRIDE", "1.4")
     monkeypatch.setenv("PYOPENGL_PLATFORM", "egl")  # which MuJoCo sets itself
     with pytest.raises(Refused, match=r"required; it may work without MESA_GL_VERSION_OVERRIDE in the env"):
@@ -61,7 +65,9 @@ def test_the_refusal_names_the_settings_that_may_be_at_fault(old: None, monkeypa
 def test_without_libraries_the_refusal_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(opengl, "PLATFORMS", (("EGL", "none", ("libNone.so",)),))
     monkeypatch.setenv("MUJOCO_EGL_DEVICE_ID", "0")
-    with pytest.raises(Refused, match=r"^OpenGL does not work on this machine \(on Debian, install libegl1, "):
+    with pytest.raises(
+        Refused, match=r"^OpenGL does not work on this machine \(on Debian, install libegl1, "
+    ):
         opengl.context.__wrapped__()
 
 
@@ -80,7 +86,11 @@ def test_real_drivers_are_refused_before_a_picture_is_taken(setting: str) -> Non
     name, value = setting.split("=")
     call = "from handeye.cell.opengl import context; context()"
     done = subprocess.run(
-        [sys.executable, "-c", call], env={**os.environ, name: value}, capture_output=True, text=True, check=False
+        [sys.executable, "-c", call],
+        env={**os.environ, name: value},
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert "Refused: OpenGL does not work on this machine (" in done.stderr
     assert f"it may work without {name} in the environment" in done.stderr or "install" in done.stderr

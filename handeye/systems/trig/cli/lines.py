@@ -8,6 +8,7 @@ from handeye.cli.common import say, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.core.errors import InvalidInput
+from handeye.core.signals import ToldToEnd
 from handeye.systems.trig.language.command_input import hear, stripped
 from handeye.systems.trig.language.command_table import COMMANDS
 from handeye.systems.trig.language.desk import Button, Cancelled, Desk, buttons
@@ -36,6 +37,8 @@ class LineDesk(Desk):
     def answer(self, question: str) -> str:
         try:
             line = self.line(question)
+        except ToldToEnd:
+            raise
         except KeyboardInterrupt:
             raise Cancelled from None
         if not line:

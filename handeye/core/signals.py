@@ -1,0 +1,78 @@
+"""Signals that tell the program to end: Ctrl-C, `kill`, a terminal that closes, a batch system that warns."""
+
+import os
+import signal
+import stat
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from types import FrameType
+from typing import Any, Final, NoReturn
+
+_NAMES: Final = ("SIGINT", "SIGTERM", "SIGHUP", "SIGUSR1", "SIGUSR2", "SIGXCPU", "SIGBREAK")
+ENDING: Final = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
+"""Those of this platform."""
+
+_IMPORTING: Final = (
+    "importlib._bootstrap",
+    "_frozen_importlib",
+)  # what imports is called so before and after `importlib`
+
+Handler = Callable[[int, FrameType | None], None]
+
+
+class ToldToEnd(KeyboardInterrupt):
+    """Told to end by another signal than Ctrl-C, which at a prompt drops no more than the line."""
+
+
+@contextmanager
+def heard(handler: Handler) -> Iterator[None]:
+    """While entered, signals to end go to a handler; one that is ignored, as after `nohup`, stays ignored."""
+    before = {}
+
+    def hear(number: int, frame: FrameType | None) -> None:
+        if number == getattr(signal, "SIGHUP", None):
+            _leave_closed_terminal()
+        handler(number, frame)
+
+    for number in ENDING:
+        if signal.getsignal(number) not in (signal.SIG_IGN, None):  # None: not set by Python
+            before[number] = signal.signal(number, hear)
+    try:
+        yield
+    finally:
+        for number, known in before.items():
+            signal.signal(number, known)
+
+
+def break_in(number: int, frame: FrameType | None) -> None:
+    """A handler that raises KeyboardInterrupt; while a module is imported, only when that is over.
+
+    Modules written in C make an ImportError of it, and others swallow it.
+    """
+    importer = None
+    while frame is not None:
+        if frame.f_globals.get("__name__") in _IMPORTING:
+            importer = frame.f_back
+        frame = frame.f_back
+    if importer is None:
+        _interrupt(number)
+
+    def goes_on(*_: Any) -> NoReturn:
+        _interrupt(number)
+
+    importer.f_trace = goes_on
+    sys.settrace(lambda *_: None)  # without which no frame is traced
+
+
+def _interrupt(number: int) -> NoReturn:
+    raise KeyboardInterrupt if number == signal.SIGINT else ToldToEnd
+
+
+def _leave_closed_terminal() -> None:
+    """Have the null device in the place of a terminal that was closed: whatever is written to that raises OSError."""
+    for file in range(3):
+        with suppress(OSError):
+            if stat.S_ISCHR(os.fstat(file).st_mode) and not os.isatty(file):
+                with open(os.devnull, "r+b") as nothing:
+                    os.dup2(nothing.fileno(), file)
