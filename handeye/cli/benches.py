@@ -98,7 +98,7 @@ def insertion(
         INSERTION,
         InsertionWork(conditions={each.name: each for each in conditions}),
         cases,
-        head_of(INSERTION, world),
+        head_of(INSERTION, world, camera="ray"),
         options,
         title=f"Insertion bench. Worlds from {seed} on; {PROGRAMS[search]}.",
     )

@@ -56,7 +56,7 @@ PartFault = PumpFault[Change]
 
 @cache
 def part_faults(screws: int) -> tuple[PartFault, ...]:
-    """All faults of parts of a pump with so many screws, in the order they are listed."""
+    """All faults of parts of a pump with this number of screws, in the order they are listed."""
     return (
         *_base(), *_gasket(), *_top(), *_pins(), *_screws(screws), *_holes(screws), *_screwdriver_and_light()
     )  # fmt: skip
