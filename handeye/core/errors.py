@@ -91,6 +91,7 @@ FORCE_WRONG: Final = 52
 JOINT_SENSE_WRONG: Final = 53
 CURRENT_WRONG: Final = 54
 PICTURE_WRONG: Final = 55
+JOINT_STIFF: Final = 57
 
 ERRORS: Final[dict[int, str]] = {
     JOINT_LIMIT: "a joint would move beyond its limit",
@@ -116,6 +117,7 @@ ERRORS: Final[dict[int, str]] = {
     JOINT_SENSE_WRONG: "the potentiometer and the tachometer of a joint disagree: one of them fails",
     CURRENT_WRONG: "the screwdriver runs, and its motor current shows nothing",
     PICTURE_WRONG: "the camera gives a picture that is not a live one",
+    JOINT_STIFF: "a joint alone does not follow its drive: its drive, its brake or its friction is not as it was",
 }
 """Error numbers a script can test, with the operator's message. 2 and 23 are from the period; from 50 on, a
 sensor is faulty."""

@@ -233,6 +233,11 @@ REMEDIES: Final[dict[int, Remedy]] = {
         "earlier one, or of one intensity all over, shows nothing.",
         'LOOK V\nSKIPN 55 ;it is a live picture\nWAIT "SEE TO THE CAMERA"\nGENERAL BASE V',
     ),
+    errors.JOINT_STIFF: Remedy(
+        "One joint takes far more torque than its friction, and no force at the hand would be felt so: leave the error "
+        "untested, or put it into words for the operator.",
+        'MOVE T\nSKIPN 57 ;each joint takes what it took at first\nWAIT "SEE TO THE ARM\'S DRIVES"\nMOVE P',
+    ),
 }
 
 _MOTIONS: Final = ("MOVE P", "CHANGE Z 1", "TURN T 10", "PARK", "PLACE")

@@ -105,14 +105,15 @@ class Servo:
         sense: Array | float = 0.0,
         dither: Array | float = 0.0,
         guards: tuple[ActiveGuard, ...] = (),
-    ) -> Motion[None]:
+    ) -> Motion[Array]:
         """One servo period towards a set-point close by; see `_servo`."""
         qd, rest = (q - self.state.q) / self.period, np.zeros(len(self.state.q))
-        yield from self._servo(
+        spare = yield from self._servo(
             here, self.state.q, qd, rest,
             estimate=estimate, taring=taring, sense=sense, dither=dither, guards=guards,
         )  # fmt: skip
         self.state.q = q
+        return spare
 
     def _servo(
         self,
@@ -126,12 +127,13 @@ class Servo:
         taring: bool = False,
         sense: Array | float = 0.0,
         dither: Array | float = 0.0,
-    ) -> Motion[None]:
+    ) -> Motion[Array]:
         """One servo period in which the arm should begin at `q` with rates `qd`.
 
         The force on the hand is estimated at its end if `estimate` is set, for `guards` or, if `taring`, as what the
         tare is made of. `sense` is which way joints slide, -1 to 1: friction that opposes it is overcome, and not felt.
-        `dither` are torques beside those that the servo needs.
+        `dither` are torques beside those that the servo needs. Returns the torques, (n,), that weight, inertia and
+        load leave unexplained, friction included.
         """
         q_was, qd_was = self.state.here, self.sensed.qd
         load = here.J[2] * self.state.load
@@ -150,6 +152,7 @@ class Servo:
             self.state.wrench = felt - self.state.tare
 
         yield from self._wait(tau, feel if estimate else None, guards, taring=taring)
+        return np.asarray(tau - here.bias - load - here.M @ (self.sensed.qd - qd_was) / self.period)
 
     def _wait(
         self,

@@ -15,6 +15,7 @@ from handeye.arm.converters import sliding
 from handeye.arm.dynamics import Dynamics, gravity, mass_matrix
 from handeye.arm.ik import solve
 from handeye.arm.joint_agreement import JointAgreement, crept
+from handeye.arm.joint_drag import JointDrag, alone
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import constants
 from handeye.arm.samples import Samples
@@ -27,6 +28,7 @@ from handeye.program.diagnosis.causes import (
     ForceInAir,
     HandAstray,
     HandStuck,
+    JointAlone,
     JointBehind,
     JointName,
     JointSensesApart,
@@ -36,8 +38,11 @@ from handeye.touch.senses import FREE_FORCE, off_zero
 
 DITHER = 2.0
 """Torque that shakes a joint, over its friction. Chosen: as much again is left to move it."""
+_FRESH = 0.25  # weight of the last servo period in the mean over the last few; chosen
 _AT_ONCE = 15
 """Servo periods, at most, for which an arm that the brakes hold is left alone: the panic button waits .25 s."""
+LIGHT = 5.0
+"""Heaviest load (N) with which the drag of the joints is told: a heavier one that is lost is felt as much. Chosen."""
 PRESS_TIME = 10.0
 """s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
 
@@ -92,8 +97,9 @@ class ServoLoop(Servo):
         guard: Monitor | None = None,
         direction: Array | None = None,
         beside: Callable[[int], None] = lambda _: None,
+        drag: JointDrag | None = None,
     ) -> Motion[Outcome]:
-        """Follow set-points; end early when `guard` trips.
+        """Follow set-points; end early when `guard` trips. `drag` takes down what torques that takes.
 
         The guard looks along `direction`, unit vectors in W, shape (3,) or (N, 3); `beside` sets what else is put out
         in a servo period, by the number of its set-point.
@@ -111,17 +117,23 @@ class ServoLoop(Servo):
         J = jacobian(self.arm, motion.q) if felt else np.zeros((count, 6, n))  # without effect
         directions = np.broadcast_to(np.zeros(3) if direction is None else direction, (count, 3))
         sensors, off = self._sensors(), np.zeros(len(self.state.q))
+        met = np.zeros(n)
         for i in range(len(motion)):
             here, along = Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i]), directions[i]
             q, qd, qdd = motion.q[i], motion.qd[i], motion.qdd[i]
             guards = _active(guard, along)
             sense = sliding(self.arm, qd)
             beside(i)
-            yield from self._servo(here, q, qd, qdd, estimate=guard is not None, sense=sense, guards=guards)
+            spare = yield from self._servo(
+                here, q, qd, qdd, estimate=guard is not None, sense=sense, guards=guards
+            )
+            met = met + _FRESH * (spare - met)
             if self.state.cut:
                 return CUT
             self.state.q = samples.q[i]
-            failed = self._doubted(sensors) or self._behind()
+            if drag is not None:
+                drag.step(spare, here.bias, self.sensed.qd)
+            failed = self._doubted(sensors) or self._behind(met)
             if failed is not None:
                 return failed
             if len(motion) <= 3 * i < 2 * len(motion):
@@ -130,8 +142,8 @@ class ServoLoop(Servo):
             if trip is not None:
                 self._freeze(along)
                 return Outcome(trip=trip)
-        yield from self.holding(self.arm.servo.settle)
-        return REACHED if guard is not None else self._arrived(off)
+        met = yield from self.holding(self.arm.servo.settle)
+        return REACHED if guard is not None else self._arrived(off, met)
 
     def gliding(self, samples: Samples, guard: Monitor | None, direction: Array | None) -> Motion[Outcome]:
         """Follow set-points through free air; see `following`.
@@ -139,10 +151,13 @@ class ServoLoop(Servo):
         A hand that something stops is off its set-point there, and one on which a force acts is off it all the way.
         """
         self.state.in_air = False
-        outcome = yield from self.following(samples, guard, direction)
+        drag = JointDrag(arm=self.arm)
+        outcome = yield from self.following(samples, guard, direction, drag=drag)
         if outcome.off > self.arm.servo.short / 2:  # far more than what lags on the way of a free arm
             yield from self.zeroing()
             return self._force_in_air()
+        if outcome == REACHED and self.state.load <= LIGHT:
+            outcome = self._dragging(drag) or REACHED
         self.state.in_air = outcome == REACHED
         return outcome
 
@@ -156,11 +171,11 @@ class ServoLoop(Servo):
         if zeroed.error is not None:
             return zeroed
         X_start, sensors = forward(self.arm, self.state.q), self._sensors()
-        sense = self._sense(X_start, course)
+        sense, met = self._sense(X_start, course), np.zeros(len(self.state.q))
         gone, given, turn = 0.0, np.zeros(3), np.zeros(3)
         for tick in range(course.patience(round(PRESS_TIME / self.period), self.period)):
             if gone >= course.distance:
-                return REACHED if guard is not None else self._arrived(np.zeros(len(self.state.q)))
+                return REACHED if guard is not None else self._arrived(np.zeros(len(met)), met)
             gone += course.advance(self.state.wrench, tick) * self.period
             given += course.yielding(self.state.wrench) * self.period
             turn = course.turned(turn, self.state.wrench, self.period)
@@ -168,7 +183,10 @@ class ServoLoop(Servo):
             if step.q is None:
                 return Outcome(error=errors.JOINT_LIMIT, cause=step.cause(self.arm))
             guards = _active(guard, course.direction)
-            yield from self._approach(self.dynamics(), step.q, estimate=True, sense=sense, guards=guards)
+            spare = yield from self._approach(
+                self.dynamics(), step.q, estimate=True, sense=sense, guards=guards
+            )
+            met = met + _FRESH * (spare - met)
             if self.state.cut:
                 return CUT
             doubted = self._doubted(sensors)
@@ -198,11 +216,12 @@ class ServoLoop(Servo):
         yield from self._approach(here, step.q, estimate=feeling, sense=sense)
         return CUT if self.state.cut else REACHED
 
-    def holding(self, ticks: int) -> Motion[None]:
-        """Hold the set-point."""
-        here = self.dynamics()
+    def holding(self, ticks: int) -> Motion[Array]:
+        """Hold the set-point; returns the torques that are left unexplained on average, shape (n,)."""
+        here, met = self.dynamics(), np.zeros(len(self.state.q))
         for _ in range(ticks):
-            yield from self._approach(here, self.state.q, estimate=False)
+            met += yield from self._approach(here, self.state.q, estimate=False)
+        return met / max(ticks, 1)
 
     def zeroing(self) -> Motion[Outcome]:
         """Hold still and take what is felt now as zero force; in free air that is next to none.
@@ -243,13 +262,17 @@ class ServoLoop(Servo):
         held = solve(self.arm, translated(X_set, along * direction), self.state.q)
         self.state.q = self.state.here.copy() if held.q is None else held.q
 
-    def _arrived(self, on_the_way: Array) -> Outcome:
-        """Check that the hand is at its set-point; `on_the_way`: by how much joints were off theirs, shape (n,)."""
+    def _arrived(self, on_the_way: Array, met: Array) -> Outcome:
+        """Check that the hand is at its set-point, shape (n,) both.
+
+        `on_the_way`: by how much joints were off theirs; `met`: torques that are left unexplained.
+        """
         off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
         if off < self.arm.servo.short:
             return REACHED
         before = float(np.linalg.norm((jacobian(self.arm, self.state.q) @ on_the_way)[:3]))
-        return Outcome(error=errors.SERVO_LAG, cause=HandAstray(distance=round(off, 6)), off=before)
+        astray = Outcome(error=errors.SERVO_LAG, cause=HandAstray(distance=round(off, 6)), off=before)
+        return self._alone(met) or astray
 
     # -- doubting -----------------------------------------------------------------------------------
 
@@ -276,22 +299,43 @@ class ServoLoop(Servo):
         if found is None:
             return None
         self.state.q = self.state.here.copy()
-        joint = self.arm.joints[found.joint]
         cause = JointSensesApart(
-            joint=JointName(name=joint.name, kind=joint.kind),
+            joint=self._named(found.joint),
             potentiometer=round(found.potentiometer, 6), tachometer=round(found.tachometer, 6),
             braked=found.braked,
         )  # fmt: skip
         return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
 
-    def _behind(self) -> Outcome | None:
+    def _behind(self, met: Array) -> Outcome | None:
         """See that every joint keeps up with its set-point, which else becomes where it is."""
         lag = np.abs(self.state.here - self.state.q) > constants(self.arm).lag
         if not lag.any():
             return None
         self.state.q = self.state.here.copy()
         joint = self.arm.joints[int(np.argmax(lag))].name
-        return Outcome(error=errors.SERVO_LAG, cause=JointBehind(joint=joint))
+        return self._alone(met) or Outcome(error=errors.SERVO_LAG, cause=JointBehind(joint=joint))
+
+    def _dragging(self, drag: JointDrag) -> Outcome | None:
+        """See that no joint took far more than its friction on a motion through free air, if friction is known."""
+        stiff = drag.stiff(self.state.friction) if self.state.friction.any() else None
+        if stiff is None:
+            return None
+        cause = JointAlone(
+            joint=self._named(stiff.joint), torque=round(stiff.torque, 6), friction=round(stiff.friction, 6)
+        )
+        return Outcome(error=errors.JOINT_STIFF, cause=cause)
+
+    def _alone(self, met: Array) -> Outcome | None:
+        """The error of the joint that alone keeps the arm from its set-point, unless a force at the hand does."""
+        joint = alone(self.arm, jacobian(self.arm, self.state.here), met)
+        if joint is None:
+            return None
+        cause = JointAlone(joint=self._named(joint), torque=round(float(met[joint]), 6))
+        return Outcome(error=errors.JOINT_STIFF, cause=cause)
+
+    def _named(self, number: int) -> JointName:
+        joint = self.arm.joints[number]
+        return JointName(name=joint.name, kind=joint.kind)
 
 
 def _active(guard: Monitor | None, direction: Array) -> tuple[ActiveGuard, ...]:

@@ -29,7 +29,12 @@ class ArmMotion(Operation, frozen=True, kw_only=True):
     moves: ClassVar = True
     takes_time: ClassVar = True
     raising: ClassVar = action(
-        errors.JOINT_LIMIT, errors.NO_SOLUTION, errors.SERVO_LAG, errors.FORCE_WRONG, errors.JOINT_SENSE_WRONG
+        errors.JOINT_LIMIT,
+        errors.NO_SOLUTION,
+        errors.SERVO_LAG,
+        errors.FORCE_WRONG,
+        errors.JOINT_SENSE_WRONG,
+        errors.JOINT_STIFF,
     )
 
     @property

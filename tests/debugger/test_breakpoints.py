@@ -112,7 +112,7 @@ def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
     assert macro.program.steps[macro.program.labels["LY"][0]].text.startswith("CHANGE")
 
 
-NUMBERS = "1, 2, 3, 4, 5, 6, 7, 8, 9, 23, 24, 25, 30, 31, 32, 33, 50, 51, 52, 53, 54, 55"
+NUMBERS = "1, 2, 3, 4, 5, 6, 7, 8, 9, 23, 24, 25, 30, 31, 32, 33, 50, 51, 52, 53, 54, 55, 57"
 
 
 @pytest.mark.parametrize(

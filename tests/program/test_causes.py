@@ -7,7 +7,7 @@ import msgspec
 import pytest
 
 from handeye.core import errors
-from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.diagnosis import causes as c
 from handeye.program.diagnosis.cause_text import (
     call_sentence,
@@ -82,6 +82,11 @@ WORDS: list[tuple[c.Cause, str]] = [
         "wrist has gone 2.0 degrees by its potentiometer, 0.0 degrees by its tachometer, under its brake: or the brake "
         "slips",
     ),
+    (
+        c.JointAlone(joint=ARM.joints[1], torque=150 * OUNCE_INCH, friction=30 * OUNCE_INCH),
+        "wrist takes 150 oz-in to move; at first it took 30 oz-in",
+    ),
+    (c.JointAlone(joint=ARM.joints[0], torque=-80 * OUNCE_FORCE), "rail: 80 oz do not move it on"),
     (c.CurrentSilent(torque=0.0), "it showed 0.0 oz-in at most, less than it takes to start"),
     (
         c.PictureRepeated(picture="AFTER", earlier="BEFORE"),

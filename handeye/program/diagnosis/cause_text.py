@@ -59,7 +59,7 @@ def cause_sentence(cause: Cause) -> str:
             return f"the fingers do not both touch anything; the gap is {_inches(cause.gap)}"
         case (
             c.SwitchesClosed() | c.SwitchesOpen() | c.GapAstray() | c.GapStill() | c.ForceInAir()
-            | c.JointSensesApart() | c.CurrentSilent() | c.PictureRepeated() | c.PictureBlank()
+            | c.JointSensesApart() | c.JointAlone() | c.CurrentSilent() | c.PictureRepeated() | c.PictureBlank()
         ):  # fmt: skip
             return doubt_sentence(cause)
         case c.NoPicture():
@@ -198,6 +198,8 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             pot, tachometer = (_way(cause.joint, way) for way in (cause.potentiometer, cause.tachometer))
             ways = f"{cause.joint.name} has gone {pot} by its potentiometer, {tachometer} by its tachometer"
             return f"{ways}, under its brake: or the brake slips" if cause.braked else ways
+        case c.JointAlone():
+            return _alone(cause)
         case c.CurrentSilent():
             return f"it showed {cause.torque / OUNCE_INCH:.1f} oz-in at most, less than it takes to start"
         case c.PictureRepeated():
@@ -229,6 +231,15 @@ def _in_air(cause: c.ForceInAir) -> str:
     felt = ", ".join(f"{force / OUNCE_FORCE:z.0f} oz in {axis}" for axis, force in components)
     allowed, load = (f"{force / OUNCE_FORCE:.0f} oz" for force in (cause.limit, cause.load))
     return f"{felt}; allowed: {allowed}; declared load: {load}"
+
+
+def _alone(cause: c.JointAlone) -> str:
+    prismatic = cause.joint.kind == "prismatic"
+    unit, name = (OUNCE_FORCE, "oz") if prismatic else (OUNCE_INCH, "oz-in")
+    if cause.friction is None:
+        return f"{cause.joint.name}: {abs(cause.torque) / unit:.0f} {name} do not move it on"
+    took, takes = distinct_digits([cause.friction / unit, cause.torque / unit], 0)
+    return f"{cause.joint.name} takes {takes} {name} to move; at first it took {took} {name}"
 
 
 def _way(joint: c.JointName, way: float) -> str:

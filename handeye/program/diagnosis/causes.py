@@ -166,6 +166,15 @@ class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
     braked: bool = False
 
 
+class JointAlone(CauseRecord, frozen=True, kw_only=True):
+    """A joint takes a torque (N m, N if prismatic) that no force at the hand explains; `friction` is what it took at
+    first, None where it does not get on at all."""
+
+    joint: JointName
+    torque: float
+    friction: float | None = None
+
+
 class CurrentSilent(CauseRecord, frozen=True, kw_only=True):
     """The screwdriver ran, and its motor current showed at most this torque (N m)."""
 
@@ -320,7 +329,7 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
 
 SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part
 SenseCause = (
-    SwitchesClosed | SwitchesOpen | GapAstray | GapStill | ForceInAir | JointSensesApart | CurrentSilent
+    SwitchesClosed | SwitchesOpen | GapAstray | GapStill | ForceInAir | JointSensesApart | JointAlone | CurrentSilent
     | PictureRepeated | PictureBlank
 )  # fmt: skip
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown

@@ -25,6 +25,7 @@ from handeye.core.errors import (
     GAP_WRONG,
     GASKET_WRONG,
     JOINT_SENSE_WRONG,
+    JOINT_STIFF,
     NOTHING_HELD,
     PART_NOT_SEEN,
     PICTURE_WRONG,
@@ -170,13 +171,13 @@ def _joints() -> Iterator[DeviceFault]:
         )  # fmt: skip
         yield _fault(
             f"joint.{number}.stiff", f"The friction {joint} is so many times what it was.", f"friction.{number}",
-            GainEffect, ExpectedDetection(errors=(FORCE_WRONG,), at_setup=True, harmless=_WITHIN_DRIVES),
+            GainEffect, ExpectedDetection(errors=(JOINT_STIFF,), at_setup=True, harmless=_WITHIN_DRIVES),
             Size(unit="", usual=5.0, limits=(0.0, 20.0)), stage=3,
         )  # fmt: skip
         yield _fault(f"{tachometer}.dead", f"The rate {joint} reads zero.", tachometer, DEAD, wrong)
         yield _fault(
             f"{drive}.weak", f"So much is left of the torque that the drive {joint} is told.", drive, GainEffect,
-            ExpectedDetection(errors=(FORCE_WRONG, SERVO_LAG), at_setup=True),
+            ExpectedDetection(errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True),
             Size(unit="%", usual=50.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
         yield _fault(

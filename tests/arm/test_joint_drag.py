@@ -1,0 +1,54 @@
+"""What a joint takes beyond its friction is told of it, and what a force at the hand takes is not."""
+
+import numpy as np
+import pytest
+
+from handeye.arm.joint_drag import JointDrag, Stiffness, alone
+from handeye.arm.kinematics import jacobian
+from handeye.arm.robots.stanford import STANFORD
+from handeye.core.pose import Array
+from handeye.core.units import DEGREE, INCH
+
+AT = np.array([-20.0, 104.0, 25.0 * INCH / DEGREE, 0.0, 76.0, 70.0]) * DEGREE
+FRICTION = np.array(STANFORD.compliance.friction)
+SLIDES = np.full(6, 0.2)
+
+
+def dragged(out: Array, back: Array) -> Stiffness | None:
+    """What is told of torques on the way out and back, shape (n,)."""
+    drag = JointDrag(arm=STANFORD)
+    for spare, rate in ((out, SLIDES), (back, -SLIDES)):
+        for _ in range(30):
+            drag.step(spare, np.zeros(6), rate)
+    return drag.stiff(FRICTION)
+
+
+def test_a_joint_that_takes_its_friction_is_not_told_whatever_weight_is_wrong() -> None:
+    weight = np.array([0.0, 3.0, 5.0, 0.0, 0.2, 0.0])
+    assert dragged(weight + FRICTION, weight - FRICTION) is None
+
+
+@pytest.mark.parametrize("joint", range(6))
+def test_a_joint_that_takes_five_times_its_friction_is_told(joint: int) -> None:
+    takes = FRICTION.copy()
+    takes[joint] *= 5
+    told = dragged(takes, -takes)
+    assert told is not None
+    assert (told.joint, told.torque) == (joint, pytest.approx(5 * FRICTION[joint]))
+
+
+@pytest.mark.parametrize("joint", [0, 2, 3, 4, 5])  # the second lifts the hand as a force upwards would
+def test_a_torque_of_one_joint_is_no_force_at_the_hand(joint: int) -> None:
+    spare = np.zeros(6)
+    spare[joint] = 10.0
+    assert alone(STANFORD, jacobian(STANFORD, AT), spare) == joint
+
+
+@pytest.mark.parametrize("force", [(20.0, 0.0, 0.0), (0.0, 20.0, 0.0), (0.0, 0.0, 20.0)])
+@pytest.mark.parametrize("up", [0.0, 0.1])
+def test_a_force_that_meets_hand_or_fingers_is_of_no_joint_alone(
+    force: tuple[float, float, float], up: float
+) -> None:
+    wrench = np.concatenate((force, np.cross((0.0, 0.0, up), force)))
+    J = jacobian(STANFORD, AT)
+    assert alone(STANFORD, J, J.T @ wrench) is None
