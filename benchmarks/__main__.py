@@ -163,6 +163,35 @@ def ik(
 
 
 @app.command
+def poses(
+    *,
+    anywhere: Annotated[WholeNumber, Parameter(help="How many random poses there are.")] = 100_000,
+    singular: Annotated[WholeNumber, Parameter(help="How many poses each other set has.")] = 20_000,
+) -> int:
+    """Try the arm's inverse kinematics on poses that forward kinematics gives from joints within their limits.
+
+    At random, and with joints at limits, the wrist in line, the boom upright; each exact, and to .001 in and .01
+    degrees.
+
+    Exit code 0: each is found, within limits, with the hand there; 1: one is not.
+    """
+    from benchmarks.reached_poses import tried
+    from handeye.tasks import task
+
+    positive(anywhere, "pose")
+    positive(singular, "pose")
+    bad = 0
+    for each in tried(task().arm, anywhere, singular):
+        bad += each.missed + each.wrong
+        off = f"hand off by {each.off:.1e} m and {each.turned:.1e} rad at most"
+        say(
+            f"{each.what:31} {'written' if each.written else 'exact':7} {each.poses:6} poses, {each.missed} not found, "
+            f"{each.wrong} wrong, {off}"
+        )
+    return 1 if bad else 0
+
+
+@app.command
 def speed(
     *,
     world: WorldOptions = ANY_WORLD,

@@ -7,6 +7,7 @@ from typing import Any, Final
 
 from handeye.al.scanner import scan
 from handeye.core.diagnostics import Diagnostic, Label, arranged, problem, quoted
+from handeye.core.plain_text import enough_digits
 from handeye.core.source import Source, Span
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.diagnosis.plan_findings import (
@@ -68,12 +69,13 @@ class _Phrases:
                 word = self.word(found.step)
                 return self.joint_limit(found, reason, word if name == word else f"{word} {name}")
             case OutOfReach() | TooNear() | InnerCylinder() as reason:
-                inches = f"{reason.excess / INCH:.2f} in"
+                inches = f"{enough_digits(reason.excess / INCH, 2)} in"
+                least = f"{enough_digits(reason.excess / INCH, 2, up=True)} in"
                 away, nearer = f"too near to the column of the {arm} arm", "farther from"
                 if isinstance(reason, OutOfReach):
                     away, nearer = f"beyond the reach of the {arm} arm", "nearer to"
                 message = f"{name} is {inches} {away}"
-                help = f"move it at least {inches} {nearer} the arm{self.counted(name)}"
+                help = f"move it at least {least} {nearer} the arm{self.counted(name)}"
                 return self.at_position(found, message, help=help, notes=(note,))
             case BelowTable():
                 return self.at_position(found, f"{note} on its way to {name}", help="pass a position between")
@@ -97,7 +99,10 @@ class _Phrases:
     def joint_limit(
         self, found: NoConfiguration, reason: JointLimit, motion: str, place: str | None = None
     ) -> Diagnostic:
-        beyond, limit = f"{reason.excess / DEGREE:.1f} degrees", f"{reason.limit / DEGREE:.0f} degrees"
+        beyond, limit = (
+            f"{enough_digits(reason.excess / DEGREE, 1)} degrees",
+            f"{reason.limit / DEGREE:.0f} degrees",
+        )
         joint = named(self.arm, reason.joint)
         message = f"`{motion}` would take {joint} {beyond} beyond its limit of {limit}"
         if place is None:
@@ -125,12 +130,14 @@ class _Phrases:
         return "" if of is None else f"; it is relative to {quoted(of)}"
 
     def below_table(self, found: GoalBelowTable) -> Diagnostic:
-        message = f"the hand would be {found.depth / INCH:.2f} in below the table at {found.position}"
+        message = (
+            f"the hand would be {enough_digits(found.depth / INCH, 2)} in below the table at {found.position}"
+        )
         return self.at_position(found, message, help="the table top is z = 0; raise the position")
 
     def runs_into(self, found: RunsInto) -> Diagnostic:
         what = "the hand" if found.held is None else f"{quoted(found.held)} in the hand"
-        depth = f"{found.depth / INCH:.2f} in"
+        depth = f"{enough_digits(found.depth / INCH, 2)} in"
         into = f"would be {depth} below the table"
         if found.fixture is not None:
             into = f"would go {depth} into {quoted(found.fixture)}"

@@ -44,6 +44,6 @@ def check_samples(arm: ArmModel, samples: Samples, *, floor: float | None = None
         return IKResult(reason=beyond(arm.joints[joint], joint, worst), along=along)
     if floor is not None:
         height = float(forward(arm, samples.q)[:, 2, 3].min(initial=floor))
-        if height < floor:
+        if height < floor - SLACK:
             return IKResult(reason=BelowTable(floor - height))
     return None

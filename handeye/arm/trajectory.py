@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from handeye.arm.ik import IKResult, solve
+from handeye.arm.ik.result import SLACK
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples
@@ -76,7 +77,7 @@ def move(
     joints' rates; its square applies to accelerations.
     """
     height = float(X_WT_goal[2, 3])
-    if height < -1e-9:
+    if height < -SLACK:
         return IKResult(reason=BelowTable(-height))
     goal = solve(arm, X_WT_goal, via[-1] if via else q_start)
     if goal.q is None:

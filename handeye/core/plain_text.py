@@ -1,10 +1,12 @@
 """Text for people: printable characters, counted nouns, numbers."""
 
+import math
 import textwrap
 from collections.abc import Sequence
 from typing import Final
 
 _EXTRA_DECIMALS: Final = 6
+_SAME_DIGITS: Final = 1e-6  # of the last digit: computing error that does not round up
 
 
 def printable(text: str) -> str:
@@ -29,6 +31,18 @@ def distinct_digits(numbers: Sequence[float], decimals: int) -> list[str]:
         if len({*texts}) == len({*numbers}):
             break
     return texts
+
+
+def enough_digits(number: float, decimals: int, *, up: bool = False) -> str:
+    """A positive number to `decimals` digits, or to as many more as make two count: .0041 is not `0.00`.
+
+    With `up` it is rounded up, so that it is enough.
+    """
+    places = max(decimals, 1 - math.floor(math.log10(number))) if number > 0 else decimals
+    if up:
+        number = math.ceil(number * 10**places - _SAME_DIGITS) / 10**places
+    text = f"{number:.{places}f}"
+    return text.removesuffix("0") if places > decimals else text
 
 
 def folded(text: str, width: int) -> str:

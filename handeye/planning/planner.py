@@ -12,6 +12,7 @@ import msgspec
 import numpy as np
 
 from handeye.arm.ik import IKResult, solve
+from handeye.arm.ik.result import SLACK
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
@@ -132,7 +133,7 @@ class _Walk:
         places = (*operation.via, operation.goal)
         *via, X_WT = (self.world.position(name) for name in places)
         for name, X in zip(places, (*via, X_WT), strict=True):
-            if X[2, 3] < 0:
+            if X[2, 3] < -SLACK:
                 self.known = False
                 self.findings.add(GoalBelowTable(step=number, position=name, depth=-float(X[2, 3])))
                 return

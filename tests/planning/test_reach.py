@@ -1,7 +1,15 @@
 """What the arm cannot reach is told with the joint and the amount, once, and for the whole way."""
 
+import re
+
+import numpy as np
 import pytest
 from checking import message, said
+
+from handeye.arm.kinematics import forward
+from handeye.arm.robots.stanford import STANFORD
+from handeye.core.pose import hand_angles
+from handeye.core.units import INCH
 
 
 def test_a_goal_beyond_the_boom_says_how_far() -> None:
@@ -12,9 +20,21 @@ def test_a_goal_beyond_the_boom_says_how_far() -> None:
 
 
 def test_a_goal_too_near_to_the_column_says_how_near() -> None:
-    assert message("TRANS NEAR [20 15 5 90 90 0]\nMOVE NEAR") == (
-        "unreachable-position: NEAR is 1.06 in too near to the column of the Stanford arm"
-    )
+    (problem,) = said("TRANS NEAR [20 15 5 90 90 0]\nMOVE NEAR")
+    assert problem.message == "NEAR is 1.06 in too near to the column of the Stanford arm"
+    assert problem.help == "move it at least 1.07 in farther from the arm"
+
+
+@pytest.mark.parametrize("inches", [0.0035, 0.0081, 0.02, 0.7])
+def test_a_goal_just_beyond_the_boom_is_told_with_digits_that_show_it(inches: float) -> None:
+    X = forward(STANFORD, np.array([0.3, 1.7, (50 + inches) * INCH, 0.2, 1.0, 0.4]))
+    at = " ".join(f"{x:.9f}" for x in (*X[:3, 3] / INCH, *np.degrees(hand_angles(X))))
+    (problem,) = said(f"TRANS FAR [{at}]\nMOVE FAR")
+    beyond, least = (float(re.findall(r"([\d.]+) in", text)[0]) for text in (problem.message, problem.help))
+    assert beyond == pytest.approx(inches, rel=0.02)
+    assert inches - 1e-7 <= least <= 1.04 * inches
+    (note,) = problem.notes
+    assert "50.0 in; it ends at 50.0 in" not in note
 
 
 def test_a_wrist_beyond_its_limit_is_told_with_the_amount() -> None:

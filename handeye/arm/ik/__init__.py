@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.arm.ik import cartesian, gantry, spherical_wrist
+from handeye.arm.ik.nearest import nearest_within
 from handeye.arm.ik.result import IKResult
 from handeye.arm.model import ArmModel, Structure
 from handeye.core.pose import Array, Pose
@@ -43,9 +44,14 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
     """Joint positions for the hand at `X_WT`: the branch within limits nearest to `near`.
 
     Nearest in the sum of joint travel times. Joints that the pose leaves free stay as in `near`; held joints go to
-    where they are held.
+    where they are held. A pose that only rounding keeps out of reach has the solution within limits nearest to it.
     """
-    return _SOLVERS[arm.structure].solve(arm, X_WT, near)
+    found = _SOLVERS[arm.structure].solve(arm, X_WT, near)
+    if found.q is not None:
+        return found
+    every, exist = branches(arm, X_WT, arm.middle)
+    q = nearest_within(arm, X_WT, every[exist])
+    return found if q is None else IKResult(q=q)
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None = None) -> tuple[Array, NDArray[np.bool_]]:

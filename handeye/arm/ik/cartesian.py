@@ -3,18 +3,15 @@
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.arm.ik.result import IKResult, choose
+from handeye.arm.ik.result import WRITTEN, IKResult, choose
 from handeye.arm.kinematics import chain, forward
 from handeye.arm.model import ArmModel
 from handeye.core.pose import Array, Pose
 from handeye.program.diagnosis.reach import FixedDirection, FixedOrientation, InLine
-
-_ROUNDING: Final = 1e-5  # m or rad, left by rounding of written positions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -50,7 +47,7 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
     """One branch, which exists unless the hand would have to turn or leave the slides' span."""
     b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
     q, off = _nearest_position(arm, b, X, b.held_at if start is None else start[b.held])
-    exists = (np.linalg.norm(off, axis=-1) <= _ROUNDING) & (_turn_angle(b, X) <= _ROUNDING)
+    exists = (np.linalg.norm(off, axis=-1) <= WRITTEN[0]) & (_turn_angle(b, X) <= WRITTEN[1])
     return q[..., None, :], exists[..., None]
 
 
@@ -73,11 +70,11 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
     """The solution, or the turn, direction or joint limit that prevents it."""
     b = _build(arm)
     angle = float(_turn_angle(b, X_WT))
-    if angle > _ROUNDING:
+    if angle > WRITTEN[1]:
         return IKResult(reason=FixedOrientation(angle))
     q, off = _nearest_position(arm, b, X_WT, b.held_at)
     distance = float(np.linalg.norm(off))
-    if distance > _ROUNDING:
+    if distance > WRITTEN[0]:
         return IKResult(reason=FixedDirection(tuple(b.slides), distance))
     return choose(arm, [q.tolist()], near.tolist())
 

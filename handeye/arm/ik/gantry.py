@@ -15,13 +15,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.arm.ik.result import IKResult, choose, nearest_turn
+from handeye.arm.ik.result import IKResult, choose, nearest_turn, shared
 from handeye.arm.kinematics import chain, forward, jacobian, link_rotations
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array, Pose, rotation_x
 from handeye.program.diagnosis.reach import InLine
 
-_COLLINEAR: Final = 1e-9  # sine of the middle wrist joint below which the others are one axis
+_COLLINEAR: Final = 1e-11  # sine of the middle wrist joint below which the others are one axis
 _EXACT: Final = 1e-6  # round-off of a twist, m/s or rad/s
 
 
@@ -87,20 +87,21 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
     start[b.held] = b.held_at
     here = near.tolist()
     found = [
-        _shared(arm, [nearest_turn(j, x, x0) for j, x, x0 in zip(arm.joints, q, here, strict=True)])
-        for q in branches(arm, X_WT, start)[0].tolist()
+        [nearest_turn(j, x, x0) for j, x, x0 in zip(arm.joints, q, here, strict=True)]
+        for branch in branches(arm, X_WT, start)[0].tolist()
+        for q in _ways(arm, branch)
     ]
     return choose(arm, found, here)
 
 
-def _shared(arm: ArmModel, q: list[float]) -> list[float]:
-    """With both rolls in line, shift what is beyond the last joint's range to the first."""
-    last = arm.joints[-1]
-    beyond = q[-1] - min(max(q[-1], last.lower), last.upper)
-    if beyond == 0.0 or abs(math.sin(q[-2])) >= _COLLINEAR:
-        return q
-    same_way = -math.cos(q[-2]) * math.sin(arm.joints[-3].alpha) * math.sin(arm.joints[-2].alpha)
-    return [*q[:-3], q[-3] + same_way * beyond, q[-2], q[-1] - beyond]
+def _ways(arm: ArmModel, q: list[float]) -> list[list[float]]:
+    """A configuration; with both rolls in line, the ways to share their turn within limits."""
+    if abs(math.sin(q[-2])) >= _COLLINEAR:
+        return [q]
+    first, middle, last = arm.joints[-3:]
+    same_way = -math.cos(q[-2]) * math.sin(first.alpha) * math.sin(middle.alpha)
+    ways = shared(first, last, same_way, q[-3], q[-1])
+    return [[*q[:-3], one, q[-2], other] for one, other in ways] or [q]
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from handeye.arm.model import ArmModel, Joint
 from handeye.core.pose import Array
+from handeye.core.units import DEGREE, INCH
 from handeye.program.diagnosis.causes import ArmNames, BeyondArm
 from handeye.program.diagnosis.reach import JointLimit, OutOfReach, ReachFailure, reach_sentence
 
@@ -33,6 +34,10 @@ class IKResult:
 
 
 SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, rad or m
+WRITTEN: Final = (0.0025 * INCH, 0.0125 * DEGREE)
+"""Distance (m) and turn (rad) by which the digits of a written pose leave the hand uncertain, together as the root of
+their squares. Half of .001 in and .01 degrees in each coordinate is .96 of it at most; the wrist, 10 in behind the
+finger tips, is then off by less than the distance."""
 
 
 def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResult:
@@ -45,6 +50,24 @@ def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResu
 
         return IKResult(q=np.array(min(good, key=travel_time)))
     return min((_fault(arm, q) for q in found), key=lambda fault: fault[0])[1]
+
+
+def shared(first: Joint, last: Joint, sense: float, one: float, other: float) -> list[tuple[float, float]]:
+    """Positions within limits of two joints in line that turn the hand together as `one` and `other` do.
+
+    They turn it the same way if `sense` is positive, else against each other. One solution for each whole turn that
+    allows any; the first joint stays at `one` if the last can do the rest.
+    """
+    sign, ends, found = math.copysign(1.0, sense), (last.lower, last.upper), []
+    turns = math.ceil((first.upper - first.lower + last.upper - last.lower) / (2 * math.pi))
+    for turn in range(-turns, turns + 1):
+        both = one + sign * other + 2 * math.pi * turn
+        low = max(first.lower, min(both - sign * end for end in ends))
+        high = min(first.upper, max(both - sign * end for end in ends))
+        if low <= high:
+            x = min(max(one, low), high)
+            found.append((x, sign * (both - x)))
+    return found
 
 
 def _inside(joint: Joint, x: float) -> bool:

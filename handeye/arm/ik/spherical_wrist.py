@@ -1,7 +1,7 @@
 """The closed form of the Stanford arm (Paul 1981): a shoulder with offset d2, a sliding boom, a spherical wrist.
 
 Four branches: the boom on either side of the column, the wrist flipped or not. Where the axes of joints 4 and 6 come
-into line only the sum of the two matters, and joint 4 stays where it was.
+into line only the sum of the two matters, and joint 4 stays where it was if joint 6 can do the rest.
 """
 
 import math
@@ -12,14 +12,14 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.arm.ik.result import IKResult, choose, nearest_turn
+from handeye.arm.ik.result import WRITTEN, IKResult, choose, nearest_turn, shared
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array, Pose, inverse
 from handeye.program.diagnosis.reach import InLine, InnerCylinder, OutOfReach, TooNear
 
 _KINDS: Final = ("revolute", "revolute", "prismatic", "revolute", "revolute", "revolute")
 _TWISTS: Final = (-math.pi / 2, math.pi / 2, 0.0, -math.pi / 2, math.pi / 2, 0.0)
-_COLLINEAR: Final = 1e-9  # sine of joint 5 below which joints 4 and 6 are one axis
+_COLLINEAR: Final = 1e-11  # sine of joint 5 below which joints 4 and 6 are one axis
 _SINGULAR: Final = 0.02  # sine of joint 5 below which joint 4 would have to be absurdly fast
 
 
@@ -38,7 +38,7 @@ def _check(arm: ArmModel) -> None:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Four: shoulder +, then -, each with the wrist and flipped; none where the wrist is nearer to axis 1 than d2."""
+    """Four: shoulder +, then -, each with the wrist and flipped; none where d2 keeps the wrist farther from axis 1."""
     _check(arm)
     X_BT = inverse(arm.X_WB) @ np.asarray(X_WT, dtype=np.float64)
     rows = [[X_BT[..., i, j] for j in range(4)] for i in range(3)]
@@ -53,7 +53,7 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
             found.append(np.stack([*q123, q4, *_bend_and_roll(np, q123, q4, rows)], axis=-1))
     q = np.stack(found, axis=-2)
     turned = np.where(constants(arm).prismatic, q, np.pi - np.mod(np.pi - q, 2 * np.pi))
-    exists = w[0] * w[0] + w[1] * w[1] >= arm.joints[1].d ** 2
+    exists = np.hypot(w[0], w[1]) >= arm.joints[1].d - WRITTEN[0]
     return turned, np.broadcast_to(exists[..., None], q.shape[:-1])
 
 
@@ -64,7 +64,7 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
     here = near.tolist()
     w = _wrist_centre(arm, rows)
     radius = math.hypot(w[0], w[1])
-    if radius < arm.joints[1].d:
+    if radius < arm.joints[1].d - WRITTEN[0]:
         return IKResult(reason=InnerCylinder(radius, arm.joints[1].d))
     found = choose(arm, _scalar_branches(arm, rows, w, here), here)
     match found.reason:
@@ -93,8 +93,11 @@ def _scalar_branches(arm: ArmModel, rows: Any, w: Any, near: list[float]) -> lis
         in_line = math.hypot(a, b) < _COLLINEAR
         for flip in (1.0,) if in_line else (1.0, -1.0):
             q4 = near[3] if in_line else math.atan2(flip * b, flip * a)
-            q = [*q123, q4, *_bend_and_roll(math, q123, q4, rows)]
-            found.append([nearest_turn(j, x, x0) for j, x, x0 in zip(arm.joints, q, near, strict=True)])
+            q5, q6 = _bend_and_roll(math, q123, q4, rows)
+            ways = shared(arm.joints[3], arm.joints[5], math.cos(q5), q4, q6) if in_line else ()
+            for one, other in ways or ((q4, q6),):
+                q = (*q123, one, q5, other)
+                found.append([nearest_turn(j, x, x0) for j, x, x0 in zip(arm.joints, q, near, strict=True)])
     return found
 
 
@@ -113,7 +116,8 @@ def _shoulder(m: ModuleType, arm: ArmModel, w: Any, side: float) -> Any:
     """q1, q2, q3 with the boom on one side of the column."""
     x, y, z = w
     d2 = arm.joints[1].d
-    u = side * m.sqrt(m.fabs(x * x + y * y - d2 * d2))  # horizontal reach of the boom
+    u2 = x * x + y * y - d2 * d2
+    u = side * m.sqrt((u2 + m.fabs(u2)) / 2)  # horizontal reach of the boom; 0 within the inner cylinder
     return m.atan2(y, x) - m.atan2(d2, u), m.atan2(u, z), m.sqrt(u * u + z * z)
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Protocol, assert_never
 
+from handeye.core.plain_text import distinct_digits, enough_digits
 from handeye.core.record import Record
 from handeye.core.units import DEGREE, INCH
 
@@ -149,23 +150,26 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
         case OutOfReach() | TooNear() | JointLimit():
             return _beyond(arm, reason)
         case InnerCylinder():
+            radius, least = distinct_digits([reason.radius / INCH, reason.least / INCH], 1)
             return (
-                f"the wrist would have to be {reason.radius / INCH:.1f} in from the axis of joint 1; "
-                f"it cannot come nearer than {reason.least / INCH:.1f} in"
+                f"the wrist would have to be {radius} in from the axis of joint 1; "
+                f"it cannot come nearer than {least} in"
             )
         case FixedOrientation():
             return (
-                f"the hand would have to be turned by {reason.angle / DEGREE:.1f} degrees, "
+                f"the hand would have to be turned by {enough_digits(reason.angle / DEGREE, 1)} degrees, "
                 f"and no joint of the {arm.name} arm turns it"
             )
         case FixedDirection():
             movers = [named(arm, joint) for joint in reason.joints]
             where = "line on which" if len(movers) == 1 else "plane in which"
             them = f"{' and '.join(movers)} move{'s' if len(movers) == 1 else ''} it"
-            return f"the hand would have to be {reason.off / INCH:.2f} in off the {where} {them}"
+            return (
+                f"the hand would have to be {enough_digits(reason.off / INCH, 2)} in off the {where} {them}"
+            )
         case HeldJoint():
-            at = _shown(arm, reason.joint, reason.at, 1)
-            return f"{named(arm, reason.joint)} is held at {at} and cannot be moved"
+            scale, unit = _unit(arm, reason.joint)
+            return f"{named(arm, reason.joint)} is held at {reason.at / scale:.1f} {unit} and cannot be moved"
         case InLine():
             one, other = (joint + 1 for joint in reason.joints)
             return (
@@ -173,10 +177,11 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
                 "where the hand cannot keep its orientation"
             )
         case TooFast():
-            rate, limit = (_shown(arm, reason.joint, x, 0) for x in (reason.rate, reason.limit))
-            return f"{named(arm, reason.joint)} would have to move at {rate}/s; it can do {limit}/s"
+            scale, unit = _unit(arm, reason.joint)
+            rate, limit = distinct_digits([reason.rate / scale, reason.limit / scale], 0)
+            return f"{named(arm, reason.joint)} would have to move at {rate} {unit}/s; it can do {limit} {unit}/s"
         case BelowTable():
-            return f"the hand would be {reason.depth / INCH:.2f} in below the table"
+            return f"the hand would be {enough_digits(reason.depth / INCH, 2)} in below the table"
     assert_never(reason)
 
 
@@ -185,20 +190,12 @@ def named(arm: NamedArm, joint: int) -> str:
     return f"joint {joint + 1} ({arm.joints[joint].name})"
 
 
-def _shown(arm: NamedArm, joint: int, value: float, digits: int) -> str:
-    scale, unit = _unit(arm, joint)
-    return f"{value / scale:.{digits}f} {unit}"
-
-
 def _unit(arm: NamedArm, joint: int) -> tuple[float, str]:
     return (INCH, "in") if arm.joints[joint].kind == "prismatic" else (DEGREE, "degrees")
 
 
 def _beyond(arm: NamedArm, reason: OutOfReach | TooNear | JointLimit) -> str:
     begins = "ends" if reason.amount > reason.limit else "begins"
-    digits = 1 if reason.excess > 0.05 * _unit(arm, reason.joint)[0] else 3
-    amount, limit = (
-        _shown(arm, reason.joint, reason.amount, digits),
-        _shown(arm, reason.joint, reason.limit, 1),
-    )
-    return f"{named(arm, reason.joint)} would have to be {amount}; it {begins} at {limit}"
+    scale, unit = _unit(arm, reason.joint)
+    amount, limit = distinct_digits([reason.amount / scale, reason.limit / scale], 1)
+    return f"{named(arm, reason.joint)} would have to be {amount} {unit}; it {begins} at {limit} {unit}"

@@ -1,0 +1,67 @@
+"""The configuration within limits for a pose that rounding has put just beyond what the arm can do.
+
+A pose at the edge of reach that is written with a few digits, or computed from joints at their limits, need not have
+an exact solution. It has one with the hand as near as the digits tell.
+"""
+
+from collections.abc import Iterable
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.arm.ik.result import WRITTEN
+from handeye.arm.kinematics import forward, jacobian
+from handeye.arm.model import ArmModel, constants
+from handeye.core.pose import Array, Pose
+
+_STEPS: Final = 8  # each squares the error, where two joints come into line halves it
+_HOPELESS: Final = 1e4  # distance, in terms of `WRITTEN`, that no step mends
+_LEAST: Final = 1e-6  # of a step's singular values: smaller ones belong to joints in line
+
+
+def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array | None:
+    """Joint positions within limits that bring the hand to a pose within `WRITTEN`, or None; sought from solutions."""
+    turn = np.where(constants(arm).prismatic, 0.0, 2 * np.pi)
+    turned = (q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts)
+    found = [_nearest(arm, X_WT, np.clip(q, arm.lower, arm.upper)) for q in turned]
+    apart, q = min(found, key=lambda each: each[0], default=(np.inf, None))
+    return q if apart <= 1.0 else None
+
+
+def _nearest(arm: ArmModel, X_WT: Pose, q: Array) -> tuple[float, Array]:
+    """How far the hand is off in terms of `WRITTEN`, and where: Gauss-Newton steps within limits, the best of them."""
+    best = (np.inf, q)
+    for _ in range(_STEPS):
+        miss = _miss(X_WT, forward(arm, q))
+        apart = float(np.linalg.norm(miss))
+        if apart < best[0]:
+            best = (apart, q)
+        if apart > _HOPELESS:
+            break
+        q = _stepped(arm, q, miss)
+    return best
+
+
+def _miss(X_WT: Pose, X: Pose) -> Array:
+    """Displacement and turn from a pose to the wanted one, in terms of `WRITTEN`; shape (6,)."""
+    R = X_WT[:3, :3] @ X[:3, :3].T
+    turn = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
+    return np.concatenate([(X_WT[:3, 3] - X[:3, 3]) / WRITTEN[0], turn / WRITTEN[1]])
+
+
+def _stepped(arm: ArmModel, q: Array, miss: Array) -> Array:
+    """The step that comes nearest; a joint that would pass its limit goes to it, and the others make up for that."""
+    J = jacobian(arm, q) / np.repeat(WRITTEN, 3)[:, None]
+    free: NDArray[np.bool_] = np.array([joint.name not in arm.held for joint in arm.joints])
+    there = q.copy()
+    while free.any():
+        rest = miss - J @ (there - q)
+        wanted = there.copy()
+        wanted[free] += np.linalg.lstsq(J[:, free], rest + J[:, free] @ (there - q)[free], rcond=_LEAST)[0]
+        limited = np.clip(wanted, arm.lower, arm.upper)
+        passed = free & (limited != wanted)
+        if not passed.any():
+            return wanted
+        there[passed], free = limited[passed], free & ~passed
+    return there
