@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 Mask = NDArray[np.bool_]
 
-_COUNTS: Final = {"body": "nbody", "jnt": "njnt", "dof": "nv", "geom": "ngeom", "site": "nsite", "eq": "neq"}
+_COUNTS: Final = {
+    "body": "nbody", "jnt": "njnt", "dof": "nv", "geom": "ngeom", "site": "nsite", "eq": "neq", "actuator": "nu",
+}  # fmt: skip
 _LOOKS: Final = ("group", "matid", "rgba", "castshadow", "user", "sameframe")
 _KINDS: Final = {
     "place": ("body_pos", "body_quat"),
@@ -18,23 +20,13 @@ _KINDS: Final = {
     "contacts": ("geom_contype", "geom_conaffinity", "geom_condim"),
 }
 _WORDS: Final = {
-    "body": "joining",
-    "jnt": "joint",
-    "dof": "joint",
-    "geom": "shape",
-    "site": "hole",
-    "eq": "bond",
-}
+    "body": "joining", "jnt": "joint", "dof": "joint", "geom": "shape", "site": "hole", "eq": "bond",
+    "actuator": "drive",
+}  # fmt: skip
 _PHYSICS: Final = (
-    "gravity",
-    "wind",
-    "magnetic",
-    "density",
-    "viscosity",
-    "impratio",
-    "o_margin",
-    "disableflags",
-)
+    "gravity", "wind", "magnetic", "density", "viscosity", "impratio", "cone", "o_margin", "o_friction", "o_solref",
+    "o_solimp", "disableflags",
+)  # fmt: skip
 
 
 def altered(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> dict[str, list[str]]:
@@ -59,7 +51,7 @@ def told(differing: Mapping[str, list[str]]) -> str:
 def _differences(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> Iterator[tuple[str, str]]:
     for field, bodies in _fields(drawn):
         one, other = (np.asarray(getattr(m, field)).reshape(len(bodies), -1) for m in (model, drawn))
-        for row in np.flatnonzero((one != other).any(axis=1) & parts[bodies]):
+        for row in np.flatnonzero((one != other).any(axis=1) & parts[bodies] & (bodies >= 0)):
             yield _owner(drawn, field, int(row), int(bodies[row])), _kind(field)
     for number in np.flatnonzero(_meshes(model, drawn)):
         for geom in np.flatnonzero((drawn.geom_dataid == number) & parts[drawn.geom_bodyid]):
@@ -72,7 +64,7 @@ def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
     """Names of the figures that count, each with the body that each of its rows belongs to."""
     bodies = {
         "body": np.arange(drawn.nbody, dtype=np.int32), "jnt": drawn.jnt_bodyid, "dof": drawn.dof_bodyid,
-        "geom": drawn.geom_bodyid, "site": drawn.site_bodyid, "eq": _bonded(drawn),
+        "geom": drawn.geom_bodyid, "site": drawn.site_bodyid, "eq": _bonded(drawn), "actuator": _driven(drawn),
     }  # fmt: skip
     for field in dir(drawn):
         kind, _, what = field.partition("_")
@@ -93,6 +85,19 @@ def _bonded(drawn: mujoco.MjModel) -> NDArray[np.int32]:
     of_body = drawn.eq_objtype == mujoco.mjtObj.mjOBJ_BODY
     first = np.where(of_joint | of_body, drawn.eq_obj1id, 0)
     return np.where(of_joint, drawn.jnt_bodyid[np.where(of_joint, first, 0)], first).astype(np.int32)
+
+
+def _driven(drawn: mujoco.MjModel) -> NDArray[np.int32]:
+    """The body that each drive moves; -1 where it moves a tendon."""
+    kinds, bodies = mujoco.mjtTrn, np.full(drawn.nu, -1, np.int32)
+    for kind, owners in (
+        (kinds.mjTRN_JOINT, drawn.jnt_bodyid),
+        (kinds.mjTRN_SITE, drawn.site_bodyid),
+        (kinds.mjTRN_BODY, np.arange(drawn.nbody)),
+    ):
+        mine = drawn.actuator_trntype == kind
+        bodies[mine] = owners[drawn.actuator_trnid[mine, 0]]
+    return bodies
 
 
 def _meshes(model: mujoco.MjModel, drawn: mujoco.MjModel) -> Mask:

@@ -173,6 +173,7 @@ _NUMBERS = {
     "site": lambda model, name: [model.site(name).id],
     "jnt": lambda model, name: [model.joint(name).id],
     "dof": lambda model, name: [model.joint(name).dofadr[0]],
+    "actuator": lambda model, name: [model.actuator(name).id],
     "eq": lambda model, name: [model.equality(name).id],
 }  # fmt: skip
 
@@ -408,6 +409,12 @@ def _around() -> Iterator[tuple[str, str, Planting]]:
         both(thread(0, screw=None), stood("screw0", planar(0.3, 0.3, 0.03, 0))),
     )
     yield "hand holding a pin", "hand", held
+    for where, x, y, z in (
+        ("table", 0.9, 0.6, -0.01),
+        ("belt", 1.12, 0.7, dimensions()("belt.height") - 0.01),
+        ("rack", *dimensions().all("rack.place"), 0.05),
+    ):
+        yield f"hand in the {where}", "overlap", reaching(x, y, z)
     x, y = standard()[:2, 3]
     yield "hand on the pump", "hand", reaching(x, y, 0.09)
 
@@ -469,6 +476,9 @@ def _parts() -> Iterator[tuple[str, str, Planting]]:
     yield "top pressed down by an unseen hand", "held", pushed("top", -30.0)
     for part, other in (("screw2", "dispenser"), ("screw2", "base")):
         yield f"screw both in its thread and at the {other}", "tray", beside(part, other, (0.0, 0.0, 0.1))
+    yield "magnet of the bit dead", "as_drawn", figure("actuator_gainprm", "magnet", 0.0)
+    yield "finger broken off", "as_drawn", figure("geom_contype", "stanford/finger_a", 0)
+    yield "link of the arm bent", "as_drawn", moved_on("body_pos", "stanford/link4", 0.01)
 
 
 def open_bond(truth: Truth) -> Truth:

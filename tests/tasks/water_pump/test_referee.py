@@ -73,10 +73,10 @@ def fallen_pin(truth: Truth) -> Truth:
 CHANGES: dict[str, tuple[Callable[[Truth], Truth], set[str]]] = {
     "a pin that lies on the table": (fallen_pin, {"pins", "pins_tilt"}),
     # it stands on its socket, which the table bears: nothing overlaps
-    "a driver that falls beside its rack": (moved("driver", 0.1, 0.0, 0.0), {"rack"}),
+    "a driver that falls beside its rack": (moved("driver", 0.1, 0.0, 0.0), {"rack", "rest"}),
     "a driver in a post of its rack": (
         moved("driver", 0.02, 0.0, 0.0),
-        {"rack", "rack_tilt", "overlap", "still"},
+        {"rack", "rack_tilt", "overlap", "still", "rest"},
     ),
     "a crossed screw": (crossed, {"screws_crossed"}),
     # its thread is stiff, so that it stays there

@@ -339,6 +339,12 @@ def test_what_may_not_be_at_all_is_found(pump: Truth, name: str) -> None:
     assert wrong(judge(ABSOLUTE[name](pump))) - PRESSED == {name}
 
 
+@pytest.mark.parametrize(("height", "right"), [(0.22, True), (0.3, False)])
+def test_what_hangs_is_found_by_how_far_it_falls(pump: Truth, height: float, right: bool) -> None:
+    shift(pump, ("pin1",), 0.0, 0.0, height * MM)
+    assert judge(pump)["rest"].ok == right
+
+
 @pytest.mark.parametrize(("friction", "right"), [(0.08, True), (0.1, False)])
 def test_the_rotor_is_right_if_it_turns_before_its_limit(pump: Truth, friction: float, right: bool) -> None:
     pump.model.dof_frictionloss[pump.model.joint("rotor").dofadr[0]] = friction
@@ -348,7 +354,7 @@ def test_the_rotor_is_right_if_it_turns_before_its_limit(pump: Truth, friction: 
 
 @pytest.mark.usefixtures("at_once")
 def test_every_finding_there_is_has_been_made_to_fail(pump: Truth) -> None:
-    assert set(judge(pump)) == {*SPOILT, *COUNTED, *ABSOLUTE, "rotor"}
+    assert set(judge(pump)) == {*SPOILT, *COUNTED, *ABSOLUTE, "rotor", "rest"}
 
 
 @pytest.mark.usefixtures("at_once")

@@ -53,13 +53,26 @@ def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     }  # fmt: skip
 
 
+def resting(left: SettledState, settled: SettledState, holes: tuple[Thread, ...]) -> Findings:
+    """Whether everything stays where it was left."""
+    away = np.linalg.norm(settled.data.xpos - left.data.xpos, axis=1)
+    away[[left.model.body(f"screw{hole.screw}").id for hole in holes if hole.screw is not None]] = 0.0
+    farthest = int(np.argmax(away))
+    name = left.model.body(farthest).name.removeprefix(ARM)
+    return {
+        "rest": mm(
+            float(away[farthest]), limits.REST, f"{name} from where it was left, when the cell has settled"
+        )
+    }
+
+
 def made(left: SettledState, truth: Truth) -> Findings:
     """Findings on what does not change as a cell settles: how parts are made, and what acts on them from outside."""
     driver = truth.states[SimulatedScrewdriver.name]
     assert isinstance(driver, ScrewdriverState)
     model, data, parts = left.model, left.data, _parts(left)
     forces = np.abs(data.xfrc_applied[parts]).max(), np.abs(data.qfrc_applied[parts[model.dof_bodyid]]).max()
-    differing = altered(truth.model, _as_it_is_to_be(truth), parts)
+    differing = _altered(truth)
     return {
         "as_drawn": at_most(
             len(differing), limits.ALTERED, "parts",
@@ -75,6 +88,17 @@ def loose_screws(holes: tuple[Thread, ...]) -> list[str]:
     """Screws that are in no thread."""
     in_threads = {thread.screw for thread in holes}
     return [f"screw{k}" for k in range(len(holes)) if k not in in_threads]
+
+
+def _altered(truth: Truth) -> dict[str, list[str]]:
+    """What is not as drawn, and in what; how the arm rubs and drives is set as it works."""
+    model = truth.model
+    found = altered(model, _as_it_is_to_be(truth), np.ones(model.nbody, bool))
+    return {
+        part: left
+        for part, kinds in found.items()
+        if (left := [kind for kind in kinds if not (part.startswith(ARM) and kind in ("friction", "drive"))])
+    }
 
 
 def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
@@ -94,6 +118,9 @@ def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
     rotor = model.joint("rotor").dofadr[0]
     for figures in ("dof_frictionloss", "dof_damping", "dof_armature"):  # `rotor`
         getattr(scene, figures)[rotor] = getattr(model, figures)[rotor]
+    drive = model.actuator("drive").id  # it turns now this screw, now that
+    for figures in ("actuator_trnid", "actuator_gainprm", "actuator_biasprm"):
+        getattr(scene, figures)[drive] = getattr(model, figures)[drive]
     welds = [model.equality(name).id for name in WELDS]  # where they have found the layers
     scene.eq_data[welds] = model.eq_data[welds]
     lands = lands_of(scene)

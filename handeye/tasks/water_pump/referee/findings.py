@@ -12,7 +12,7 @@ from handeye.judge.finding import Finding, Findings, at_least, at_most, worse
 from handeye.judge.measured import SettledState, deg, mm, tilt
 from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.referee import limits, measure
-from handeye.tasks.water_pump.referee.cell_findings import PARTS, PINS, around, loose_screws, made
+from handeye.tasks.water_pump.referee.cell_findings import PARTS, PINS, around, loose_screws, made, resting
 
 
 def judge(truth: Truth) -> Findings:
@@ -26,6 +26,7 @@ def judge(truth: Truth) -> Findings:
     return {
         **worse(_places(left, holes), _places(settled, holes)),
         **_pressing(settled, holes),
+        **resting(left, settled, holes),
         **made(left, truth),
         "rotor": _turning(settled),
     }
@@ -177,6 +178,7 @@ def judge_apart(truth: Truth) -> Findings:
     left, settled = _as_left_and_settled(truth)
     return {
         **worse(_apart(left, holes), _apart(settled, holes)),
+        **resting(left, settled, holes),
         **made(left, truth),
         "screws_out": at_most(filled, 0, "screws", "screws left in their threads"),
         "rotor": _turning(settled),

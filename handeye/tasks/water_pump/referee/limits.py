@@ -55,6 +55,10 @@ STILL: Final = 1.0
 """mm/s of any point of a part or of the arm: as contacts come to rest, parts that lie still go at up to .1 mm/s; a
 joint that its brake holds creeps by 9e-6 rad/s, .01 mm/s at the hand."""
 
+REST: Final = 0.25
+"""mm that anything may go until it has settled: pumps that the arm has made settle by up to .03. What hangs in the air
+falls."""
+
 HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or touches something is nearer
 
 APART: Final = 3.0  # mm from where the run found a part: what the arm puts back, its next run must find
