@@ -103,7 +103,7 @@ def language(
 ) -> int:
     """Measure the delay of a check, a keystroke and a plan, each time on a new text.
 
-    Exit code 0: every median is under its target; 1: one is not.
+    Exit code 0, also where a median is over its target: that depends on the computer.
     """
     from benchmarks.language import measure
 
@@ -112,13 +112,14 @@ def language(
     for waiting in measure(times):
         measured.append(waiting)
         say(
-            f"{waiting.what:26} {waiting.median * 1e3:7.1f} ms  (under {waiting.target * 1e3:.0f} ms)  "
+            f"{waiting.what:26} {waiting.median * 1e3:7.1f} ms  "
+            f"({'' if waiting.is_short else 'not '}under {waiting.target * 1e3:.0f} ms)  "
             f"{times} times, {min(waiting.seconds) * 1e3:.1f} to {max(waiting.seconds) * 1e3:.1f} ms",
             notes if json else screen,
         )
     if json:
         put_json({"measured": [waiting.as_json() for waiting in measured]})
-    return 0 if all(waiting.is_short for waiting in measured) else 1
+    return 0
 
 
 @app.command

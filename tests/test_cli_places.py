@@ -90,6 +90,23 @@ def test_what_was_written_once_is_written_again(
     assert [command(*words)[0] for _ in range(2)] == [0, 0]
 
 
+def test_a_plan_that_replaces_another_says_so(command: Command, planned: Planned) -> None:
+    planned("OPEN 1")
+    told = [command("plan", "job.al", "-o", "it")[1] for _ in range(2)]
+    Path("job.al").write_text("OPEN 2\n", encoding="utf-8")
+    told.append(command("plan", "job.al", "-o", "it")[1])
+    assert told == [
+        *["it: 1 step, 0 motions, 1 stage\n"] * 2,
+        "it: 1 step, 0 motions, 1 stage; another plan was there\n",
+    ]
+
+
+@pytest.mark.parametrize("words", [("teach",), ("view", "--teach")])
+def test_what_could_not_be_saved_is_not_taught(command: Command, words: tuple[str, ...]) -> None:
+    refused = "handeye: absent/job.toml cannot be written: No such file or directory\n"
+    assert command(*words, "absent/job.al") == (2, "", refused)
+
+
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [

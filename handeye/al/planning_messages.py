@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from handeye.al.scanner import scan
 from handeye.core.diagnostics import Diagnostic, Label, arranged, problem, quoted
-from handeye.core.plain_text import enough_digits
+from handeye.core.plain_text import counted, enough_digits
 from handeye.core.source import Source, Span
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.diagnosis.plan_findings import (
@@ -101,7 +101,7 @@ class _Phrases:
     ) -> Diagnostic:
         beyond, limit = (
             f"{enough_digits(reason.excess / DEGREE, 1)} degrees",
-            f"{reason.limit / DEGREE:.0f} degrees",
+            counted(round(reason.limit / DEGREE), "degree"),
         )
         joint = named(self.arm, reason.joint)
         message = f"`{motion}` would take {joint} {beyond} beyond its limit of {limit}"

@@ -10,6 +10,7 @@ from typing import Final
 from handeye import tasks
 from handeye.api.diagnostic import Diagnostic, ScriptError
 from handeye.core.arguments import given_file, given_place
+from handeye.core.brief import Several
 from handeye.core.diagnostics import has_errors, quoted
 from handeye.core.errors import BadArgument, BadFile
 from handeye.core.files import read_whole
@@ -94,12 +95,12 @@ class Plan:
     @property
     def stages(self) -> tuple[InspectedStage, ...]:
         """Its stages: `number` from 1, `name`, `seconds` of planned motion, and `steps`."""
-        return self._laid_open.stages
+        return Several(self._laid_open.stages)
 
     @property
     def steps(self) -> tuple[InspectedStep, ...]:
         """Its steps in the order of the text: `step`, its number; `line`, `text`, `seconds`, `conditions`, `next`."""
-        return tuple(step for stage in self.stages for step in stage.steps)
+        return Several(step for stage in self.stages for step in stage.steps)
 
     @property
     def seconds(self) -> float:

@@ -17,6 +17,7 @@ from handeye.api.run_page import run_page
 from handeye.api.state import Answer, State, answer, state_of
 from handeye.api.trace import Trace
 from handeye.core.arguments import given_count, given_file, given_place
+from handeye.core.brief import Several
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.files import check_place
 from handeye.core.plain_text import counted
@@ -126,7 +127,9 @@ class Run:
         else:
             position = self._runner.position - given_count(steps, "steps")
             if position < 0:
-                raise Refused(f"{steps} steps cannot be undone; {self._runner.position} are done")
+                raise Refused(
+                    f"{counted(steps, 'step')} cannot be undone: {counted(self._runner.position, 'step')} done"
+                )
         self._session.back_to(position)
         return self._stand("gone back")
 
@@ -157,7 +160,9 @@ class Run:
         else:
             left = len(executed) - given_count(steps, "steps")
             if left < 0:
-                raise Refused(f"{steps} steps cannot be undone; {len(executed)} were executed")
+                raise Refused(
+                    f"{counted(steps, 'step')} cannot be undone: {counted(len(executed), 'step')} executed"
+                )
         return self._stand(reason(self._session.have_undone(left)))
 
     def dismantle(self) -> State:
@@ -265,7 +270,7 @@ class Run:
     @property
     def events(self) -> tuple[AnyEvent, ...]:
         """Everything that has happened and was not undone, as records of `handeye.program.events`."""
-        return tuple(self._runner.events)
+        return Several(self._runner.events)
 
     @property
     def picture(self) -> NDArray[np.uint8] | None:

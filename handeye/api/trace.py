@@ -28,7 +28,7 @@ FRAME_HEIGHT_PX: Final = 640
 _WITHOUT: Final = "A notebook shows the report without photographs; trace.frame(time) takes one."
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trace(recorded.Trace):
     """A trace that was read, and found sound. What is worked out from its messages is worked out once.
 

@@ -12,6 +12,7 @@ from handeye import tasks
 from handeye.api.exporting import exported
 from handeye.core import world_options
 from handeye.core.arguments import given_names
+from handeye.core.brief import Named, Several
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.notebook import heading, page, table
 from handeye.core.variation import SPREADS, Level, WorldSpec, checked_seed
@@ -94,13 +95,13 @@ class World:
         """The value of each quantity by its name, each in its own unit."""
         drawn, table = self._table.draw(self.spec), self._table.quantities
         return MappingProxyType(
-            {name: value / table[name].measure.size for name, value in drawn.values.items()}
+            Named((name, value / table[name].measure.size) for name, value in drawn.values.items())
         )
 
     @cached_property
     def quantities(self) -> tuple[QuantityReport, ...]:
         """Each quantity with its `name`, `value`, `unit` and `source`, which says what it is."""
-        return report(self._table, self._table.draw(self.spec)).quantities
+        return Several(report(self._table, self._table.draw(self.spec)).quantities)
 
     def __getitem__(self, name: str) -> float:
         """The value of a quantity, in its unit.

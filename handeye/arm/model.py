@@ -8,7 +8,9 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.core.brief import Brief
 from handeye.core.obb import Box
+from handeye.core.plain_text import counted
 from handeye.core.pose import Array, Pose, inverse
 
 
@@ -106,8 +108,8 @@ class ComplianceModel:
     """Expected Coulomb friction of each joint, N m or N, for checks before a run, which measures its own."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ArmModel:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class ArmModel(Brief):
     """An arm of n joints with a two-finger hand.
 
     The last DH frame is the tool frame T: midway between the finger tips, z along the approach direction, y along
@@ -132,7 +134,7 @@ class ArmModel:
         figures = (self.servo.frequency, self.servo.lag, self.compliance.friction)
         if {*map(len, figures)} != {len(names)}:
             raise ValueError(
-                f"{self.name}: servo and friction have figures for other than {len(names)} joints"
+                f"{self.name}: servo and friction have figures for other than {counted(len(names), 'joint')}"
             )
 
     @property

@@ -14,6 +14,7 @@ from handeye.cell.physics_stepper import allow, wake
 from handeye.cell.signal_lines import SOUND, Converters, SignalLines
 from handeye.cell.state import figures, finite
 from handeye.core.errors import BadArgument
+from handeye.core.plain_text import counted
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.ports.workcell import ArmPort, ArmReading
@@ -137,7 +138,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
             joints = len(self.dofs)
             if np.shape(torque) != (joints,):
                 raise BadArgument(
-                    f"torques of shape {np.shape(torque)} were put out to an arm of {joints} joints"
+                    f"torques of shape {np.shape(torque)} were put out to an arm of {counted(joints, 'joint')}"
                 )
             torque = finite(np.array(torque, dtype=float), "the torque")  # a copy of its own
             if not self._lines.carried("servo", 1.0):

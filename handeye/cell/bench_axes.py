@@ -11,6 +11,7 @@ from handeye.cell.bench import Bench
 from handeye.cell.mechanism import Mechanism, scene_for
 from handeye.cell.physics_stepper import allow, wake
 from handeye.core.errors import BadArgument, BadFile, NoSuchName, PhysicsFailed, Refused
+from handeye.core.plain_text import counted
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel, Outputs
@@ -130,7 +131,9 @@ class BenchAxes(Axes, Mechanism[AxesState]):
     def _sensed(self, channel: Channel) -> tuple[float, ...]:
         values = tuple(map(float, self._senses[channel](self._bench.model, self._bench.data)))
         if len(values) != channel.width:
-            raise BadArgument(f"{channel.name} of {self.name} has {channel.width} values, not {len(values)}")
+            raise BadArgument(
+                f"{channel.name} of {self.name} has {counted(channel.width, 'value')}, not {len(values)}"
+            )
         if not all(map(isfinite, values)):
             raise PhysicsFailed(f"{channel.name} of {self.name} shows what is not a finite number")
         return values
@@ -144,7 +147,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
 
     def put(self, goal: Array) -> None:
         if np.shape(goal) != (count := len(self._specs),):
-            raise BadArgument(f"a goal of {self.name} is {count} numbers, one for each axis")
+            raise BadArgument(f"a goal of {self.name} is {counted(count, 'number')}, one for each axis")
         if not np.isfinite(goal).all():
             raise BadArgument("a goal of an axis is not a finite number")
         if not self._powered:

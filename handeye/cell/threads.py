@@ -30,6 +30,7 @@ from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.state import finite
 from handeye.cell.truth import Truth
 from handeye.core.errors import BadArgument
+from handeye.core.plain_text import counted
 from handeye.core.pose import Array, Pose, pose, translated
 from handeye.core.record import Record
 
@@ -118,7 +119,9 @@ class Threads(Mechanism[ThreadsState]):
         self._model, self._data, self._driver, self._lines = model, data, driver, lines
         self._carriers, self._figures = Carriers(model, data), figures
         if len(figures.phases) != self._carriers.count:
-            raise BadArgument(f"the scene has {self._carriers.count} tapped holes, not {len(figures.phases)}")
+            raise BadArgument(
+                f"the scene has {counted(self._carriers.count, 'tapped hole')}, not {len(figures.phases)}"
+            )
         holes = range(self._carriers.count)
         self.holes: tuple[Thread, ...] = tuple(Thread(scarred=k in figures.scarred) for k in holes)
         self._base = self._carriers.base

@@ -166,5 +166,5 @@ def thin(
         raise CannotWrite(f"{output} holds the trace that is to be thinned")
     check_free(output, "trace", overwrite=overwrite)
     kept = write_thinned(trace, output)
-    say(f"{output}: {kept} of {len(trace.times)} servo periods")
+    say(f"{output}: {kept} of {counted(len(trace.times), 'servo period')}")
     return 0

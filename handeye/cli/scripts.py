@@ -26,7 +26,7 @@ from handeye.cli.common import (
 from handeye.cli.programs import compiled, plan_at, script_at
 from handeye.core.diagnostics import arranged, has_errors
 from handeye.core.errors import BadArgument, InvalidInput
-from handeye.core.files import Kind, beside, write_over
+from handeye.core.files import Kind, beside, read_whole, write_over
 from handeye.core.plain_text import counted
 from handeye.core.source import read_source
 from handeye.planfile.store import write_plan
@@ -151,15 +151,17 @@ def plan(
     ----------
     output
         File for the plan; by default beside the script, with the ending .plan.json; of a program by its name, in this
-        folder.
+        folder. A plan that is there is replaced.
     """
     script, work = script_at(file, task)
     target = output or beside(file, ".plan.json")
     made = compiled(script, work)
+    before = read_whole(target) if target.is_file() else b""
     write_plan(target, made)
+    replaced = "; another plan was there" if before not in (b"", read_whole(target)) else ""
     counts = {"step": made.program.steps, "motion": made.motions, "stage": made.program.stages}
     said = ", ".join(counted(len(items), name) for name, items in counts.items())
-    say(f"{target}: {said}")
+    say(f"{target}: {said}{replaced}")
     return 0
 
 

@@ -12,7 +12,7 @@ from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.errors import BadArgument
-from handeye.core.files import beside, check_place
+from handeye.core.files import Kind, beside, check_place
 from handeye.core.source import read_source
 from handeye.program.taught import Taught, load_taught
 from handeye.runs.scripts import default_script
@@ -191,6 +191,9 @@ def teach(
     return 2 if refused or left_unsaved(teacher) else 0
 
 
+_TAUGHT_FILE: Final = Kind("taught file", rb"")
+
+
 def teacher_of(
     file: Path,
     panic: "Callable[[], bool]",
@@ -203,6 +206,7 @@ def teacher_of(
     path = file if file.suffix == ".toml" else beside(file, ".toml")
     text = read_source(path).text if path.exists() else ""
     known = load_taught(path) if path.exists() else Taught()
+    check_place(path, _TAUGHT_FILE)  # before anything is taught that could not be saved
     return Teacher(workplace=cell.workplace(panic, known, observers), file=path, saved=text)
 
 

@@ -25,6 +25,7 @@ from handeye.cli.trace_files import File, TraceFile, trace_file
 from handeye.cli.worlds import PLAIN, FineOptions
 from handeye.core.errors import Refused
 from handeye.core.files import check_place, write_over
+from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
     from handeye.program.events import AnyEvent
@@ -115,7 +116,7 @@ def verify(file: TraceFile, /, *, task: TaskWords = None) -> int:
         return 1
     count = settled(events)
     ended = "" if count == len(events) else " up to the step that was interrupted"
-    say(f"{file}: the same {count} events{ended}, to the byte")
+    say(f"{file}: the same {counted(count, 'event')}{ended}, to the byte")
     if trace.begins > 0:
         note(f"motions before {trace.begins:.2f} s are not in this trace, and were not compared")
     return 0

@@ -13,6 +13,7 @@ from handeye.cli.programs import check_task, made_known
 from handeye.cli.trace_files import TraceFile, motion_file
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument
+from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
     from handeye.trace.trace import Trace
@@ -84,7 +85,7 @@ def video(
     check_task(wanted_task, trace.head.task, run)
     with drawing() as told:
         made = make_video(trace, place, wanted, overwrite=overwrite, told=told)
-    how = f"{made.frames} frames of {wanted.width} x {wanted.height}"
+    how = f"{counted(made.frames, 'frame')} of {wanted.width} x {wanted.height}"
     say(f"{made.path}: {made.seconds:.1f} s, {how}, {made.bytes / 1e6:.2f} MB")
     return 0
 

@@ -10,6 +10,7 @@ from handeye.comparison.findings import Corrections, Searches, Stops, correction
 from handeye.comparison.first import First, first_difference
 from handeye.comparison.pairing import Place, TwoRuns, listing_of
 from handeye.comparison.parting import DecidingEvent, Divergence, parting
+from handeye.core.brief import Brief, Several
 from handeye.core.entries import require
 from handeye.core.errors import BadFile
 from handeye.core.faults import Fault
@@ -103,8 +104,8 @@ class Stages:
         return a, b
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Comparison:
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class Comparison(Brief):
     """Two runs beside each other."""
 
     a: ComparedRun
@@ -149,10 +150,10 @@ def comparison(a: RecordedRun, b: RecordedRun) -> Comparison:
         thinned=runs.thinned,
         first=first_difference(runs),
         parted=parting(runs),
-        searches=searches(runs),
-        stops=stops(runs),
-        corrections=corrections(runs),
-        stages=tuple(
+        searches=Several(searches(runs)),
+        stops=Several(stops(runs)),
+        corrections=Several(corrections(runs)),
+        stages=Several(
             Stages(name=name, a=one.get(name), b=other.get(name)) for name in dict.fromkeys((*one, *other))
         ),
     )

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Final
 
 from handeye.core.errors import BadFile, CannotWrite, InvalidInput
+from handeye.core.plain_text import counted
 
 LARGEST: Final = 1 << 30  # bytes: a hundred traces of a whole run
 
@@ -37,7 +38,7 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
             raise BadFile(f"{path} is a device or a pipe, not a file")
         size = file.stat().st_size
         if size > largest:
-            raise BadFile(f"{path} has {size} bytes; the limit is {largest}")
+            raise BadFile(f"{path} has {counted(size, 'byte')}; the limit is {largest}")
         return file.read_bytes()
     except (OSError, ValueError) as error:  # ValueError: a name with a NUL in it
         reason = error.strerror if isinstance(error, OSError) else str(error)

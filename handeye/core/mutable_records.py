@@ -11,12 +11,16 @@ from typing import Any, Final, TypeVar
 import msgspec
 import numpy as np
 
+from handeye.core.brief import Brief
+
 _SHARED: Final = (bool, int, float, str, bytes, tuple, frozenset, type(None))
 Kept = TypeVar("Kept", bound="MutableRecord")
 
 
 class MutableRecord(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Base of the states of systems and their parts; a checkpoint holds a copy."""
+
+    __repr__ = Brief.__repr__
 
 
 def copied(record: Kept) -> Kept:

@@ -1,6 +1,7 @@
 """Text for people: printable characters, counted nouns, numbers."""
 
 import math
+import re
 import textwrap
 from collections.abc import Sequence
 from typing import Final
@@ -20,8 +21,12 @@ def one_line(text: str) -> str:
 
 
 def counted(number: int, noun: str) -> str:
-    """`1 step`, `2 steps`"""
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+    """`1 step`, `2 steps`, `3 tries`, `4 branches`"""
+    if number == 1:
+        return f"1 {noun}"
+    if re.search("[^aeiou]y$", noun):
+        return f"{number} {noun[:-1]}ies"
+    return f"{number} {noun}{'es' if noun.endswith(('s', 'x', 'ch', 'sh')) else 's'}"
 
 
 def distinct_digits(numbers: Sequence[float], decimals: int) -> list[str]:

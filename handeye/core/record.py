@@ -5,8 +5,12 @@ State that changes is a `MutableRecord` (`handeye/core/mutable_records.py`).
 
 import msgspec
 
+from handeye.core.brief import Brief
+
 Vector3 = tuple[float, float, float]  # along x, y and z
 
 
 class Record(msgspec.Struct, frozen=True, gc=False, kw_only=True, forbid_unknown_fields=True):
     """Base of the values stored on disk: programs, plans, events, settings."""
+
+    __repr__ = Brief.__repr__

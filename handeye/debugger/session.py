@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Final, Literal
 
 from handeye.core.errors import Refused
+from handeye.core.plain_text import counted
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.listing import Place, SourceLine, excerpt
 from handeye.debugger.live import Pace
@@ -155,7 +156,8 @@ class DebugSession:
             self.runner.rollback()
             done = self.runner.position
             raise Refused(
-                f"stopped by the panic button on the way back to {position} steps done; {done} are done"
+                f"stopped by the panic button on the way back to {counted(position, 'step')} done, "
+                f"with {counted(done, 'step')} done"
             ) from None
 
     def first(self) -> int:

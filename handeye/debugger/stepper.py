@@ -8,6 +8,7 @@ import msgspec
 from msgspec import UNSET
 
 from handeye.core.errors import HandeyeError, Refused
+from handeye.core.plain_text import counted
 from handeye.debugger.command_table import MEANWHILE, find
 from handeye.debugger.formatting import as_json, as_text
 from handeye.debugger.live import LineInput, Live, LiveJson, LiveText
@@ -80,9 +81,8 @@ class Stepper:
     def standing(self) -> Reply:
         """Reply before the first command: where the run pauses."""
         runner = self.session.runner
-        said = (
-            f"{self.session.program.name}, {len(self.session.program.steps)} steps; `help` lists the commands"
-        )
+        steps = counted(len(self.session.program.steps), "step")
+        said = f"{self.session.program.name}, {steps}; `help` lists the commands"
         refusal = self.session.at_its_end()
         told = CommandResult(source=self.session.source(), said=refusal or said)
         return self._reply("", told, len(runner.events))

@@ -108,7 +108,7 @@ def _about_name(document: Document, name: Occurrence) -> str | None:
         return "\n\n".join([title, *_position(document, name.name)])
     if name.kind == PART and name.name in document.taught.parts:
         x, y, z, turn = document.taught.parts[name.name].at
-        return f"{title}\n\nplanned at {_inches(x, y, z)} in, turned {turn / DEGREE:g} degrees"
+        return f"{title}\n\nplanned at {_inches(x, y, z)} in, turned {turn / DEGREE:g} deg"
     everywhere = [*((document.source, own) for own in document.names), *document.required_names]
     made = [(text, text.position(o.span.start)[0]) for text, o in everywhere if o.makes and same(o, name)]
     if not made:

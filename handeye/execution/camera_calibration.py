@@ -16,6 +16,7 @@ from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.arm.trajectory import Trajectory, move
 from handeye.core.errors import CalibrationFailed
+from handeye.core.plain_text import counted
 from handeye.core.pose import hand
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
@@ -63,7 +64,7 @@ def calibrate_camera(
     for lens in {look.lens for look in looks}:
         seen = sum(s.lens == lens for s in sightings)
         if seen < MIN_SIGHTINGS:
-            raise CalibrationFailed(f"the lamp was seen {seen} times with the {lens * 1000:.0f} mm lens; "
+            raise CalibrationFailed(f"the lamp was seen {counted(seen, 'time')} with the {lens * 1000:.0f} mm lens; "
                                     f"{MIN_SIGHTINGS} are needed to calibrate the camera")  # fmt: skip
     back = move(arm, drive.state.q, forward(arm, home), departure=3 * INCH, approach=3 * INCH, speed=1.0)
     if not isinstance(back, IKResult):

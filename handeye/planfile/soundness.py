@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from handeye.core.obb import Box
+from handeye.core.plain_text import counted
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.program.guards import AnyGuard
 from handeye.program.operation import Use
@@ -85,7 +86,7 @@ def _references(plan: Plan, step: Step) -> Iterator[str]:
     if step.file and step.file not in program.required:
         yield f"stands in {step.file!r}, a file whose text the plan does not have"
     if not 0 <= step.stage < len(program.stages):
-        yield f"belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
+        yield f"belongs to stage {step.stage}; the plan has {counted(len(program.stages), 'stage')}"
     for use in dict.fromkeys((*operation.reads, *operation.writes)):
         yield from _use(program, use)
 
@@ -140,7 +141,8 @@ def _motion(plan: Plan, number: int, step: Step) -> Iterator[str]:
     elif knots is None:
         yield "has a planned motion, and does not move"
     elif len(motion.knots) != knots or len(motion.times) != knots - 1:
-        yield f"has {len(motion.knots)} knots and {len(motion.times)} times; {knots} and {knots - 1} are right"
+        has = f"{counted(len(motion.knots), 'knot')} and {counted(len(motion.times), 'time')}"
+        yield f"has {has}; {knots} and {knots - 1} are right"
     elif not _can_be_run(motion, 0.0 if knots == 2 else _SHORTEST):
         yield "has a planned motion with times or joints no arm can have"
 

@@ -30,6 +30,7 @@ import msgspec
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import BadFile
 from handeye.core.obb import Box
+from handeye.core.plain_text import counted
 from handeye.core.source import Source, read_source
 from handeye.core.units import DEGREE, INCH
 from handeye.program.program import Fixture, Held, Hole, Part, Position
@@ -178,7 +179,7 @@ def unfit(error: msgspec.ValidationError) -> str:
     where = where.rstrip("`").lstrip(".")
     about = f"{where}: " if where else ""
     if size := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", said):
-        return f"{about}{size[2]} entries, and needs {size[1]}"
+        return f"{about}{counted(int(size[2]), 'entry')}, and needs {size[1]}"
     if kinds := re.fullmatch(r"Expected `(\w+)(?: \| null)?`, got `(\w+)`", said):
         wanted, got = (_KINDS.get(kind, kind) for kind in kinds.groups())
         return f"{about}{got} instead of {wanted}"

@@ -278,7 +278,7 @@ class Runner:
         `kept` finds the newest checkpoint on disk with at most that many steps done, for what is no longer in memory.
         """
         if not 0 <= position <= self.position:
-            raise BadArgument(f"cannot go back to {position} steps done")
+            raise BadArgument(f"cannot go back to {counted(position, 'step')} done")
         near = self._nearest(position, kept)
         again = self.events[: self._happened(position)]
         while self.history and self.history[-1].position > near.position:

@@ -16,6 +16,7 @@ from handeye.arm import robots
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.entries import entries, entry_points, loaded, refusal
 from handeye.core.errors import BadArgument, InvalidInput, NoSuchName, Refused
+from handeye.core.plain_text import counted
 from handeye.tasks.interface import AnyTask, Task
 
 DEFAULT: Final = "water_pump"  # the task that is meant where none is named
@@ -54,7 +55,7 @@ def register(task: AnyTask) -> None:
         if np.shape(task.park) != (joints,):
             raise BadArgument(
                 f"the task {quoted(name)} parks its arm at a position of shape {np.shape(task.park)}; "
-                f"the {task.arm.name} arm has {joints} joints"
+                f"the {task.arm.name} arm has {counted(joints, 'joint')}"
             )
         robots.register(task.arm)
     _REGISTERED[name] = task

@@ -13,6 +13,7 @@ from handeye.arm.model import ArmModel, digest
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import Refused
 from handeye.core.faults import Catalogue
+from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.core.units import INCHES, Measures
 
@@ -89,6 +90,9 @@ class AnyTask(ABC):
     measures: Measures = INCHES  # the units in which its runs are shown to people
     holds_from: Mapping[str, int] = MappingProxyType({})
     """Stages of its own program after which findings must hold before its end, by how their names begin."""
+
+    def __repr__(self) -> str:
+        return f"<Task {self.name}>"
 
     @property
     @abstractmethod
@@ -221,5 +225,6 @@ class Task(AnyTask):
         joints = len(self.arm.joints)
         if plan.joint_counts not in ((), (joints,)):
             raise Refused(
-                f"the plan has positions of {plan.joint_counts[0]} joints; the {self.arm.name} arm has {joints}"
+                f"the plan has positions of {counted(plan.joint_counts[0], 'joint')}; "
+                f"the {self.arm.name} arm has {joints}"
             )

@@ -37,6 +37,9 @@ class Trial(ABC, Generic[A]):
 
     attempt: type[A]  # the class of its attempts
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}>"
+
     @abstractmethod
     def attempts(self, world: WorldSpec, number: int, *, camera: str, known: Known) -> Iterator[A]:
         """`number` attempts in a world, its camera calibrated once; pictures made by `auto`, `gl` or `ray`."""

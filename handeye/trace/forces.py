@@ -8,6 +8,7 @@ import numpy as np
 from msgspec import UNSET
 from numpy.typing import NDArray
 
+from handeye.core.brief import Brief
 from handeye.core.pose import Array
 from handeye.program.guards import GuardKind
 from handeye.trace.hand_message import Axes, GuardMessage, HandMessage, read_hand
@@ -17,8 +18,8 @@ from handeye.trace.stages import Span
 NO_VECTOR: Final = (np.nan, np.nan, np.nan)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Forces:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class Forces(Brief):
     """Force of the hand on the world, and the guard that watches it, in n servo periods.
 
     Vectors are in the axes that the task names (`AnyTask.force_axes`). The program estimates force in guarded and

@@ -8,6 +8,7 @@ from typing import Final, TypeVar
 import msgspec
 from mcap.writer import MCAP0_MAGIC
 
+from handeye.core.brief import Several
 from handeye.core.entries import entry_named, require
 from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole
@@ -37,7 +38,7 @@ def read_trace_as(kind: type[AnyTrace], path: Path, *, lenient: bool = False) ->
         plan, version, thinned = _identify(path, data)
         if not lenient:
             check(data)
-        messages = tuple(read_messages(data, lenient=lenient))
+        messages = Several(read_messages(data, lenient=lenient))
         events, reader = [], EventReader()
         for message in messages:
             if message.topic == EVENTS:
@@ -56,7 +57,7 @@ def read_trace_as(kind: type[AnyTrace], path: Path, *, lenient: bool = False) ->
         thinned=thinned,
         head=events[0],
         plan=plan,
-        events=tuple(events),
+        events=Several(events),
         counts=dict(Counter(message.topic for message in messages)),
         messages=messages,
     )

@@ -9,6 +9,7 @@ from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
 from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
 
+from handeye.core.brief import Brief, Named
 from handeye.core.pose import Array
 from handeye.ports.camera import Picture
 from handeye.program.event_reading import EventReader
@@ -19,8 +20,8 @@ from handeye.trace.messages import GAP, LEVEL, Poses
 from handeye.trace.records import RawMessage
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TakenPicture:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class TakenPicture(Brief):
     """A picture that the program took."""
 
     time: float  # s
@@ -48,8 +49,8 @@ def _levels(data: bytes) -> Picture:
     return grey // np.uint8(LEVEL)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Motion:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class Motion(Brief):
     """Columns of n servo periods of an arm of m joints, by its sensors."""
 
     names: tuple[str, ...]  # names of the joints, in order
@@ -84,8 +85,8 @@ def read_motion(messages: Iterable[RawMessage]) -> Motion:
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ChannelCurve:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class ChannelCurve(Brief):
     """One component of a channel against time."""
 
     name: str
@@ -111,8 +112,8 @@ def read_channels(messages: Iterable[RawMessage]) -> tuple[ChannelCurve, ...]:
 Pose7 = tuple[float, float, float, float, float, float, float]  # m in W, and unit quaternion w, x, y, z
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Moment:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class Moment(Brief):
     """A moment of a run."""
 
     time: float  # end of the servo period that is shown, s
@@ -155,7 +156,7 @@ class Replay:
             time=float(self._motion.times[row]),
             joints=self._motion.joints[row],
             gap=float(self._motion.gaps[row]),
-            poses=dict(self._there(row)),
+            poses=Named(self._there(row)),
             stage=self._told[told].stage if told >= 0 else None,
             step=self._told[told].step if told >= 0 else None,
             picture=self._pictures[taken] if taken >= 0 else None,

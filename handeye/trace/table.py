@@ -7,6 +7,7 @@ from typing import Any, Final, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.core.brief import Brief
 from handeye.core.errors import NoSuchName, Refused
 from handeye.core.notebook import heading, line, page, table
 from handeye.core.plain_text import counted, printable
@@ -16,8 +17,8 @@ MAX_CELL_CHARS: Final = 90
 Values = NDArray[np.float64] | NDArray[np.int64] | tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Column:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class Column(Brief):
     """A column of a table."""
 
     name: str

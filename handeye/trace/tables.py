@@ -22,7 +22,7 @@ from handeye.trace.stages import CLOCKS
 from handeye.trace.table import Column, Table
 from handeye.trace.trace import Trace
 
-NO_STEP: Final = -1  # number in the place of a step where none was under way
+NO_STEP: Final = -1  # in the place of the number of a step, and of its line, where none was under way
 
 
 def table(trace: Trace, name: str) -> Table:
@@ -155,17 +155,19 @@ def _under_way(trace: Trace, times: Array) -> tuple[Column, ...]:
 
 
 def _since(trace: Trace, times: Array) -> Column:
-    return Column(name="time", about="since the run began", unit="s", values=times)
+    return Column(name="time", about="since the program began", unit="s", values=times)
 
 
 def _places(happening: Iterable[_RunPosition]) -> tuple[Column, ...]:
     each = tuple(happening)
     steps = np.array([NO_STEP if at.step is None else at.step.step for at in each], dtype=np.int64)
-    lines = tuple("" if at.step is None else at.step.place for at in each)
+    lines = np.array([NO_STEP if at.step is None else at.step.line for at in each], dtype=np.int64)
+    files = tuple("" if at.step is None else at.step.file for at in each)
     return (
         Column(name="stage", about="the stage under way", values=tuple(at.stage for at in each)),
         Column(name="step", about=f"number of the step under way; {NO_STEP}: none", values=steps),
-        Column(name="line", about="its line in the script", values=lines),
+        Column(name="file", about="the required file that it is in; empty: the script itself", values=files),
+        Column(name="line", about=f"its line there; {NO_STEP}: none", values=lines),
     )
 
 

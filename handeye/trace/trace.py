@@ -1,7 +1,7 @@
 """A trace that was read: what happened in a run, and what was recorded between the events."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
@@ -10,8 +10,9 @@ import numpy as np
 from google.protobuf.message import DecodeError
 from numpy.typing import NDArray
 
+from handeye.core.brief import Named, Several
 from handeye.core.errors import BadArgument, BadFile, Refused
-from handeye.core.plain_text import one_line
+from handeye.core.plain_text import counted, one_line
 from handeye.core.pose import Array
 from handeye.program.events import AnyEvent, RunStarted
 from handeye.trace.channels import EVENTS, HAND, JOINTS, MACHINES, MOMENTS
@@ -37,7 +38,7 @@ SHOWN: Final = 0.01  # s to which times are shown; what is typed is as exact as 
 Read = TypeVar("Read")
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trace:
     """A trace that was read, and found sound. What is worked out from its messages is worked out once.
 
@@ -48,10 +49,10 @@ class Trace:
     name: str  # the file it was read from
     version: int  # version of the format
     head: RunStarted  # the beginning of the run: program, world, versions
-    plan: bytes = field(repr=False)  # `plan.json` of the run
-    events: tuple[AnyEvent, ...] = field(repr=False)  # everything that happened and was not undone
+    plan: bytes  # `plan.json` of the run
+    events: tuple[AnyEvent, ...]  # everything that happened and was not undone
     counts: dict[str, int]  # messages on each channel that has any
-    messages: tuple[RawMessage, ...] = field(repr=False)  # all of them, in the order they were written
+    messages: tuple[RawMessage, ...]  # all of them, in the order they were written
     thinned: bool = False  # it holds some of the servo periods, not all: `handeye trace thin` wrote it
 
     # -- what happened ---------------------------------------------------------------------------------
@@ -59,17 +60,17 @@ class Trace:
     @cached_property
     def stages(self) -> tuple[Stage, ...]:
         """The stages as they were carried out, in order."""
-        return stages(self.events)
+        return Several(stages(self.events))
 
     @cached_property
     def stages_both_ways(self) -> tuple[Stage, ...]:
         """The same, with those through which the arm went back to undo what it did."""
-        return stages_both_ways(self.events)
+        return Several(stages_both_ways(self.events))
 
     @cached_property
     def pictures(self) -> tuple[TakenPicture, ...]:
         """The pictures that the program took, in order."""
-        return self._read(lambda messages: tuple(read_pictures(messages)))
+        return self._read(lambda messages: Several(read_pictures(messages)))
 
     # -- in every servo period -------------------------------------------------------------------------
 
@@ -104,7 +105,7 @@ class Trace:
 
         NaN where a body was not there, as a screw in its thread is not before it is driven.
         """
-        return dict(zip(self._replay.names, self._replay.poses.swapaxes(0, 1), strict=True))
+        return Named(zip(self._replay.names, self._replay.poses.swapaxes(0, 1), strict=True))
 
     @cached_property
     def motion(self) -> Motion:
@@ -214,6 +215,11 @@ class Trace:
         return self._read(lambda messages: Replay(motion, messages, self.events, pictures))
 
     # -- showing -----------------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        last = self.events[-1].time
+        told = f"{counted(len(self.events), 'event')}, {counted(self.counts.get(JOINTS, 0), 'servo period')}"
+        return f"<Trace of {self.head.program}, {self.head.world}: {told}, {self.begins:.2f} to {last:.2f} s>"
 
     def table(self, name: str = "events") -> "Table":
         """One of its tables: `joints` and `forces` by servo periods, or `events`: what happened, when, in which line.

@@ -11,6 +11,7 @@ from handeye.api.parts import limits_of, parts_of, referee_of
 from handeye.api.plans import FileName, Planned, plan
 from handeye.api.worlds import World
 from handeye.core.arguments import given_count
+from handeye.core.brief import Several
 from handeye.core.errors import BadArgument
 from handeye.core.notebook import heading, inked, page, table
 from handeye.core.variation import WorldSpec, checked_seed
@@ -19,7 +20,7 @@ from handeye.results.judging import Limits, Referee
 from handeye.results.result import Check, Result
 from handeye.runs.scripts import default_script
 from handeye.touch.spiral import SearchPattern
-from handeye.trace.table import Column, Table
+from handeye.trace.table import SHOWN_ROWS, Column, Table
 from handeye.trials.assembly import run_plan
 from handeye.trials.workers import in_processes
 
@@ -51,11 +52,12 @@ class Results(Sequence[Result]):
 
     def __repr__(self) -> str:
         rows = [("world", "verdict", "working phase", "")]
-        for each in self.each:
+        for each in self.each[:SHOWN_ROWS]:
             rows.append((str(each.world), _verdict(each)[0], f"{each.timing.working_s:.1f} s", why(each)))
         widths = [max(len(row[n]) for row in rows) for n in range(3)]
         lines = ["  ".join([*map(str.ljust, row, widths), row[3]]).rstrip() for row in rows]
-        return "\n".join([*lines, self._count()])
+        more = [f"… and {len(self) - SHOWN_ROWS} more"] if len(self) > SHOWN_ROWS else []
+        return "\n".join([*lines, *more, self._count()])
 
     def _repr_html_(self) -> str:
         rows = [
@@ -121,11 +123,11 @@ def assemble_each(
     parts, own_referee, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
     if given_count(jobs, "jobs") == 1:
         trial = partial(run_plan, record, camera=camera, limits=limits, parts=parts, own_referee=own_referee)
-        return Results(tuple(trial(world=spec).result for spec in specs))
+        return Results(Several(trial(world=spec).result for spec in specs))
     if search is not None or own_referee is not None:
         raise BadArgument("code in the place of a part takes one process: leave jobs=... out")
     found = list(in_processes(partial(_result, record, camera, limits), specs, jobs))
-    return Results(tuple(sorted(found, key=lambda result: specs.index(result.world))))
+    return Results(Several(sorted(found, key=lambda result: specs.index(result.world))))
 
 
 def _result(record: Plan, camera: str, limits: Limits | None, world: WorldSpec) -> Result:

@@ -13,6 +13,7 @@ from typing import Any, Final, Generic, TypeVar
 
 from handeye.core.errors import HandeyeError
 from handeye.core.host_time import HostTimer
+from handeye.core.plain_text import counted
 from handeye.core.signals import ENDING, break_in, heard
 
 Item = TypeVar("Item")
@@ -123,8 +124,8 @@ def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) 
             raise answer.error
         if answer.value is None:
             raise WorkerLost(
-                f"the process of a trial was killed {answer.killed} times, as it is where memory is short: try fewer "
-                "at a time"
+                f"the process of a trial was killed {counted(answer.killed, 'time')}, as it is where memory is short: "
+                "try fewer at a time"
             )
         yield answer.value
 

@@ -39,7 +39,7 @@ class VideoRequest:
         if self.seconds is not None and not (_is_number(self.seconds) and 0 < self.seconds <= LONGEST):
             raise BadArgument(f"a video takes up to {LONGEST:g} s, and not {self.seconds} s")
         if self.speed is not None and not (_is_number(self.speed) and self.speed > 0):
-            raise BadArgument(f"a video is some times as fast as the run, and not {self.speed} times")
+            raise BadArgument(f"a video is some times as fast as the run, and not {self.speed} times as fast")
         for stage in (self.first, self.last):
             if isinstance(stage, bool) or not isinstance(stage, str | int | None):
                 raise BadArgument(f"a stage is given by its number or its name, not {stage!r}")

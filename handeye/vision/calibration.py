@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from handeye.core.errors import BadArgument
+from handeye.core.plain_text import counted
 from handeye.core.pose import Array
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
@@ -69,7 +70,8 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
         count = sum(drawing.lens(s.lens).focal_length == focal_length for s in sightings)
         if count < MIN_SIGHTINGS:
             raise BadArgument(
-                f"{count} sightings with the {focal_length * 1000:.0f} mm lens; at least {MIN_SIGHTINGS} are needed"
+                f"{counted(count, 'sighting')} with the {focal_length * 1000:.0f} mm lens; "
+                f"at least {MIN_SIGHTINGS} are needed"
             )
     if not used:
         raise BadArgument("no sightings to calibrate the camera with")

@@ -26,6 +26,9 @@ class Scan:
         self.beams = 0
         self.open()
 
+    def __repr__(self) -> str:
+        return f"<Scan of {self.rows} x {self.columns} points, {self.points} read>"
+
     @property
     def points(self) -> int:
         """Number of points read, each counted once."""

@@ -45,15 +45,15 @@ def test_a_median_is_held_to_its_target() -> None:
     assert (SLOW.median, SLOW.is_short) == (2.5, False)
 
 
-def test_the_bench_ends_with_one_if_a_target_is_missed(
+def test_a_slow_computer_misses_a_target_and_is_no_failure(
     monkeypatch: pytest.MonkeyPatch, benchmark: Command
 ) -> None:
     result_of(monkeypatch, QUICK, SLOW)
     code, out, _ = benchmark("language")
-    assert code == 1
+    assert code == 0
     assert out.splitlines() == [
         "a check                       20.0 ms  (under 25 ms)  15 times, 10.0 to 30.0 ms",
-        "a plan                      2500.0 ms  (under 1000 ms)  15 times, 2000.0 to 3000.0 ms",
+        "a plan                      2500.0 ms  (not under 1000 ms)  15 times, 2000.0 to 3000.0 ms",
     ]
 
 

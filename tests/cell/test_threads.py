@@ -130,7 +130,7 @@ def test_what_threads_lack_in_a_scene_is_told(was: str, instead: str, told: str)
 
 def test_every_hole_has_a_phase() -> None:
     bench = ThreadBench()
-    with pytest.raises(BadArgument, match=r"^the scene has 1 tapped holes, not 2$"):
+    with pytest.raises(BadArgument, match=r"^the scene has 1 tapped hole, not 2$"):
         Threads(bench.model, bench.data, bench.driver, ThreadFigures(phases=(1.0, 2.0)))
 
 

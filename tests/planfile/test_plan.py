@@ -162,7 +162,7 @@ GUARD = f"{CHANGE}.guards.0"
             "step 0 (line 2) has a planned motion with times or joints no arm",
         ),
         ("motions.0.knots.1", [0.0] * 5, "its motions are of arms with 5 and 6 joints"),
-        ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 times; 4 and 3 are right"),
+        ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 time; 4 and 3 are right"),
         (
             "motions.0.times",
             [1.0, -1.0, 1.0],

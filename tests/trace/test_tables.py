@@ -54,12 +54,12 @@ def test_units_go_by_what_joints_do(made: dict[str, Table]) -> None:
 
 def test_each_row_tells_the_step_that_was_under_way(trace: Trace, made: dict[str, Table]) -> None:
     joints = made["joints"]
-    told = list(zip(*(column(joints, name) for name in ("stage", "step", "line")), strict=True))
+    told = list(zip(*(column(joints, name) for name in ("stage", "step", "file", "line")), strict=True))
     first, last = trace.stages[0], trace.stages[-1]
     rows = [at for at, time in zip(told, trace.times, strict=True) if first.begin < time <= first.end + 1e-6]
-    assert set(rows) == {("open", 0, "2")}
+    assert set(rows) == {("open", 0, "", 2)}
     rows = [at for at, time in zip(told, trace.times, strict=True) if time > last.begin + 1e-3]
-    assert set(rows) == {("again", 2, "6")}
+    assert set(rows) == {("again", 2, "", 6)}
 
 
 def test_forces_have_a_row_where_there_is_something_to_tell(trace: Trace, made: dict[str, Table]) -> None:

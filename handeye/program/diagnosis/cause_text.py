@@ -3,7 +3,7 @@
 from typing import assert_never
 
 from handeye.core.errors import ERRORS
-from handeye.core.plain_text import distinct_digits
+from handeye.core.plain_text import counted, distinct_digits
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.diagnosis import causes as c
 from handeye.program.diagnosis.causes import Cause
@@ -75,7 +75,9 @@ def cause_sentence(cause: Cause) -> str:
         case c.NoSearch():
             return "no search was set up"
         case c.PlacesTried():
-            return f"{cause.places} places tried" + (f" around {cause.around}" if cause.around else "")
+            return f"{counted(cause.places, 'place')} tried" + (
+                f" around {cause.around}" if cause.around else ""
+            )
         case c.Looping():
             return f"the program loops at line {cause.place}, and nothing moves"
         case (

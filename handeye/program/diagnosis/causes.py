@@ -2,6 +2,7 @@
 
 from typing import Literal
 
+from handeye.core.plain_text import counted
 from handeye.core.record import Record, Vector3
 from handeye.program.diagnosis.reach import NamedArm, ReachFailure
 from handeye.program.guards import GuardKind
@@ -46,7 +47,7 @@ class BeyondArm(CauseRecord, frozen=True, kw_only=True):
     def __post_init__(self) -> None:
         """Raises ValueError for a joint that the arm does not have."""
         if not all(0 <= joint < len(self.arm.joints) for joint in self.reason.named_joints):
-            raise ValueError(f"the {self.arm.name} arm has {len(self.arm.joints)} joints")
+            raise ValueError(f"the {self.arm.name} arm has {counted(len(self.arm.joints), 'joint')}")
 
 
 class JointBehind(CauseRecord, frozen=True, kw_only=True):

@@ -296,7 +296,7 @@ class RunningPlan(RunningSystem):
             x, y, z, o, a, t = value
             self.state.world.moved[name] = Position(at=(x, y, z, o, a, t), of=known[name].of)
         else:
-            raise BadArgument(f"{what} {name} cannot be set to {len(value)} numbers")
+            raise BadArgument(f"{what} {name} cannot be set to {counted(len(value), 'number')}")
 
     def _saved_names(self) -> set[str]:
         uses = [

@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from handeye.core.errors import BadFile
+from handeye.core.plain_text import counted
 from handeye.core.pose import Pose, planar
 from handeye.core.resources import scenes
 from handeye.core.units import DEGREE, INCH
@@ -52,7 +53,7 @@ class Dimensions:
         """A single figure in SI; raises InvalidInput if there is no such figure, or it is a list."""
         values = self.all(name)
         if len(values) != 1:
-            raise BadFile(f"the dimension `{name}` is a list of {len(values)} figures")
+            raise BadFile(f"the dimension `{name}` is a list of {counted(len(values), 'figure')}")
         return values[0]
 
     def all(self, name: str) -> tuple[float, ...]:

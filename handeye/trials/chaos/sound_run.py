@@ -10,6 +10,7 @@ import msgspec
 from handeye.core.errors import Refused
 from handeye.core.faults import Fault
 from handeye.core.files import write_whole
+from handeye.core.plain_text import counted
 from handeye.core.variation import WorldSpec
 from handeye.program.events import RunStarted
 from handeye.runs.checkpoint_store import CheckpointStore
@@ -37,7 +38,9 @@ class SoundRun:
         """The state at or before a number of steps; raises InvalidInput if there is none."""
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
-            raise Refused(f"a schedule cannot begin with {position} steps done: there is no such state")
+            raise Refused(
+                f"a schedule cannot begin with {counted(position, 'step')} done: there is no such state"
+            )
         return found
 
 

@@ -10,6 +10,7 @@ import msgspec
 
 from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole, write_over
+from handeye.core.plain_text import counted
 from handeye.core.record import Vector3
 from handeye.core.units import OUNCE_FORCE
 from handeye.systems.trig.language.graph import NONE, TOP, Graph, Node, NodeType
@@ -75,7 +76,7 @@ def _loop_faults(graph: Graph) -> Iterator[str]:
         elif node.type == "bloop" and node.partner not in graph.distances(id):
             yield f"the loop {node.partner} does not stand below where it goes back to"
         if not 0 <= node.count <= node.wanted:
-            yield f"the loop {id} has gone back {node.count} times of {node.wanted}"
+            yield f"the loop {id} has gone back {counted(node.count, 'time')} of {node.wanted}"
 
 
 def _step_faults(node: Node, positions: Positions) -> Iterator[str]:
