@@ -25,6 +25,7 @@ from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, Refused
+from handeye.core.plain_text import counted
 from handeye.core.variation import checked_seed
 from handeye.runs.operator import parse_policy
 from handeye.tasks import DEFAULT, option, planned
@@ -132,7 +133,9 @@ def assembly_trials(
     )
     following = all(seed == chosen[0] + k for k, seed in enumerate(chosen))
     where = (
-        f"worlds from {world} on" if following else f"{len(chosen)} worlds that were named, from {world} on"
+        f"worlds from {world} on"
+        if following
+        else f"{counted(len(chosen), 'world')} by name, from {world} on"
     )
     lacking = f", without {', '.join(senses)}" if senses else ""
     answered = "" if on_stop == "abort" else f", with {on_stop} where the operator is called"
