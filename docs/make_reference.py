@@ -82,11 +82,11 @@ GROUPS: Final = {
     },
     "Vision": {
         "handeye.vision.Scan": "vision.scan.Scan",
-        "handeye.vision.beams": "vision.beam.beams",
+        "handeye.vision.beams": "vision.door.beams",
         "Edges": "vision.beam.Edges",
-        "handeye.vision.localise": "vision.blob.localise",
+        "handeye.vision.localise": "vision.door.localise",
         "BoundingBox": "vision.blob.BoundingBox",
-        "handeye.vision.characterise": "vision.characteriser.characterise",
+        "handeye.vision.characterise": "vision.door.characterise",
         "Blob": "vision.characteriser.Blob",
     },
     "Tasks": {

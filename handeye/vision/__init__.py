@@ -6,9 +6,10 @@ Names are loaded when they are first used: a plan knows a camera's model, and ne
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from handeye.vision.beam import BRIGHTER, DARKER, Edges, beams
-    from handeye.vision.blob import BoundingBox, localise
-    from handeye.vision.characteriser import Blob, characterise
+    from handeye.vision.beam import BRIGHTER, DARKER, Edges
+    from handeye.vision.blob import BoundingBox
+    from handeye.vision.characteriser import Blob
+    from handeye.vision.door import beams, characterise, localise
     from handeye.vision.scan import Scan
 
 __all__ = ["BRIGHTER", "DARKER", "Blob", "BoundingBox", "Edges", "Scan", "beams", "characterise", "localise"]
@@ -17,7 +18,7 @@ if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
         if name in __all__:
-            from handeye.vision import beam, blob, characteriser, scan
+            from handeye.vision import door
 
-            return next(vars(m)[name] for m in (beam, blob, characteriser, scan) if name in vars(m))
+            return vars(door)[name]
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

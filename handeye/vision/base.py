@@ -139,8 +139,9 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
         raise BadArgument("vision needs the region and the outline of a part")
     fits, scan = fitting(view, part), Scan(picture)
     for shrink in SHRINK:
-        scan.open()
-        box = localise(scan, window(view, part, shrink), OUTLINE_STEP, fits)
+        box = localise(
+            scan, window(view, part, shrink), OUTLINE_STEP, fits, whole=False
+        )  # `fits` knows its size
         if box is not None:
             return _general(scan, view, part, box)
     return Failure(cause=NoOutline())

@@ -59,17 +59,7 @@ def beams(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edges:
-    """The first discontinuity along each of several rays.
-
-    Args:
-        starts: (u, v), shape (n, 2); a beam starts at the nearest point of the picture.
-        directions: unit vectors (du, dv), shape (n, 2).
-        polarity: BRIGHTER: dark to bright; DARKER: bright to dark.
-        step: least difference of intensity between SPAN points ahead and SPAN points behind.
-        reach: greatest length, points; for all, or for each, shape (n,).
-        wide: average over three points across, against noise.
-        beyond: least intensity behind the discontinuity; those that lead to less are passed over.
-    """
+    """As `door.beams`, of arguments that are known to be sound."""
     starts, directions = np.rint(starts), np.asarray(directions, dtype=float)
     scan.beams += len(starts)
     back, ahead = scan.runs(starts, directions)

@@ -47,18 +47,10 @@ def localise(
     step: float,
     fits: Callable[[BoundingBox], bool] = lambda box: True,
     tries: int = 12,
+    *,
+    whole: bool = True,
 ) -> BoundingBox | None:
-    """The box around the first blob that fits, or None.
-
-    Beams go inwards from the four sides of the window until one meets something brighter that is more than
-    a speck; a box grows from there until all its sides see background only.
-
-    Args:
-        window: convex quadrilateral, corners (u, v) in order, shape (4, 2); its border lies on background.
-        step: least difference of intensity between blob and background.
-        fits: whether a box is what is looked for; a box that is not is not looked at again.
-        tries: most boxes to grow.
-    """
+    """As `door.localise`, in a window that stays in force; a blob that is cut off counts unless it is to be `whole`."""
     window = np.asarray(window, dtype=float)
     scan.limit(window)
     sides = _inwards(scan, window)
@@ -80,7 +72,7 @@ def localise(
             if len(seen) == tries:
                 return None
             box = _grow(scan, round(u), round(v), threshold)
-            if fits(box):
+            if not (whole and _is_cut(scan, box, threshold)) and fits(box):
                 return box
             seen.append(box)
     return None
@@ -110,6 +102,14 @@ def _coarse_first(sides: list[Rays]) -> Iterator[Rays]:
     for starts, inwards in sides:
         between = np.arange(len(starts)) % COARSE != COARSE // 2
         yield starts[between], inwards[between]
+
+
+def _is_cut(scan: Scan, box: BoundingBox, threshold: float) -> bool:
+    """True if anything bright in a box is at the border of the window."""
+    v, u = np.mgrid[box.top : box.bottom + 1, box.left : box.right + 1]
+    places = np.column_stack([u.ravel(), v.ravel()]).astype(float)
+    border = places[scan.border(places, SPAN)]
+    return bool((scan.patches(border, 1).mean(axis=(1, 2)) >= threshold).any())
 
 
 def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:

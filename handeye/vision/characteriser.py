@@ -102,15 +102,7 @@ def characterise(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Blob | None:
-    """Bounce from a seed inside the blob until its centre rests; None if a beam finds no edge.
-
-    Args:
-        step: least difference of intensity across the border.
-        reach: greatest distance of the border from the present centre, points.
-        polarity: BRIGHTER: the surroundings are brighter than the blob.
-        wide: average over three points across each beam.
-        beyond: least intensity outside the border: a shadow's edge inside a hole is no border of it.
-    """
+    """As `door.characterise`, of arguments that are known to be sound."""
     u, v = seed
     for bounce in range(1, BOUNCES + 1):
         level = _chord(scan, (u, v), (1, 0), polarity, step, reach, wide, beyond)

@@ -1,27 +1,86 @@
 """A picture as the primitives read it, with a record of what they have read."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from handeye.core.errors import BadArgument
 from handeye.core.pose import Array
 
 Places = NDArray[np.intp]  # indices of points, line by line
+_FARTHEST: Final = 1e6  # points
 MARGIN: Final = 1  # border points that no beam enters, so that it can be three points wide
+
+
+def numbers(given: object, said: str) -> Array:
+    """What is given as an array of finite numbers; raises BadArgument that says what it should be."""
+    try:
+        found = np.asarray(given)
+        sound = found.dtype.kind in "uif" and bool(np.isfinite(found).all())
+    except (TypeError, ValueError):  # rows of different lengths, values that are no arrays
+        sound = False
+    if not sound:
+        raise BadArgument(f"{said}, finite, and not {' '.join(repr(given).split()):.60}")
+    return found.astype(np.float64)
+
+
+def places(given: object, said: str) -> Array:
+    """Finite numbers that can be places in a picture, points; raises BadArgument."""
+    found = numbers(given, said)
+    if (np.abs(found) > _FARTHEST).any():
+        raise BadArgument(f"{said}, in no picture farther out than {_FARTHEST:g} points")
+    return found
+
+
+def quadrilateral(given: object) -> Array:
+    """Corners (u, v) of a convex quadrilateral, shape (4, 2); raises BadArgument."""
+    said = "a window has four corners (u, v) in order, shape (4, 2)"
+    found = places(given, said)
+    if found.shape != (4, 2):
+        raise BadArgument(f"{said}; what is given has shape {found.shape}")
+    (du, dv), (eu, ev) = (np.roll(found, -k, axis=0).T - np.roll(found, 1 - k, axis=0).T for k in (1, 2))
+    turns = du * ev - dv * eu
+    if not ((turns > 0).all() or (turns < 0).all()):
+        corners = ", ".join(f"({u:g}, {v:g})" for u, v in found.tolist())
+        raise BadArgument(
+            f"the corners of a window go around a convex quadrilateral in order, and {corners} do not"
+        )
+    return found
+
+
+def _intensities(picture: object) -> NDArray[np.float32]:
+    """A picture as it is read; raises BadArgument."""
+    if not isinstance(picture, np.ndarray):
+        raise BadArgument(
+            f"a picture is an array of intensities, shape (rows, columns), not {type(picture).__name__}"
+        )
+    if picture.ndim != 2 or not picture.size:
+        hint = "; make it one of grey levels" if picture.ndim == 3 else ""
+        raise BadArgument(
+            f"a picture has a row and a column of points, and this one has shape {picture.shape}{hint}"
+        )
+    if picture.dtype.kind not in "buif":
+        raise BadArgument(f"the points of a picture are numbers, not of type {picture.dtype}")
+    with np.errstate(over="ignore"):
+        found: NDArray[np.float32] = np.asarray(picture).astype(np.float32)
+    if not np.isfinite(found).all():
+        raise BadArgument("a picture has points that are no finite numbers")
+    return found
 
 
 class Scan:
     """A picture that beams go through, within a window; it counts beams and points, for times and for people."""
 
     def __init__(self, picture: NDArray[np.generic]) -> None:
-        """`picture`: intensities, shape (rows, columns)."""
-        self.image: NDArray[np.float32] = picture.astype(np.float32)
-        self.rows, self.columns = picture.shape
+        """`picture`: intensities, shape (rows, columns); raises BadArgument if it is none."""
+        self.image: NDArray[np.float32] = _intensities(picture)
+        self.rows, self.columns = self.image.shape
         self._levels = memoryview(self.image.ravel().data)
-        self.read: NDArray[np.bool_] = np.zeros(picture.shape, dtype=bool)
+        self.read: NDArray[np.bool_] = np.zeros(self.image.shape, dtype=bool)
         self._read = self.read.ravel()
         self.beams = 0
         self.open()
@@ -35,27 +94,52 @@ class Scan:
         return int(np.count_nonzero(self.read))
 
     def open(self) -> None:
-        """Let beams go everywhere but on the margin."""
+        """Let beams go everywhere but on the margin, the outermost points."""
         low, high = MARGIN - 0.5, MARGIN + 0.5
-        self.sides = np.array(
-            [[1, 0, -low], [0, 1, -low], [-1, 0, self.columns - high], [0, -1, self.rows - high]], dtype=float
+        self._look_within(
+            np.array(
+                [[1, 0, -low], [0, 1, -low], [-1, 0, self.columns - high], [0, -1, self.rows - high]],
+                dtype=float,
+            )
         )
-        """A line for each side, shape (n, 3): inside, a*u + b*v + c is positive."""
-        self._lines = self.sides.tolist()
 
-    def limit(self, quadrilateral: Array) -> None:
-        """Keep all beams within a convex quadrilateral, corners (u, v) in order, shape (4, 2)."""
-        along = np.roll(quadrilateral, -1, axis=0) - quadrilateral
+    def limit(self, corners: ArrayLike) -> None:
+        """Keep all beams within a convex quadrilateral, in place of any before; raises BadArgument.
+
+        Its corners (u, v), points, in order, shape (4, 2).
+        """
+        found = quadrilateral(corners)
+        along = np.roll(found, -1, axis=0) - found
         normal = np.column_stack([-along[:, 1], along[:, 0]])
-        offset = -(normal * quadrilateral).sum(axis=1)
-        inwards = np.sign(normal @ quadrilateral.mean(axis=0) + offset)
-        sides = np.column_stack([normal, offset]) * inwards[:, None]
-        self.sides = np.vstack([self.sides, sides])
-        self._lines = self.sides.tolist()
+        offset = -(normal * found).sum(axis=1)
+        inwards = np.sign(normal @ found.mean(axis=0) + offset)
+        self.open()
+        self._look_within(np.vstack([self.sides, np.column_stack([normal, offset]) * inwards[:, None]]))
+
+    @contextmanager
+    def within(self, corners: ArrayLike) -> Iterator[None]:
+        """Keep beams within a convex quadrilateral for a while; then the window is the one before."""
+        before = self.sides
+        self.limit(corners)
+        try:
+            yield
+        finally:
+            self._look_within(before)
+
+    def _look_within(self, sides: Array) -> None:
+        self.sides = sides
+        """A line for each side, shape (n, 3): inside, a*u + b*v + c is positive."""
+        self._lines = sides.tolist()
 
     def inside(self, places: Array) -> NDArray[np.bool_]:
         """Which of some places (u, v), shape (n, 2), lie within the window, shape (n,)."""
         return np.asarray((self._heights(places) > 0).all(axis=1))
+
+    def border(self, places: Array, width: float) -> NDArray[np.bool_]:
+        """Which of some places within the window, shape (n, 2), lie less than a width (points) from its border."""
+        away = self._heights(places) / np.hypot(*self.sides[:, :2].T)
+        nearest = away.min(axis=1)
+        return np.asarray((nearest > 0) & (nearest < width))
 
     def runs(self, starts: Array, directions: Array) -> tuple[Array, Array]:
         """Lengths of rays back and ahead within the window, points, shape (n,) each."""

@@ -1,0 +1,171 @@
+"""The primitives as programs in Python call them: what is given is checked, and a window is in force for one call."""
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from handeye.core.errors import BadArgument
+from handeye.core.pose import Array
+from handeye.vision import beam, blob, characteriser
+from handeye.vision.beam import BRIGHTER, DARKER, Edges, Polarity
+from handeye.vision.blob import BoundingBox
+from handeye.vision.characteriser import Blob
+from handeye.vision.scan import Scan, numbers, places, quadrilateral
+
+_UNIT: Final = 1e-3  # a direction may be this much longer or shorter than 1
+
+
+def beams(
+    scan: Scan,
+    starts: ArrayLike,
+    directions: ArrayLike,
+    polarity: Polarity,
+    step: float,
+    reach: float | ArrayLike,
+    *,
+    wide: bool = False,
+    beyond: float = 0.0,
+) -> Edges:
+    """The first discontinuity along each of several rays.
+
+    Places are in points of the picture: u, the column, to the right, and v, the row, downwards; (0, 0) is the middle of
+    the first point. Intensities are as in the picture.
+
+    Args:
+        starts: (u, v), shape (n, 2), points; a beam starts at the nearest point of the picture.
+        directions: unit vectors (du, dv), shape (n, 2).
+        polarity: BRIGHTER: dark to bright; DARKER: bright to dark.
+        step: least difference of intensity between 3 points ahead and 3 points behind.
+        reach: greatest length, points; for all, or for each, shape (n,).
+        wide: average over three points across, against noise.
+        beyond: least intensity behind the discontinuity; those that lead to less are passed over.
+
+    Raises:
+        BadArgument: an argument is of another kind or shape, or not a finite number.
+    """
+    _scan(scan)
+    from_where, ways = _points(starts, "starts"), _points(directions, "directions")
+    if from_where.shape != ways.shape:
+        raise BadArgument(
+            f"each beam needs a start and a direction: {len(from_where)} and {len(ways)} are given"
+        )
+    if len(ways) and np.abs(np.linalg.norm(ways, axis=1) - 1).max() > _UNIT:
+        raise BadArgument("the directions of beams are unit vectors (du, dv)")
+    _settings(polarity, step, beyond)
+    lengths = numbers(reach, "the reach of a beam is a number of points")
+    if lengths.shape not in ((), (len(ways),)) or (lengths < 0).any():
+        raise BadArgument(
+            f"the reach of a beam is a number of points, for all or for each of the {len(ways)} beams"
+        )
+    return beam.beams(
+        scan, from_where, ways, polarity, float(step), lengths, wide=bool(wide), beyond=float(beyond)
+    )
+
+
+def localise(
+    scan: Scan,
+    window: ArrayLike,
+    step: float,
+    fits: Callable[[BoundingBox], bool] = lambda box: True,
+    tries: int = 12,
+) -> BoundingBox | None:
+    """The box around the first blob that lies whole in a window and fits, or None.
+
+    Beams go inwards from the four sides of the window until one meets something brighter that is more than
+    a speck; a box grows from there until all its sides see background only. What reaches the border of the window or of
+    the picture is cut off there, and passed over. The window is in force for this call only.
+
+    Args:
+        window: convex quadrilateral, corners (u, v) in order, shape (4, 2), points; its border lies on background.
+        step: least difference of intensity between blob and background.
+        fits: whether a box is what is looked for; a box that is not is not looked at again.
+        tries: most boxes to grow.
+
+    Raises:
+        BadArgument: an argument is of another kind or shape, or not a finite number.
+    """
+    _scan(scan)
+    corners = quadrilateral(window)
+    _settings(BRIGHTER, step, 0.0)
+    if not callable(fits):
+        raise BadArgument(f"`fits` is asked about a box, and must be a function, not {_kind(fits)}")
+    if isinstance(tries, bool) or not isinstance(tries, int | np.integer) or tries < 1:
+        raise BadArgument(f"the number of boxes to grow is a whole number from 1 on, not {tries!r:.40}")
+    with scan.within(corners):
+        return blob.localise(scan, corners, float(step), fits, int(tries))
+
+
+def characterise(
+    scan: Scan,
+    seed: ArrayLike,
+    step: float,
+    reach: float,
+    *,
+    polarity: Polarity = BRIGHTER,
+    wide: bool = False,
+    beyond: float = 0.0,
+) -> Blob | None:
+    """Bounce from a seed inside the blob until its centre rests; None if a beam finds no edge.
+
+    A beam ends at the first edge. On the relief of a coin or a highlight on a sweet it ends there, and the answer is
+    that of a smaller blob: a method for plain faces. `beyond` and `wide` help; so does a second seed, whose answer
+    should agree.
+
+    Args:
+        seed: (u, v), points.
+        step: least difference of intensity across the border.
+        reach: greatest distance of the border from the present centre, points.
+        polarity: BRIGHTER: the surroundings are brighter than the blob.
+        wide: average over three points across each beam.
+        beyond: least intensity outside the border: a shadow's edge inside a hole is no border of it.
+
+    Raises:
+        BadArgument: an argument is of another kind or shape, or not a finite number.
+    """
+    _scan(scan)
+    place = places(seed, "the seed is a place (u, v)")
+    if place.shape != (2,):
+        raise BadArgument(f"the seed is a place (u, v), and what is given has shape {place.shape}")
+    _settings(polarity, step, beyond)
+    length = _number(reach, "the reach of a beam is a number of points")
+    if length <= 0:
+        raise BadArgument(f"the reach of a beam is a number of points above 0, not {length:g}")
+    u, v = place.tolist()
+    return characteriser.characterise(
+        scan, (u, v), float(step), length, polarity=polarity, wide=bool(wide), beyond=float(beyond)
+    )
+
+
+def _scan(given: object) -> None:
+    if not isinstance(given, Scan):
+        raise BadArgument(f"beams go through a Scan of a picture, not through {_kind(given)}")
+
+
+def _kind(given: object) -> str:
+    return f"a value of type {type(given).__name__}"
+
+
+def _settings(polarity: object, step: object, beyond: object) -> None:
+    """Raises BadArgument unless these can be a polarity and differences of intensity."""
+    known = isinstance(polarity, int | np.integer) and not isinstance(polarity, bool)
+    if not known or polarity not in (BRIGHTER, DARKER):
+        raise BadArgument(f"the polarity is BRIGHTER ({BRIGHTER}) or DARKER ({DARKER}), not {polarity!r:.40}")
+    if _number(step, "the step is a difference of intensity") <= 0:
+        raise BadArgument(f"the step is a difference of intensity above 0, not {step!r:.40}")
+    _number(beyond, "the least intensity beyond an edge is a number")
+
+
+def _number(given: object, said: str) -> float:
+    found = numbers(given, said)
+    if found.shape:
+        raise BadArgument(f"{said}, and what is given has shape {found.shape}")
+    return float(found)
+
+
+def _points(given: object, name: str) -> Array:
+    found = places(given, f"the {name} of beams are pairs of numbers, shape (n, 2)")
+    if found.ndim != 2 or found.shape[1] != 2:
+        raise BadArgument(f"the {name} of beams are pairs of numbers, shape (n, 2), not {found.shape}")
+    return found
