@@ -53,7 +53,12 @@ def loose(source: str) -> Iterator[str]:
                 continue
             shown = ast.unparse(number.value)
             decimals = number.format_spec is not None and ".0f" not in ast.unparse(number.format_spec)
-            if PLURAL.match(str(after.value)) and not shown.strip("_").isupper() and not decimals:
+            if (
+                PLURAL.match(str(after.value))
+                and not shown.strip("_").isupper()
+                and not decimals
+                and not shown.startswith("enough_digits(")
+            ):
                 yield shown
 
 

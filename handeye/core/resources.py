@@ -1,7 +1,9 @@
-"""Finds the folders shipped with the package, `scenes`, `plans` and `demo`, and the user's cache folder."""
+"""Finds what is shipped with the package, the folders `scenes`, `plans` and `demo` and pages of the docs, and the
+user's cache folder."""
 
 import os
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
@@ -32,6 +34,16 @@ def plans() -> Path:
 def demo() -> Path:
     """A recorded run of the water pump: a thinned trace, its result, and a picture of its end."""
     return folder("demo")
+
+
+def page(name: str) -> str:
+    """Where a page of the docs can be opened, by its path in the folder `docs`; that path if the docs are not here."""
+    for root in _ROOTS:
+        if (found := root / "docs" / name).is_file():
+            with suppress(ValueError):
+                return str(found.relative_to(Path.cwd()))
+            return str(found)
+    return f"docs/{name}"
 
 
 VARIABLE: Final = "HANDEYE_CACHE"  # environment variable for another cache folder; empty disables caching

@@ -16,6 +16,7 @@ from handeye.core import errors
 from handeye.core.codes import CODES
 from handeye.core.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
 from handeye.core.errors import ERRORS, NoSuchName
+from handeye.core.resources import page
 from handeye.core.source import Source
 from handeye.editor.samples import SAMPLE
 from handeye.program.language import own_languages
@@ -69,9 +70,9 @@ def _instruction(definition: Instruction) -> str:
         f"  {operand.shown:{width}}  {takes(definition, operand)} ({origin(definition, operand)})"
         for operand in definition.operands
     ]
-    page = f"More and examples: docs/language/reference/{definition.op.lower()}.md"
+    more = f"More and examples: {page(f'language/reference/{definition.op.lower()}.md')}"
     said = [definition.usage, "", definition.help, "", *operands, *[""] * bool(operands)]
-    return "\n".join([*said, part(definition), page])
+    return "\n".join([*said, part(definition), more])
 
 
 def _code(code: str) -> str:

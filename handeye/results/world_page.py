@@ -10,6 +10,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from handeye.core.distributions import Choice, Fixed, Noise, Normal, Range, Step, Uniform
+from handeye.core.resources import page
 from handeye.core.variation import SPREADS, Quantity, Variation, World, WorldSpec
 
 
@@ -58,6 +59,8 @@ def world_page(table: Variation, world: World, columns: int) -> RenderableType:
             Text(fill(source, columns), "dim"),
             *(_row(quantity, width, columns) for quantity in quantities),
         ]
+    if any("study" in quantity.source for quantity in found):
+        parts += [Text(), Text(f"The studies: {page('studies.md')}", "dim")]
     return Group(*parts)
 
 

@@ -27,7 +27,7 @@ MAKES: Final = (6, 7)
 """Numbers of screws, and of tapped holes, of the pumps that there are."""
 USUAL: Final = 6
 
-_VISION: Final = "Vision study, verdict 1."
+_VISION: Final = "Vision study, section 3."
 IN_PLAY: Final = 70.0
 """Percent of its play that a part can be off along an axis: it stays clear of the corners of its seat."""
 
