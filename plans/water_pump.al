@@ -1,4 +1,5 @@
-; The water pump of 1973, assembled in eleven steps, and inspected in a twelfth.
+; The water pump of 1973, assembled in eleven steps, and inspected in a twelfth: there all that the work consists of is looked at
+; once more, behind everything that could disturb it.
 ;
 ; The comments in capitals, and the instructions beside them, stand in the listing of 1973; water_pump_1973.al does each thing
 ; once. This one is careful: what can be tried again is tried again before the operator is called, and each stage ends with
@@ -115,13 +116,48 @@ LOOSE:  TOOL    0
         SEARCH  .05
         SOJG    N K
         WAIT    "SCREW {NR} MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
-HOME:   CHANGE  [0 0 1] 1
+HOME:   SAVE    H               ;how high the socket stands on its head
+        CHANGE  [0 0 1] 1
+
+; A driven screw once more, to the torque stop: one that has worked loose is tight again.
+DEFINE TIGHTEN H ACROSS NR
+        SEARCH  .05 STEPS 1
+TT:     SKIPN   6               ;all places tried
+        WAIT    "SCREW {NR} DOES NOT HOLD: IT MEETS NO TORQUE"
+        MOVE    H
+        RESTORE ACROSS
+        RESTORE X2
+        RESTORE HS LEVEL        ;as far off as the last one
+        CHANGE  [0 0 -1] .5
+        STOP    [0 0 -25]
+        FREE    [1 1 0]         ;let the head guide the socket
+        CHANGE  [0 0 -1] .6 .4
+        SKIPN   23
+        WAIT    "SCREW {NR} IS GONE: NO HEAD IS UNDER THE SOCKET"
+        TOOL    190
+        TORQUE  42
+        FORCE   [0 0 -22]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .5
+        SKIPE   24
+        JUMP    TIGHT
+        TOOL    0               ;the socket may stand on the edge of its head
+        CHANGE  [0 0 1] .6
+        AOJ     TT
+TIGHT:  TOOL    0
+        HEIGHT  H -.05 .05      ;as high as when it was driven, within a turn of the thread?
+        SKIPN   9
+        WAIT    "SCREW {NR} DOES NOT STAND AS IT WAS DRIVEN"
+        SAVE    HS
+        CHANGE  [0 0 1] 1
 
 ; The screwdriver out of its rack, its place felt both ways.
 DEFINE DRIVER
         OPEN    2.2
         MOVE    D
         CENTER  .5
+        SKIPN   2
+        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
         SAVE    DRV             ;where the driver really is across the fingers
         OPEN    2
         MOVE    DX
@@ -355,12 +391,97 @@ DEFINE NUDGE SPOT PUSH WAY
         RESTORE Y1
         RESTORE X2
         STOP    PUSH
-        CHANGE  WAY .6 .2
+        CHANGE  WAY .8 .2
         SKIPN   23
         WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: NOTHING STANDS THERE"
         TRAVEL  .2 .4
         SKIPN   8
         WAIT    "THE PUMP IS NOT WHERE IT WAS PUT"
+
+; Does it still stand in its place? Closed fingers come down on its end, .3 in away.
+DEFINE STANDS END
+        OPEN    0
+        MOVE    END
+        RESTORE C1 LEVEL
+        RESTORE C2 LEVEL
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .6 .2
+
+; The rotor by an open fork, which pushes and does not pinch: so many degrees to one side, and back.
+DEFINE SWING GRIP OUT BACK
+        OPEN    .9
+        MOVE    GRIP
+        RESTORE Y1
+        RESTORE X2
+        CENTER  .3
+        SKIPN   2
+        WAIT    "THE CRANK IS NOT WHERE IT WAS LEFT"
+        OPEN    .44
+        STOP    20
+        TURN    ROTOR OUT
+        SKIPE   23              ;it should meet no such resistance
+        WAIT    "THE ROTOR IS HARD TO TURN"
+        STOP    20
+        TURN    ROTOR BACK
+        SKIPE   23
+        WAIT    "THE ROTOR IS HARD TO TURN"
+        OPEN    .9
+        CHANGE  [0 0 1] 1.5     ;off the crank, before the fingers shut
+
+; What the last stage looks at. The rotor, over its whole turn and both ways: the hand cannot go all the way round.
+DEFINE ROTATION
+        SWING   CRANK 180 -180
+        SWING   CRANKB -180 180
+
+; The heads, one after the other around the pump: so the driver never goes over the crank.
+DEFINE HEADS
+        DRIVER
+        TIGHTEN H1 Y1 4
+        TIGHTEN H0 Y1 1
+        TIGHTEN H4 Y2 5
+        TIGHTEN H5 Y2 3
+        TIGHTEN H3 Y1 6
+        TIGHTEN H2 Y1 2
+        RACK
+
+; What was used, in its place.
+DEFINE TOOLS
+        STANDS  DEND
+        SKIPN   23
+        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
+        CHANGE  [0 0 1] 1
+        STANDS  P1END
+        SKIPN   23
+        WAIT    "PIN 1 DOES NOT STAND IN ITS HOLDER"
+        CHANGE  [0 0 1] 1
+        STANDS  P2END
+        SKIPN   23
+        WAIT    "PIN 2 DOES NOT STAND IN ITS HOLDER"
+        CHANGE  [0 0 1] 1
+
+; The flange at three places: gasket and flange over the face of the base.
+DEFINE LAYERS
+        FEEL    FLANGE
+        HEIGHT  BARE .33 .39
+        SKIPN   9
+        WAIT    "THE TOP DOES NOT LIE FLAT: ITS NARROW END"
+        FEEL    SIDE
+        HEIGHT  BARE .33 .39
+        SKIPN   9
+        WAIT    "THE TOP DOES NOT LIE FLAT: ITS BROAD SIDE"
+        FEEL    WAIST
+        HEIGHT  BARE .33 .39
+        SKIPN   9
+        WAIT    "THE TOP DOES NOT LIE FLAT: ITS WAIST"
+        CHANGE  [0 0 1] 1
+
+; The pump against its blocks.
+DEFINE BLOCKS
+        OPEN    0
+        NUDGE   RIM1 [0 50 0] [0 1 0]
+        CHANGE  [0 0 1] 1
+        NUDGE   RIM2 [-50 0 0] [-1 0 0]
+        CHANGE  [0 0 1] 1
 
         STAGE   "find the base"
         LENS    25              ;the camera's mechanism is slow: meanwhile the arm
@@ -682,43 +803,23 @@ TOPPED: OPEN    2.2             ;for the screwdriver
         RACK
 
         STAGE   "turn the rotor"
-        OPEN    .9
-        MOVE    CRANK
-        RESTORE Y1
-        RESTORE X2
-        CENTER  .3
-        OPEN    .44             ;an open fork: it pushes and does not pinch
-        STOP    40
-        TURN    ROTOR 60
-        SKIPE   23              ;it should meet no such resistance
-        WAIT    "THE ROTOR IS HARD TO TURN"
-        OPEN    .9
-        CHANGE  [0 0 1] 1.5     ;off the crank, before the fingers shut
+        SWING   CRANK 60 -60
 
         STAGE   "inspect the pump"
-        FEEL    FLANGE          ;the flange, at three places: gasket and flange over the face of the base
-        HEIGHT  BARE .33 .39
-        SKIPN   9
-        WAIT    "THE TOP DOES NOT LIE FLAT: ITS NARROW END"
-        FEEL    SIDE
-        HEIGHT  BARE .33 .39
-        SKIPN   9
-        WAIT    "THE TOP DOES NOT LIE FLAT: ITS BROAD SIDE"
-        FEEL    WAIST
-        HEIGHT  BARE .33 .39
-        SKIPN   9
-        WAIT    "THE TOP DOES NOT LIE FLAT: ITS WAIST"
-        PARK
         ASSIGN  TRIES 2
-        JUMP    WHOLE
-MOVED:  SOJG    TRIES WHOLE     ;by the push itself? Once more
+        JUMP    ALL
+MOVED:  SOJG    TRIES ALL       ;by the inspection itself? All of it once more
         WAIT    "THE PUMP HAS MOVED SINCE IT WAS FELT"
-WHOLE:  LOOK    WHOLE
-        NUDGE   RIM1 [0 40 0] [0 1 0]
-        CHANGE  [0 0 1] 1
-        NUDGE   RIM2 [-40 0 0] [-1 0 0]
+ALL:    BLOCKS                  ;home, before it is felt
+        ROTATION
+        HEADS
+        TOOLS
+        BLOCKS                  ;the driver has drawn it off a little
+        PARK
+        LOOK    WHOLE
+        LAYERS
         PARK
         LOOK    DONE HOLD
-        MATCH   PUMP WHOLE DONE ;does it stand as it did when it was felt?
+        MATCH   PUMP WHOLE DONE ;does it still stand as it was felt?
         SKIPN   33
         JUMP    MOVED

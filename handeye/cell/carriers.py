@@ -6,7 +6,7 @@ straight as it is turned. A crossed one stays as it came. Head and shank of a ca
 screw is in its hole, the shank the bores of gasket and top alone.
 """
 
-from math import exp
+from math import exp, pi
 from typing import Final
 
 import mujoco
@@ -94,6 +94,10 @@ class Carriers:
         self._model.body_pos[body], self._model.body_quat[body] = self.mouths[hole], (1.0, 0.0, 0.0, 0.0)
         self._move(hole, 0.0, 0.0)
         self._show(hole, there=False)
+
+    def turn_back(self, hole: int, turns: float) -> None:
+        """Let a screw come up out of its thread by some turns, at rest."""
+        self._move(hole, 2 * pi * turns * self._lead - self.depth(hole), 0.0)
 
     def straighten(self, hole: int, seconds: float) -> None:
         """Let the thread draw a screw straight as it is turned in during a time (s)."""

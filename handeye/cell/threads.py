@@ -242,6 +242,25 @@ class Threads(Mechanism[ThreadsState]):
         hole = self._under_bit()
         if hole is None or self._carriers.depth(hole) > START_DEPTH:
             return
+        self._let_go(hole)
+
+    def loosen(self, screw: int, turns: float | None = None) -> bool:
+        """Let a screw come up by some turns, or fall out of its thread; False if it is in none, or the bit is on it."""
+        hole = next((k for k, thread in enumerate(self.holes) if thread.screw == screw), None)
+        if hole is None or hole == self._under_bit():
+            return False
+        wake(self._data, self._carriers.friction_of(hole))
+        if turns is None:
+            self._let_go(hole)
+            return True
+        self._carriers.turn_back(hole, turns)
+        self._set(hole, msgspec.structs.replace(self.holes[hole], clamp=0.0))
+        self._model.dof_frictionloss[self._carriers.friction_of(hole)] = RUNNING_TORQUE
+        mujoco.mj_forward(self._model, self._data)
+        return True
+
+    def _let_go(self, hole: int) -> None:
+        """Make the screw in a hole a loose one, where it is."""
         screw = self.holes[hole].screw
         assert screw is not None
         self._put(screw, self._carriers.pose(hole), self._carriers.velocity(hole))

@@ -16,6 +16,7 @@ from handeye.tasks.water_pump.clamping import Clamping
 from handeye.tasks.water_pump.faults.before import bad_threads, slipping_screws
 from handeye.tasks.water_pump.faults.devices import defects
 from handeye.tasks.water_pump.faults.during import Mishaps, due
+from handeye.tasks.water_pump.faults.mishap import Scene
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.world.nominal import DRAWING
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
@@ -47,7 +48,7 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
         slipping=slipping_screws(faults, len(world.thread_phase)),
     )
     threads = Threads(model, data, driver, figures, lines)
-    mishaps = (Mishaps(model, data, faults),) if due(faults) else ()
+    mishaps = (Mishaps(Scene(model, data, threads), faults),) if due(faults) else ()
     return SimulatedCell(
         model,
         data,

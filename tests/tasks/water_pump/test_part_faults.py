@@ -25,7 +25,6 @@ TOGETHER = (
     Fault(name="hole.3.blocked", value=0.002),
     Fault(name="pin.1.missing"),
     Fault(name="pin.2.thick", value=0.0002),
-    Fault(name="rotor.jammed"),
     Fault(name="screw.4.burred", value=0.0005),
     Fault(name="top.off.y", value=0.006),
 )

@@ -17,7 +17,7 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Array, inverse, pose
 from handeye.tasks.interface import Disturbance
 from handeye.tasks.stanford_cell.arm import ARM
-from handeye.tasks.water_pump.faults.during import Scene
+from handeye.tasks.water_pump.faults.mishap import Scene
 
 TIGHT_TORQUE_NM: Final = 1.5  # five times what the driver has
 _TIGHTENING_S: Final = 0.5
@@ -51,8 +51,7 @@ def _moved(way: tuple[float, float], cell: SimulatedCell) -> None:
 
 
 def _removed(part: str, cell: SimulatedCell) -> None:
-    scene = _scene(cell)
-    scene.shift(part, scene.to_tray(part))
+    _scene(cell).take(part)
 
 
 def _demagnetize(cell: SimulatedCell) -> None:

@@ -42,7 +42,6 @@ GONE: Final = {
 """Places (m) for what is missing: on the tray under the floor, where nothing can meet it."""
 OVER_TRAY_M: Final = 0.12  # what hangs below a part's origin
 
-_JAM_FRICTION_NM: Final = 20.0  # more than the arm can turn
 _SMOOTH: Final = "bit.smooth"
 _CARD_HALF_M: Final = 0.08
 _FOREMOST: Final = 3  # priority in a contact, over all shapes of the scene
@@ -167,12 +166,6 @@ def _top() -> Iterator[PartFault]:
         "top.reversed", "The top lies end for end.", lambda spec, _: _reverse(spec, "top", (0.0, 0.0)),
         ExpectedDetection(calls=(detect.TOP_LOST,)),
     )  # fmt: skip
-    yield _fault(
-        "rotor.jammed",
-        "The rotor does not turn.",
-        _jam,
-        ExpectedDetection(calls=("THE ROTOR IS HARD TO TURN",)),
-    )
 
 
 def _moved(part: str, article: str, expected: Mapping[str, ExpectedDetection]) -> Iterator[PartFault]:
@@ -337,10 +330,6 @@ def _thicken(spec: mujoco.MjSpec, factor: float) -> None:
         ball.size[0] *= factor
     for hole in gasket.sites:
         hole.pos[2] *= factor
-
-
-def _jam(spec: mujoco.MjSpec, _: float) -> None:
-    spec.joint("rotor").frictionloss = _JAM_FRICTION_NM
 
 
 def _slippery(shape: str, spec: mujoco.MjSpec, _: float) -> None:

@@ -6,94 +6,34 @@ the base, a spring to a point that goes at a constant speed, and friction drags 
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cache, partial
 from typing import Final
 
-import mujoco
 import numpy as np
 
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.physics_stepper import wake
 from handeye.cell.state import finite
 from handeye.core.errors import FORCE_WRONG, NOTHING_HELD, SEARCH_EXHAUSTED, SERVO_LAG, WRONG_HEIGHT
 from handeye.core.faults import ExpectedDetection, Fault, Size
-from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.core.units import INCH
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.water_pump.faults import shared_expectations as detect
-from handeye.tasks.water_pump.faults.before import GONE, OVER_TRAY_M
-from handeye.tasks.water_pump.faults.declaration import PumpFault, broken, declared
+from handeye.tasks.water_pump.faults.declaration import broken, declared
+from handeye.tasks.water_pump.faults.finished import faults_of_finished_work
+from handeye.tasks.water_pump.faults.mishap import Mishap, MishapFault, MishapState, Scene, always
 
 PUSH_S: Final = 2.0
 MOVE_S: Final = 1.0
 HAND: Final = (4000.0, 60.0, 150.0)
 """Spring (N/m), damper (N s/m), greatest force (N) of the hand that moves the base; measured: it ends 2 mm short."""
 LIFTED_M: Final = 0.02  # a part that has come up by this is held by the hand, and not by what it stood in
-ON_BASE_M: Final = 0.15  # from its middle, along the table: what is there, and higher, stands on it
-_STACK: Final = ("gasket", "top", "pin0", "pin1")
-
-
-class MishapState(Record, frozen=True, kw_only=True):
-    """State of a mishap."""
-
-    seconds: float | None = None  # since it began; None: it has not
-    place: tuple[float, float, float] | None = None
-    """m: where its part was then, if it is one that happens to a part."""
-    over: bool = False  # it has happened
 
 
 class MishapsState(Record, frozen=True, kw_only=True):
     """States of all mishaps, in their order."""
 
     mishaps: tuple[MishapState, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Scene:
-    """The scene of a cell, in which parts can be moved by hand."""
-
-    model: mujoco.MjModel
-    data: mujoco.MjData
-
-    def dofs(self, part: str) -> slice:
-        """Indices of a free part's degrees of freedom."""
-        start = int(self.model.body_dofadr[self.model.body(part).id])
-        return slice(start, start + 6)
-
-    def place(self, part: str) -> Array:
-        """Place of a free part, m: a view of the simulator's own array."""
-        start = int(self.model.jnt_qposadr[self.model.body_jntadr[self.model.body(part).id]])
-        return np.asarray(self.data.qpos[start : start + 3])
-
-    def shift(self, part: str, way: Array) -> None:
-        """Put a free part elsewhere, at rest."""
-        self.place(part)[:] += way
-        self.data.qvel[self.dofs(part)] = 0.0
-        wake(self.data, self.dofs(part).start)
-
-    def stack(self) -> list[str]:
-        """The base, and the parts that stand on it."""
-        (x, y, z), parts = self.place("base"), ["base"]
-        for part in _STACK:
-            aside, high = self.place(part)[:2] - (x, y), self.place(part)[2] - z
-            if np.hypot(*aside) < ON_BASE_M and high >= 0:
-                parts.append(part)
-        return parts
-
-    def to_tray(self, part: str) -> Array:
-        """The way of a part to its place on the tray, m, shape (3,)."""
-        (x, y), tray = GONE[part], self.model.geom("tray").id
-        return np.array([x, y, self.data.geom_xpos[tray][2] + OVER_TRAY_M]) - self.place(part)
-
-
-@dataclass(frozen=True, slots=True)
-class Mishap:
-    """An event that happens once: `act` acts for one physics tick, and is true when it is over."""
-
-    act: Callable[[Scene, MishapState], bool]
-    watched: str | None = None  # the part whose place at the beginning it needs, if any
 
 
 def _pushed(axis: int, force_N: float) -> Mishap:
@@ -141,7 +81,7 @@ def _lose(part: str, scene: Scene, state: MishapState) -> bool:
     assert state.place is not None
     if scene.place(part)[2] < state.place[2] + LIFTED_M:
         return False
-    scene.shift(part, scene.to_tray(part))
+    scene.take(part)
     return True
 
 
@@ -151,22 +91,15 @@ def _put_out(scene: Scene, _: MishapState) -> bool:
     return True
 
 
-MishapFault = PumpFault[Callable[[float], Mishap]]
-
-
 @cache
 def mishap_faults() -> tuple[MishapFault, ...]:
     """All mishaps, in the order they are listed."""
-    return (*_light_and_pushes(), *_base(), *_losses())
-
-
-def _always(mishap: Mishap) -> Callable[[float], Mishap]:
-    return lambda _: mishap
+    return (*_light_and_pushes(), *_base(), *_losses(), *faults_of_finished_work())
 
 
 def _light_and_pushes() -> Iterator[MishapFault]:
     meaning = "The lamp of the cell goes out; what light the room has stays."
-    yield declared("light.off", meaning, _always(Mishap(_put_out)), detect.POOR_LIGHT, stage=6)
+    yield declared("light.off", meaning, always(Mishap(_put_out)), detect.POOR_LIGHT, stage=6)
     size = Size(unit="N", usual=40.0, limits=(-300.0, 300.0))
     expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),
@@ -190,7 +123,7 @@ def _base() -> Iterator[MishapFault]:
         meaning = f"Somebody moves the base along table {axis} within {MOVE_S:g} s, with what stands on it."
         yield declared(f"base.moved.{axis}", meaning, partial(_moved, number), expected, size, stage=2)
     meaning = "Somebody takes the base away, and all that stands on it."
-    yield declared("base.removed", meaning, _always(Mishap(_take_away)), detect.NO_HOLE_FOR_PIN, stage=4)
+    yield declared("base.removed", meaning, always(Mishap(_take_away)), detect.NO_HOLE_FOR_PIN, stage=4)
 
 
 def _losses() -> Iterator[MishapFault]:
@@ -211,7 +144,7 @@ def _losses() -> Iterator[MishapFault]:
         ("top", "top", "the top", top),
     ):
         meaning = f"The hand loses {told} as soon as it has lifted it by {LIFTED_M / INCH:.1f} in."
-        yield declared(f"{name}.dropped", meaning, _always(Mishap(partial(_lose, part), part)), expected)
+        yield declared(f"{name}.dropped", meaning, always(Mishap(partial(_lose, part), part)), expected)
 
 
 def due(faults: Sequence[Fault]) -> list[tuple[Fault, Mishap]]:
@@ -224,10 +157,10 @@ class Mishaps(Mechanism[MishapsState]):
 
     name = "mishaps"
     kind = MishapsState
-    changes = ("light_diffuse",)
+    changes = ("light_diffuse", "dof_frictionloss", "jnt_limited", "jnt_range")
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, faults: Sequence[Fault]) -> None:
-        self._scene, self.due = Scene(model, data), due(faults)
+    def __init__(self, scene: Scene, faults: Sequence[Fault]) -> None:
+        self._scene, self.due = scene, due(faults)
         self._states = [MishapState() for _ in self.due]
         self._begin(lambda stage: stage is None)
 

@@ -43,6 +43,10 @@ GASKET_STAYS: Final = "THE GASKET DOES NOT COME UP: IT LIES OFF ITS PLACE"
 GASKET_LOST: Final = "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
 TOP_LOST: Final = "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
 
+STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN"
+CRANK_ASTRAY: Final = "THE CRANK IS NOT WHERE IT WAS LEFT"
+NO_DRIVER: Final = "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
+
 NO_PIN: Final = ExpectedDetection(errors=(NOTHING_HELD,), stages=(INSERT_PINS,))
 NO_HOLE_FOR_PIN: Final = ExpectedDetection(errors=(SEARCH_EXHAUSTED,), stages=(INSERT_PINS,))
 POOR_LIGHT: Final = ExpectedDetection(
@@ -66,6 +70,22 @@ def loose_screw(number: int) -> str:
 
 def high_screw(number: int) -> str:
     return f"SCREW {number} STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
+
+
+def missing_head(number: int) -> str:
+    return f"SCREW {number} IS GONE: NO HEAD IS UNDER THE SOCKET"
+
+
+def untight_screw(number: int) -> str:
+    return f"SCREW {number} DOES NOT HOLD: IT MEETS NO TORQUE"
+
+
+def shifted_head(number: int) -> str:
+    return f"SCREW {number} DOES NOT STAND AS IT WAS DRIVEN"
+
+
+def missing_pin(number: int) -> str:
+    return f"PIN {number} DOES NOT STAND IN ITS HOLDER"
 
 
 def screw_of(hole: int) -> int:

@@ -1,0 +1,152 @@
+"""Mishaps to what is finished: screws that work loose, parts and tools taken away, a rotor that jams or stops."""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Final
+
+import numpy as np
+
+from handeye.cell.physics_stepper import wake
+from handeye.core.errors import FORCE_WRONG, GASKET_WRONG, NOTHING_HELD, SERVO_LAG
+from handeye.core.faults import ExpectedDetection, Size
+from handeye.tasks.water_pump.faults import shared_expectations as detect
+from handeye.tasks.water_pump.faults.declaration import declared
+from handeye.tasks.water_pump.faults.mishap import ON_BASE_M, Mishap, MishapFault, MishapState, Scene, always
+
+LAST_STAGE: Final = 12
+JAM_FRICTION_NM: Final = 20.0  # more than the arm can turn
+_FREE_RAD: Final = 1e3  # beyond any turn of the rotor
+
+
+def _loose(screw: int, turns: float | None, scene: Scene, _: MishapState) -> bool:
+    """A screw works loose, or falls out, as soon as it is in its thread and the bit has left it."""
+    assert scene.threads is not None
+    if not scene.threads.loosen(screw, turns):
+        return False
+    if turns is None:
+        scene.take(f"screw{screw}")
+    return True
+
+
+def _take(part: str, scene: Scene, _: MishapState) -> bool:
+    scene.take(part)
+    return True
+
+
+def _take_layer(part: str, scene: Scene, _: MishapState) -> bool:
+    """Take gasket or top away, if neither a screw nor a top that lies on it holds it."""
+    assert scene.threads is not None
+    over = scene.place("top") - scene.place("gasket")
+    covered = part == "gasket" and np.hypot(*over[:2]) < ON_BASE_M and over[2] > 0
+    if not (covered or any(thread.screw is not None for thread in scene.threads.holes)):
+        scene.take(part)
+    return True
+
+
+def _rotor(scene: Scene) -> tuple[int, int]:
+    """The rotor's joint and degree of freedom, awake."""
+    joint = int(scene.model.joint("rotor").id)
+    dof = int(scene.model.jnt_dofadr[joint])
+    wake(scene.data, dof)
+    return joint, dof
+
+
+def _jam(scene: Scene, _: MishapState) -> bool:
+    dof = _rotor(scene)[1]
+    scene.model.dof_frictionloss[dof] = JAM_FRICTION_NM
+    return True
+
+
+def _stop(angle: float) -> Mishap:
+    """The rotor meets a stop at an angle (rad) from where it is, to one side."""
+
+    def act(scene: Scene, _: MishapState) -> bool:
+        joint = _rotor(scene)[0]
+        there = float(scene.data.qpos[scene.model.jnt_qposadr[joint]]) + angle
+        scene.model.jnt_limited[joint] = 1
+        scene.model.jnt_range[joint] = (-_FREE_RAD, there) if angle > 0 else (there, _FREE_RAD)
+        return True
+
+    return Mishap(act)
+
+
+def _turn(angle: float) -> Mishap:
+    """Somebody turns the rotor by an angle (rad)."""
+
+    def act(scene: Scene, _: MishapState) -> bool:
+        joint, dof = _rotor(scene)
+        scene.data.qpos[scene.model.jnt_qposadr[joint]] += angle
+        scene.data.qvel[dof] = 0.0
+        return True
+
+    return Mishap(act)
+
+
+def _with_turns(screw: int) -> Callable[[float], Mishap]:
+    return lambda turns: Mishap(partial(_loose, screw, turns))
+
+
+def faults_of_finished_work() -> Iterator[MishapFault]:
+    """All of them, in the order they are listed."""
+    yield from _screws()
+    yield from _rotors()
+    yield from _taken()
+
+
+def _screws() -> Iterator[MishapFault]:
+    size = Size(unit="", usual=0.25, limits=(0.05, 10.0))
+    for number in range(1, len(detect.SCREWED) + 1):
+        expected = ExpectedDetection(
+            errors=(FORCE_WRONG,),  # the hand comes down on a head that stands far out
+            calls=(detect.untight_screw(number), detect.shifted_head(number)),
+            harmless="Each screw is driven again, to the torque stop, before the pump is called finished.",
+        )
+        meaning = f"Screw {number} works loose by so many turns, behind the driver."
+        yield declared(
+            f"screw.{number}.loose", meaning, _with_turns(number - 1), expected, size, stage=LAST_STAGE
+        )
+    for number in range(1, len(detect.SCREWED) + 1):
+        expected = ExpectedDetection(calls=(detect.missing_head(number),))
+        meaning = f"Screw {number} is turned out behind the driver, and taken away."
+        yield declared(
+            f"screw.{number}.removed", meaning, always(Mishap(partial(_loose, number - 1, None))), expected,
+            stage=LAST_STAGE,
+        )  # fmt: skip
+
+
+def _rotors() -> Iterator[MishapFault]:
+    hard = ExpectedDetection(calls=(detect.STIFF_ROTOR,))
+    yield declared("rotor.jammed", "The rotor does not turn.", always(Mishap(_jam)), hard)
+    size = Size(unit="deg", usual=75.0, limits=(-170.0, 170.0))
+    meaning = "The rotor meets a stop at this angle from where it stood."
+    yield declared("rotor.stops", meaning, _stop, hard, size, stage=LAST_STAGE)
+    expected = ExpectedDetection(
+        errors=(FORCE_WRONG, SERVO_LAG),
+        calls=(detect.CRANK_ASTRAY,),
+        harmless="Fingers that close on the crank find it near its place.",
+    )
+    meaning = "Somebody turns the rotor by this angle."
+    yield declared("rotor.turned", meaning, _turn, expected, size, stage=LAST_STAGE)
+
+
+def _taken() -> Iterator[MishapFault]:
+    for number in (1, 2):
+        expected = ExpectedDetection(errors=(NOTHING_HELD,), calls=(detect.missing_pin(number),))
+        meaning = f"Somebody takes aligning pin {number} away."
+        yield declared(
+            f"pin.{number}.removed", meaning, always(Mishap(partial(_take, f"pin{number - 1}"))), expected,
+            stage=LAST_STAGE,
+        )  # fmt: skip
+    expected = ExpectedDetection(calls=(detect.NO_DRIVER,))
+    meaning = "The screwdriver falls from its rack."
+    yield declared(
+        "driver.fallen", meaning, always(Mishap(partial(_take, "driver"))), expected, stage=LAST_STAGE
+    )
+    for part, expected, stage in (
+        ("gasket", ExpectedDetection(errors=(GASKET_WRONG,), calls=detect.OFF), 6),
+        ("top", ExpectedDetection(calls=(detect.loose_screw(1),)), 8),
+    ):
+        meaning = f"Somebody takes the {part} away, if nothing holds it."
+        yield declared(
+            f"{part}.removed", meaning, always(Mishap(partial(_take_layer, part))), expected, stage=stage
+        )

@@ -1,0 +1,86 @@
+"""A mishap: what happens once to the parts of a pump's cell, and the scene in which it does."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.physics_stepper import wake
+from handeye.cell.threads import Threads
+from handeye.core.pose import Array
+from handeye.core.record import Record
+from handeye.tasks.water_pump.faults.before import GONE, OVER_TRAY_M
+from handeye.tasks.water_pump.faults.declaration import PumpFault
+
+ON_BASE_M: Final = 0.15  # from its middle, along the table: what is there, and higher, stands on it
+_STACK: Final = ("gasket", "top", "pin0", "pin1")
+
+
+class MishapState(Record, frozen=True, kw_only=True):
+    """State of a mishap."""
+
+    seconds: float | None = None  # since it began; None: it has not
+    place: tuple[float, float, float] | None = None
+    """m: where its part was then, if it is one that happens to a part."""
+    over: bool = False  # it has happened
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """The scene of a cell, in which parts can be moved by hand."""
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    threads: Threads | None = None  # of the cell while it works
+
+    def dofs(self, part: str) -> slice:
+        """Indices of a free part's degrees of freedom."""
+        start = int(self.model.body_dofadr[self.model.body(part).id])
+        return slice(start, start + 6)
+
+    def place(self, part: str) -> Array:
+        """Place of a free part, m: a view of the simulator's own array."""
+        start = int(self.model.jnt_qposadr[self.model.body_jntadr[self.model.body(part).id]])
+        return np.asarray(self.data.qpos[start : start + 3])
+
+    def shift(self, part: str, way: Array) -> None:
+        """Put a free part elsewhere, at rest."""
+        self.place(part)[:] += way
+        self.data.qvel[self.dofs(part)] = 0.0
+        wake(self.data, self.dofs(part).start)
+
+    def stack(self) -> list[str]:
+        """The base, and the parts that stand on it."""
+        (x, y, z), parts = self.place("base"), ["base"]
+        for part in _STACK:
+            aside, high = self.place(part)[:2] - (x, y), self.place(part)[2] - z
+            if np.hypot(*aside) < ON_BASE_M and high >= 0:
+                parts.append(part)
+        return parts
+
+    def take(self, part: str) -> None:
+        """Take a part away: it lies on the tray from then on."""
+        self.shift(part, self.to_tray(part))
+
+    def to_tray(self, part: str) -> Array:
+        """The way of a part to its place on the tray, m, shape (3,)."""
+        (x, y), tray = GONE[part], self.model.geom("tray").id
+        return np.array([x, y, self.data.geom_xpos[tray][2] + OVER_TRAY_M]) - self.place(part)
+
+
+@dataclass(frozen=True, slots=True)
+class Mishap:
+    """An event that happens once: `act` acts for one physics tick, and is true when it is over."""
+
+    act: Callable[[Scene, MishapState], bool]
+    watched: str | None = None  # the part whose place at the beginning it needs, if any
+
+
+MishapFault = PumpFault[Callable[[float], Mishap]]
+
+
+def always(mishap: Mishap) -> Callable[[float], Mishap]:
+    """The mishap of a fault without a size."""
+    return lambda _: mishap
