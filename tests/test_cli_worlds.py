@@ -13,11 +13,12 @@ from handeye.core.variation import DRAWING, LARGEST_SEED, Overrides, Quantity, W
 from handeye.tasks import task
 from handeye.tasks.water_pump.world.variation import variation
 
-CHOSEN = ("--seed", "3", "--level", "high", "--without", "camera,base.x", "--set", "part_mass=5%")
+CHOSEN = ("--seed", "3", "--level", "high", "--without", "camera,base.x", "--set", "part_mass=5%",
+          "--scale", "unsourced=.5")  # fmt: skip
 SPEC = {
     "seed": 3,
     "level": "high",
-    "overrides": {"without": ["base.x", "camera"], "set": {"part_mass": 0.05}},
+    "overrides": {"without": ["base.x", "camera"], "set": {"part_mass": 0.05}, "scale": {"unsourced": 0.5}},
     "faults": [],
     "drawing": DRAWING,
 }
@@ -88,11 +89,15 @@ def test_no_columns_at_all_are_taken_for_the_usual_ones(monkeypatch: pytest.Monk
 
 def test_the_list_says_what_is_off_and_what_is_set(command: Command) -> None:
     _, out, _ = command("world", *CHOSEN)
-    assert "The world of seed 3, level high, without base.x, camera, part_mass set\n" in out
+    assert (
+        "The world of seed 3, level high, without base.x, camera, part_mass set,\nunsourced scaled by 0.5\n"
+        in out
+    )
     rows = {line.split()[0]: " ".join(line.split()[1:]) for line in out.splitlines() if line.startswith("  ")}
     assert rows["camera.pot_noise"] == "0 deg off (noise, sigma 0.14 deg)"
-    assert rows["part_mass"] == "5 % set (sigma 4 %)"
-    assert rows["arm.friction.1"].endswith("N m within 0.2 N m about 0.4 N m")
+    assert rows["part_mass"] == "5 % set (sigma 2 %)"
+    assert rows["arm.friction.1"].endswith("N m within 0.1 N m about 0.4 N m")
+    assert rows["arm.friction.2"].endswith("N m within 0.4 N m about 0.8 N m")
 
 
 def test_the_page_on_worlds_shows_what_the_command_prints(command: Command) -> None:
@@ -177,13 +182,30 @@ def test_an_unknown_level_is_refused(command: Command) -> None:
     assert (code, "high" in err) == (2, True)
 
 
+@pytest.mark.parametrize(
+    ("scale", "told"),
+    [
+        ("unsourced", "`unsourced` scales nothing; write NAME=FACTOR"),
+        ("unsourced=2x", "`unsourced=2x` scales nothing; write NAME=FACTOR"),
+        ("unsourced=5", "`unsourced` cannot be scaled by 5.0: at the level nominal, by 0 to 4"),
+        ("base=2", "the world has no error in `base`, which could be scaled"),
+        ("camrea=2", "the world has no quantity `camrea`; did you mean `camera`?"),
+    ],
+)
+def test_a_scale_of_nothing_or_by_too_much_is_refused(command: Command, scale: str, told: str) -> None:
+    assert command("world", "--scale", scale) == (2, "", f"handeye: {told}\n")
+
+
 def test_a_world_can_be_chosen_again_by_its_words() -> None:
     errors = ErrorOptions(
-        level="high", without=["camera,arm", "base"], settings=["part_mass=5%", "friction=0"]
+        level="high",
+        without=["camera,arm", "base"],
+        settings=["part_mass=5%", "friction=0"],
+        scale=["unsourced=.5"],
     )
     assert WorldOptions(seed=3, errors=errors).words() == [
         "--seed", "3", "--level", "high", "--without", "camera,arm", "--without", "base",
-        "--set", "part_mass=5%", "--set", "friction=0",
+        "--set", "part_mass=5%", "--set", "friction=0", "--scale", "unsourced=.5",
     ]  # fmt: skip
     assert WorldOptions().words() == ["--seed", "0"]
 
@@ -210,7 +232,7 @@ def test_a_run_records_its_world_and_goes_on_in_it(command: Command, half_run: P
     code, out, _ = command("trace", "verify", str(half_run))
     assert (code, "to the byte" in out) == (0, True)
     assert (
-        "the world of seed 3, level high, without base.x, camera, part_mass set"
+        "the world of seed 3, level high, without base.x, camera, part_mass set, unsourced scaled by 0.5"
         in command("trace", "show", str(half_run))[1]
     )
 
@@ -218,7 +240,8 @@ def test_a_run_records_its_world_and_goes_on_in_it(command: Command, half_run: P
 @pytest.mark.slow
 def test_checkpoints_of_two_worlds_do_not_mix(command: Command, half_run: Path) -> None:
     code, _, err = command("run", "job.plan.json", "--seed", "3", "--stage", "2", "--checkpoints", "half")
-    told = "is of another run (seed 3, level high, without base.x, camera, part_mass set, camera auto) than this "
+    told = "is of another run (seed 3, level high, without base.x, camera, part_mass set, unsourced scaled by 0.5, "
+    told += "camera auto) than this "
     assert (code, told in err.replace("\n", " ")) == (2, True)
 
 
@@ -227,7 +250,9 @@ def test_checkpoints_of_two_worlds_do_not_mix(command: Command, half_run: Path) 
 def test_a_checkpoint_brings_its_own_world(command: Command, half_run: Path, words: tuple[str, str]) -> None:
     kept = next((half_run / "checkpoints").glob("0002-*"))
     code, _, err = command("do", "OPEN 1", "--from", str(kept), *words)
-    told = "brings its own world; --seed, --level, --without, --set and --fault do not go with --from\n"
+    told = (
+        "brings its own world; --seed, --level, --without, --set, --scale and --fault do not go with --from\n"
+    )
     assert (code, err) == (2, f"handeye: {kept} {told}")
 
 

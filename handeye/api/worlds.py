@@ -43,6 +43,7 @@ class World:
         level: Level = "nominal",
         without: Iterable[str] = (),
         set: Mapping[str, float | str] | None = None,
+        scale: Mapping[str, float] | None = None,
         faults: Iterable[str] = (),
         task: str = tasks.DEFAULT,
     ) -> None:
@@ -55,6 +56,8 @@ class World:
             set: values of quantities, or of each of a group: a number in the unit of the quantity, or a text with a
                 unit, as `".3 in"`. The quantities of a group may differ in their units: a number for `arm.friction` is
                 N m at joints that turn, and N at the one that slides.
+            scale: factors on errors, over that of the level, by the names of quantities or groups, or `unsourced`: all
+                whose sizes have no source.
             faults: what is broken, as `handeye faults --list` shows it: `NAME`, `NAME=VALUE`, or either with `@N`
                 behind it, where it sets in with stage N of the program.
             task: name of the task whose cell it is.
@@ -67,11 +70,17 @@ class World:
             raise NoSuchName(f"there is no level {level!r}; there are {', '.join(SPREADS)}")
         if not isinstance(set, Mapping | None):
             raise BadArgument(f"`set` is a table of values by the names of quantities, not {set!r}")
+        if not isinstance(scale, Mapping | None):
+            raise BadArgument(f"`scale` is a table of factors by the names of quantities, not {scale!r}")
         self._without, self._set = given_names(without, "`without`"), dict(set or {})
+        self._scale = dict(scale or {})
         self._faults = given_names(faults, "`faults`")
         self._table, self._task = tasks.task(task).variation(), task
         settings = [f"{name}={value}" for name, value in self._set.items()]
-        spec = WorldSpec(seed=number, level=level, overrides=overrides(self._table, self._without, settings))
+        scales = [f"{name}={factor}" for name, factor in self._scale.items()]
+        wanted = overrides(self._table, self._without, settings, scales)
+        spec = WorldSpec(seed=number, level=level, overrides=wanted)
+        self._table.check(spec)
         broken = world_options.faults(tasks.task(task).faults(spec), self._faults, by_number)
         self._spec = replace(spec, faults=broken)
 
@@ -162,6 +171,7 @@ class World:
         said += [f"level={self.spec.level!r}"] if self.spec.level != "nominal" else []
         said += [f"without={list(self._without)}"] if self._without else []
         said += [f"set={self._set}"] if self._set else []
+        said += [f"scale={self._scale}"] if self._scale else []
         said += [f"faults={list(self._faults)}"] if self._faults else []
         said += [f"task={self._task!r}"] if self._task != tasks.DEFAULT else []
         return f"World({', '.join(said)})"

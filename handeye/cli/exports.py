@@ -75,7 +75,7 @@ def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
         return initial_state(world.spec, world.work.name)
     if world.chosen:
         raise BadArgument(
-            f"{run} brings its own world; --seed, --level, --without and --set do not go with it"
+            f"{run} brings its own world; --seed, --level, --without, --set and --scale do not go with it"
         )
     exhibit, faults = kept_state(run)
     check_task(wanted, exhibit.task, run)

@@ -170,7 +170,7 @@ def run(
         spec = broken(world.spec, fault, world.work, plan.program)
         setup = Setup(plan=plan, world=spec, camera=camera, judged=judge, without=senses)
     elif wanted.chosen or fault or camera != "auto":
-        others = "--seed, --level, --without, --set, --fault and --camera"
+        others = "--seed, --level, --without, --set, --scale, --fault and --camera"
         raise BadArgument(f"{world_of} brings its own world; {others} do not go with --world-of")
     else:
         setup = in_world_of(world_of, plan, judged=judge)

@@ -59,6 +59,14 @@ class ErrorOptions:
             consume_multiple=False,
         ),
     ] = None
+    scale: Annotated[
+        list[str] | None,
+        Parameter(
+            help="NAME=FACTOR: errors of a quantity or group so much larger, or of all whose sizes have no source: "
+            "unsourced=2; may be repeated.",
+            consume_multiple=False,
+        ),
+    ] = None
 
     @property
     def work(self) -> "AnyTask":
@@ -82,8 +90,10 @@ class ErrorOptions:
             raise BadArgument(
                 f"`{lacking}` is a sense and no error of the world: here, no program can go without it"
             )
-        wanted = overrides(self.work.variation(), off, self.settings or ())
-        return WorldSpec(seed=seed, level=self.level, overrides=wanted)
+        wanted = overrides(self.work.variation(), off, self.settings or (), self.scale or ())
+        spec = WorldSpec(seed=seed, level=self.level, overrides=wanted)
+        self.work.variation().check(spec)
+        return spec
 
     @property
     def senses(self) -> tuple[Sense, ...]:
@@ -109,6 +119,7 @@ class ErrorOptions:
             *level,
             *without,
             *(word for setting in self.settings or () for word in ("--set", setting)),
+            *(word for scale in self.scale or () for word in ("--scale", scale)),
         ]
 
 

@@ -69,6 +69,7 @@ def _world(begun: RunStarted) -> Iterator[tuple[str, str]]:
     yield "level", world.level
     yield "switched off", ", ".join(world.overrides.without) or _NONE
     yield from ((name, written(quantities.get(name), value)) for name, value in world.overrides.set.items())
+    yield from ((f"scale of {name}", f"{factor:g}") for name, factor in world.overrides.scale.items())
     yield from ((f"fault {fault.name}", _fault(task, world, fault)) for fault in world.faults)
 
 

@@ -34,8 +34,14 @@ Seed = Annotated[int, msgspec.Meta(ge=0, le=LARGEST_SEED)]
 
 _LONG: Final = 10**40  # what has more digits is not repeated to a person
 
+UNSOURCED: Final = "unsourced"
+"""Stands, in a scale, for all quantities whose sizes have no source."""
+
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}  # factors on errors
+LARGEST_SCALE: Final = (
+    4.0  # of an error over its nominal size, level included: beyond it friction could be negative
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,6 +56,8 @@ class Quantity:
     where: tuple[str, float] | None = None
     """Name and value (SI) of the choice with which worlds have it; None: all have it."""
     source: str  # meaning, and source of its figures
+    unsourced: str = ""
+    """Why its size has no source, and what bounds it; empty where the size has one, or where it has none to have."""
 
     @property
     def measure(self) -> Unit:
@@ -75,6 +83,8 @@ class Overrides(Record, frozen=True, kw_only=True):
 
     without: tuple[str, ...] = ()  # quantities and groups at nominal values, sorted
     set: dict[str, float] = msgspec.field(default_factory=dict)  # values, SI; take precedence over `without`
+    scale: dict[str, float] = msgspec.field(default_factory=dict)
+    """Factors on errors, over that of the level, by quantity, group or `UNSOURCED`; the narrowest name counts."""
 
 
 class WorldSpec(Record, frozen=True, kw_only=True):
@@ -94,8 +104,9 @@ class WorldSpec(Record, frozen=True, kw_only=True):
         level = "" if self.level == "nominal" else f"level {self.level}"
         without = f"without {', '.join(self.overrides.without)}" if self.overrides.without else ""
         changed = f"{', '.join(self.overrides.set)} set" if self.overrides.set else ""
+        scaled = ", ".join(f"{name} scaled by {factor:g}" for name, factor in self.overrides.scale.items())
         broken = ", ".join(map(str, self.faults))
-        return ", ".join(filter(None, (f"seed {self.seed}", level, without, changed, broken)))
+        return ", ".join(filter(None, (f"seed {self.seed}", level, without, changed, scaled, broken)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,6 +140,7 @@ class Variation:
             "two share a stream"
         )
         assert not self.groups & self.quantities.keys(), "a name stands for a quantity and for a group"
+        assert UNSOURCED not in {*self.groups, *self.quantities}, "a name stands for all that have no source"
         choices = {q.name for q in quantities if isinstance(q.distribution, Choice)}
         assert {q.where[0] for q in quantities if q.where} <= choices, "one depends on what is no choice"
 
@@ -181,7 +193,23 @@ class Variation:
             return spec.overrides.set[name]
         if any(within(name, group) for group in spec.overrides.without):
             return quantity.nominal * quantity.measure.size
-        return drawn(quantity, spec.level, random_numbers(spec.seed, name))
+        return drawn(quantity, self.factor(quantity, spec), random_numbers(spec.seed, name))
+
+    def factor(self, quantity: Quantity, spec: WorldSpec) -> float:
+        """Size of a quantity's error over its nominal size."""
+        scale = spec.overrides.scale
+        mine = [name for name in scale if name != UNSOURCED and within(quantity.name, name)]
+        mine = mine or ([UNSOURCED] if quantity.unsourced and UNSOURCED in scale else [])
+        return SPREADS[spec.level] * (scale[max(mine, key=len)] if mine else 1.0)
+
+    def scalable(self, name: str) -> tuple[Quantity, ...]:
+        """The errors that a scale of a name changes; raises BadArgument if there are none."""
+        those = self.quantities.values() if name == UNSOURCED else self.select(name)
+        found = tuple(q for q in those if q.distribution.is_error and (name != UNSOURCED or q.unsourced))
+        if not found:
+            what = "no error without a source" if name == UNSOURCED else f"no error in {quoted(name)}"
+            raise BadArgument(f"the world has {what}, which could be scaled")
+        return found
 
     def check(self, spec: WorldSpec) -> None:
         """Raise BadArgument unless a world can be drawn here."""
@@ -199,6 +227,13 @@ class Variation:
             if name not in self.quantities:
                 raise BadArgument(f"{quoted(name)} is a group of quantities, which cannot have one value")
             self.quantities[name].check(spec.overrides.set[name])
+        most = LARGEST_SCALE / SPREADS[spec.level]
+        for name, factor in spec.overrides.scale.items():
+            self.scalable(name)
+            if type(factor) not in (int, float) or not 0 <= factor <= most:  # not a number is not between two
+                raise BadArgument(
+                    f"{quoted(name)} cannot be scaled by {factor!r}: at the level {spec.level}, by 0 to {most:g}"
+                )
 
 
 def within(name: str, group: str) -> bool:
@@ -206,12 +241,12 @@ def within(name: str, group: str) -> bool:
     return f"{name}.".startswith(f"{group}.")
 
 
-def drawn(quantity: Quantity, level: Level, stream: np.random.Generator) -> float:
-    """A quantity's value at a level of errors, drawn from its stream, SI."""
+def drawn(quantity: Quantity, factor: float, stream: np.random.Generator) -> float:
+    """A quantity's value, its error so large over its nominal size, drawn from its stream, SI."""
     distribution, nominal = quantity.distribution, quantity.nominal
     value = distribution.draw(stream, nominal)
-    if level != "nominal" and distribution.is_error:
-        value = nominal + SPREADS[level] * (value - nominal)
+    if factor != 1 and distribution.is_error:
+        value = nominal + factor * (value - nominal)
     return value * quantity.measure.size
 
 

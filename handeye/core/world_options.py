@@ -32,8 +32,13 @@ class WritableQuantity(Protocol):
         """Least and greatest value, in its own unit."""
 
 
-def overrides(variation: Variation, without: Iterable[str], settings: Iterable[str]) -> Overrides:
-    """Overrides from names to put at nominal values, and `NAME=VALUE`, of which later ones win; raises BadArgument."""
+def overrides(
+    variation: Variation, without: Iterable[str], settings: Iterable[str], scales: Iterable[str] = ()
+) -> Overrides:
+    """Overrides from names to put at nominal values, `NAME=VALUE` and `NAME=FACTOR`; later ones win.
+
+    Raises BadArgument.
+    """
     off, values = sorted(set(without)), dict[str, float]()
     names = [*off]
     for setting in settings:
@@ -44,9 +49,22 @@ def overrides(variation: Variation, without: Iterable[str], settings: Iterable[s
         variation.select(name, values)
     there = variation.present(values)
     widest = (name for name in off if not any(group != name and within(name, group) for group in off))
+    factors = dict(_scale(variation, scale) for scale in scales)
     return Overrides(
-        without=tuple(widest), set={name: values[name] for name in sorted(values) if name in there}
+        without=tuple(widest),
+        set={name: values[name] for name in sorted(values) if name in there},
+        scale=dict(sorted(factors.items())),
     )
+
+
+def _scale(variation: Variation, text: str) -> tuple[str, float]:
+    """Name of a quantity, a group or all that have no source, and the factor on its errors."""
+    name, equals, factor = (part.strip() for part in text.partition("="))
+    written = split_value(factor)
+    if not equals or written is None or written[1]:
+        raise BadArgument(f"{quoted(text)} scales nothing; write NAME=FACTOR")
+    variation.scalable(name)
+    return name, written[0]
 
 
 def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:

@@ -11,7 +11,7 @@ from rich.text import Text
 
 from handeye.core.distributions import Choice, Fixed, Noise, Normal, Range, Step, Uniform
 from handeye.core.resources import page
-from handeye.core.variation import SPREADS, Quantity, Variation, World, WorldSpec
+from handeye.core.variation import Quantity, Variation, World, WorldSpec
 
 
 class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
@@ -74,10 +74,10 @@ def _reported(table: Variation, world: World) -> Iterator[QuantityReport]:
             unit=quantity.unit,
             si=world[name],
             distribution=quantity.distribution.name,
-            spread=_spread(quantity, SPREADS[world.spec.level]),
+            spread=_spread(quantity, table.factor(quantity, world.spec)),
             nominal=quantity.nominal,
             override="set" if name in world.spec.overrides.set else given,
-            source=quantity.source,
+            source=quantity.source + (f" No source: {quantity.unsourced}" if quantity.unsourced else ""),
         )
 
 
@@ -96,15 +96,18 @@ def _spread(quantity: Quantity, factor: float) -> float | tuple[float, ...] | No
 
 def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
     """A line of the page, or two if it has not the columns; names have `width` of them."""
-    how = f"({_how(quantity)})" if quantity.override else _how(quantity)
+    drawn = f"({how(quantity)})" if quantity.override else how(quantity)
     row = Text(f"  {quantity.name.ljust(width)} {quantity.value:10.4g} {quantity.unit:5}")
     told = (
-        Text(" ").append(quantity.override or "", "yellow").append(" " * bool(quantity.override)).append(how)
+        Text(" ")
+        .append(quantity.override or "", "yellow")
+        .append(" " * bool(quantity.override))
+        .append(drawn)
     )
     return row.append("" if len(row) + len(told) <= columns else "\n     ").append(told)
 
 
-def _how(quantity: QuantityReport) -> str:
+def how(quantity: QuantityReport) -> str:
     """The distribution of a quantity, in words."""
     unit = quantity.unit and f" {quantity.unit}"
     about = f" about {quantity.nominal:g}{unit}" if quantity.nominal else ""

@@ -9,7 +9,16 @@ from hypothesis import strategies as st
 from handeye.core.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Step, Uniform
 from handeye.core.errors import InvalidInput
 from handeye.core.units import DEGREE, INCH
-from handeye.core.variation import DRAWING, Level, Overrides, Quantity, Variation, World, WorldSpec
+from handeye.core.variation import (
+    DRAWING,
+    UNSOURCED,
+    Level,
+    Overrides,
+    Quantity,
+    Variation,
+    World,
+    WorldSpec,
+)
 
 
 def quantity(name: str, distribution: Distribution, unit: str = "in", nominal: float = 0.0) -> Quantity:
@@ -186,3 +195,53 @@ def test_a_value_that_a_quantity_cannot_have_is_refused_wherever_it_comes_from(v
 def test_a_level_that_there_is_none_of_is_refused() -> None:
     with pytest.raises(InvalidInput, match="there is no level 'foo'; there are low, nominal, high"):
         TABLE.draw(WorldSpec(seed=1, level="foo"))  # type: ignore[arg-type]
+
+
+GUESSED = Variation(
+    *TABLE.quantities.values(),
+    Quantity(name="guess", unit="in", distribution=Normal(1.0), source="a test", unsourced="nobody knows"),
+)
+
+
+def scaled(seed: int, level: Level = "nominal", **scale: float) -> World:
+    names = {name.replace("_", "."): factor for name, factor in scale.items()}
+    return GUESSED.draw(WorldSpec(seed=seed, level=level, overrides=Overrides(scale=names)))
+
+
+@given(SEEDS)
+def test_a_scale_changes_the_size_of_its_errors_and_nothing_else(seed: int) -> None:
+    once, twice = scaled(seed), scaled(seed, unsourced=2.0)
+    assert differing(once, twice) == {"guess"}
+    assert twice["guess"] == pytest.approx(2 * once["guess"])
+
+
+@given(SEEDS)
+def test_of_two_scales_the_narrower_one_counts(seed: int) -> None:
+    once, both = scaled(seed), scaled(seed, camera=3.0, camera_place=0.5, guess=1.0, unsourced=4.0)
+    assert both["camera.place.x"] == pytest.approx(once["camera.place.x"] / 2)
+    assert both["camera.turn"] == pytest.approx(3 * once["camera.turn"])
+    assert both["guess"] == once["guess"]
+
+
+@given(SEEDS)
+def test_a_scale_of_two_is_the_high_level_of_what_it_names(seed: int) -> None:
+    assert scaled(seed, camera=2.0)["camera.turn"] == drawn(seed, "high")["camera.turn"]
+
+
+@pytest.mark.parametrize("factor", [-1.0, 4.1, float("nan"), float("inf"), "2", True])
+def test_a_factor_that_errors_cannot_have_is_refused(factor: float) -> None:
+    with pytest.raises(InvalidInput, match=r"^`slip` cannot be scaled by "):
+        scaled(1, slip=factor)
+    with pytest.raises(InvalidInput, match=r"at the level high, by 0 to 2$"):
+        scaled(1, "high", slip=2.5)
+
+
+@pytest.mark.parametrize("name", ["belt", "step", "start"])
+def test_what_is_no_error_cannot_be_scaled(name: str) -> None:
+    with pytest.raises(InvalidInput, match=f"^the world has no error in `{name}`, which could be scaled$"):
+        scaled(1, **{name: 2.0})
+
+
+def test_where_all_sizes_have_sources_none_can_be_scaled_for_having_none() -> None:
+    with pytest.raises(InvalidInput, match=r"^the world has no error without a source"):
+        TABLE.draw(WorldSpec(seed=1, overrides=Overrides(scale={UNSOURCED: 2.0})))

@@ -31,7 +31,9 @@ def world_of(words: list[str]) -> WorldSpec:
     for name, value in zip(words[::2], words[1::2], strict=True):
         told.setdefault(name, []).append(value)
     seed = int(told["--seed"][0])
-    changed = overrides(task().variation(), told.get("--without", []), told.get("--set", []))
+    changed = overrides(
+        task().variation(), told.get("--without", []), told.get("--set", []), told.get("--scale", [])
+    )
     level = told.get("--level", ["nominal"])[0]
     world = msgspec.convert({"seed": seed, "level": level, "overrides": changed}, WorldSpec)
     broken = faults(task().faults(world), told.get("--fault", []), from_start_only)
@@ -46,6 +48,7 @@ SEVEN = WorldSpec(seed=2**53 - 1, overrides=Overrides(set={"pump.screws": 7.0}))
     [
         WorldSpec(seed=7),
         WorldSpec(seed=3, level="high"),
+        WorldSpec(seed=3, overrides=Overrides(scale={"arm.wave": 1 / 3, "unsourced": 2.0})),
         WorldSpec(seed=3, overrides=Overrides(without=("arm.friction",), set={"camera.place.x": 0.00762})),
         WorldSpec(seed=3, overrides=Overrides(set={"camera.place.x": 0.1 + 0.2 - 0.3 + 1 / 300})),
         WorldSpec(

@@ -61,6 +61,8 @@ def world_words(world: WorldSpec, of: str) -> list[str]:
     words += [word for name in world.overrides.without for word in ("--without", name)]
     for name, value in world.overrides.set.items():
         words += ["--set", f"{name}={written(quantities.get(name), value)}"]
+    for name, factor in world.overrides.scale.items():
+        words += ["--scale", f"{name}={factor!r}"]
     return [*words, *(word for fault in world.faults for word in ("--fault", faults.written(fault)))]
 
 

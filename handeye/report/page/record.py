@@ -77,6 +77,8 @@ def _overrides(run: RecordedRun) -> Iterator[tuple[str, Content]]:
         yield "without", name
     for name, value in world.overrides.set.items():
         yield "set", f"{name} = {value:g} (SI)"
+    for name, factor in world.overrides.scale.items():
+        yield "scaled", f"{name} by {factor:g}"
 
 
 def _world(run: RecordedRun) -> Iterator[Markup]:

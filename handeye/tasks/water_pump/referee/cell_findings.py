@@ -57,13 +57,8 @@ def resting(left: SettledState, settled: SettledState, holes: tuple[Thread, ...]
     """Whether everything stays where it was left."""
     away = np.linalg.norm(settled.data.xpos - left.data.xpos, axis=1)
     away[[left.model.body(f"screw{hole.screw}").id for hole in holes if hole.screw is not None]] = 0.0
-    farthest = int(np.argmax(away))
-    name = left.model.body(farthest).name.removeprefix(ARM)
-    return {
-        "rest": mm(
-            float(away[farthest]), limits.REST, f"{name} from where it was left, when the cell has settled"
-        )
-    }
+    subject = "farthest that anything goes until the cell has settled"
+    return {"rest": _greatest(left, 1e3 * away, limits.REST, "mm", subject)}
 
 
 def made(left: SettledState, truth: Truth) -> Findings:
@@ -155,9 +150,18 @@ def _upright(measured: SettledState, bodies: Sequence[str], limit_deg: float, su
 
 def _speed(measured: SettledState, bodies: NDArray[np.intp], kind: str) -> Finding:
     """Greatest speed of some bodies."""
-    speeds = [measured.speed(int(body)) for body in bodies]
-    fastest = measured.model.body(bodies[int(np.argmax(speeds))]).name.removeprefix(ARM)
-    return at_most(1e3 * max(speeds), limits.STILL, "mm/s", f"speed of the fastest {kind}, {fastest}")
+    speeds = np.zeros(measured.model.nbody)
+    speeds[bodies] = [1e3 * measured.speed(int(body)) for body in bodies]
+    return _greatest(measured, speeds, limits.STILL, "mm/s", f"speed of the fastest {kind}")
+
+
+def _greatest(
+    measured: SettledState, values: NDArray[np.float64], limit: float, unit: str, subject: str
+) -> Finding:
+    """The greatest of values of the bodies; one beyond the limit is named."""
+    body = int(np.argmax(values))
+    name = measured.model.body(body).name.removeprefix(ARM)
+    return at_most(values[body], limit, unit, subject if values[body] <= limit else f"{subject}: {name}")
 
 
 def _hand(measured: SettledState, parts: Sequence[str]) -> Finding:

@@ -11,7 +11,7 @@ from typing import Final
 
 from handeye.core.distributions import Choice, Noise, Normal, Phase, Range, Uniform
 from handeye.core.variation import Quantity, Variation, WorldSpec
-from handeye.tasks.stanford_cell.arm_variation import MOST, arm, group, hand, rubbing
+from handeye.tasks.stanford_cell.arm_variation import DOUBLED, MOST, arm, group, hand, rubbing
 from handeye.tasks.water_pump.world.stations import stations
 
 BELT_X: Final = (41.5, 47.5)
@@ -44,7 +44,9 @@ def variation() -> Variation:
         *_make(), *_belt(), *arm(), *hand(),
         *group(
             "screwdriver", {"torque_noise": Noise(0.004)}, "N m",
-            "Noise of the screwdriver's motor current. Placeholder.",
+            "Noise of the screwdriver's motor current, as torque.",
+            unsourced="about a hundredth of the torque at which its clutch slips. Bound: .02 N m, the torque of a "
+            "clean thread, which the program feels.",
         ),
         *_camera(), *_light(), *_fixtures(), *_holes(), *_parts(),
     )  # fmt: skip
@@ -76,8 +78,9 @@ def _belt() -> Iterator[Quantity]:
 
 def _camera() -> Iterator[Quantity]:
     lenses = ("25mm", "50mm")
-    middle = (
-        "Where the middle of the lens is, against the drawing. Placeholder: the turret's own offset is one."
+    middle = "Where the middle of the lens is, against the drawing."
+    turret = (
+        f"sheets of lenses do not give the entrance pupil, and no drawing of the turret is known. {DOUBLED}"
     )
     aside = {way: Normal(0.1) for way in ("ahead", "side", "up")}
     return chain(
@@ -89,7 +92,7 @@ def _camera() -> Iterator[Quantity]:
             f"Focal length of each lens over that of the drawing. {_VISION}", least=-50.0),
         group("camera", {"pot_noise": Noise(0.07)}, "deg",
             "Noise of the pan and tilt readings. Vision study: .07-.10 reproduces 1973."),
-        *(group(f"camera.lens.{lens}", aside, "in", middle) for lens in lenses),
+        *(group(f"camera.lens.{lens}", aside, "in", middle, unsourced=turret) for lens in lenses),
         group("camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
             "Shape of the raster: how far a corner is drawn in, over its distance from the middle, and how far the "
             "middle of lines and of the field is off, over half their length. Honesty study, finding 10: 1 % at the "
@@ -121,8 +124,10 @@ def _fixtures() -> Iterator[Quantity]:
             {"x": Normal(0.02), "y": Normal(0.02), "z": Normal(0.01), "yaw": Normal(0.2), "pitch": Normal(0.1),
              "roll": Normal(0.1)},
             ("in", "in", "in", "deg", "deg", "deg"),
-            "Where the fixture stands against its drawing, how high, and how it tilts. Placeholder: set up with a "
-            "rule, a square and a spirit level.",
+            "Where the fixture stands against its drawing, how high, and how it tilts, set up with a rule, a square "
+            "and a spirit level. Sigma is what ISO 2768-1 allows in class m, which a third of them then exceed: .5 mm "
+            "over 120 to 400 mm, .3 mm of height over 30 to 120 mm, 20 minutes over 50 to 120 mm. A rule is divided to "
+            "1/64 in; a spirit level is good for .5 to 1 mm/m, .03 to .06 deg.",
         )  # fmt: skip
 
 
@@ -131,8 +136,10 @@ def _holes() -> Iterator[Quantity]:
         for hole in range(1, max(MAKES) + 1):
             yield from _of(hole, group(
                 f"holes.{part}.{hole}", {"x": Normal(0.0015), "y": Normal(0.0015)}, "in",
-                f"Where the screw hole of the {part} is against its drawing. Placeholder: drilled by jig, +-.003 in; "
-                "the base's are tapped, those of gasket and top drilled apart from them.",
+                f"Where the screw hole of the {part} is against its drawing. The base's are tapped, those of gasket "
+                "and top drilled apart from them.",
+                unsourced="no drawing of the pump is known; two sigma are +-.003 in, as a jig drills. Bound: +-.004 in "
+                "over 6 to 30 mm and +-.006 in over 30 to 120 mm, class f of ISO 2768-1.",
             ))  # fmt: skip
 
 
@@ -145,7 +152,11 @@ def _parts() -> Iterator[Quantity]:
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
     numbers = range(1, max(MAKES) + 1)
-    masses = "Masses of base and top over those of the drawing. Placeholder."
+    masses = "Masses of base and top over those of the drawing."
+    cast = (
+        "no drawing of the castings is known. Bound: 10 to 15 %, which foundries allow for the thickness of walls in "
+        "sand (Badger Iron Works)."
+    )
     starts = "Where the thread of a screw hole starts."
     return chain(
         *(group(f"parts.{part}", off, ("in", "in", "deg"), stood) for part in STOOD),
@@ -153,7 +164,8 @@ def _parts() -> Iterator[Quantity]:
         *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
             "Turn of the screwdriver in its guides. What their play allows beside its place.", greatest=0.6),
-        [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses)],
+        [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses,
+                  unsourced=cast)],
         rubbing(RUBBING),
         *(_of(k, group("thread_phase", {str(k): Phase()}, "deg", starts)) for k in numbers),
     )  # fmt: skip

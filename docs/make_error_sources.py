@@ -1,0 +1,67 @@
+"""Writes the tables in docs/error_sources.md from the pump's quantities; what stands above them is written by people.
+
+python docs/make_error_sources.py
+"""
+
+import sys
+from collections.abc import Iterator
+from itertools import groupby, takewhile
+from pathlib import Path
+from typing import Final
+
+ROOT = Path(__file__).parent.parent
+sys.path.insert(0, str(ROOT))
+
+from handeye.core.variation import Quantity, WorldSpec  # noqa: E402
+from handeye.results.world_page import how, report  # noqa: E402
+from handeye.tasks.water_pump.world.variation import variation  # noqa: E402
+
+PAGE: Final = ROOT / "docs" / "error_sources.md"
+MARK: Final = "<!-- Below: docs/make_error_sources.py -->\n"
+
+
+def page() -> str:
+    """The page, its tables made anew."""
+    return PAGE.read_text(encoding="utf-8").partition(MARK)[0] + MARK + "".join(_tables())
+
+
+def _tables() -> Iterator[str]:
+    table = variation()
+    world = table.draw(WorldSpec(seed=0))
+    told = {quantity.name: how(quantity) for quantity in report(table, world).quantities}
+    there = list(table.present({}).values())
+    without = sum(bool(quantity.unsourced) for quantity in there)
+    yield f"\nOf {len(there)} quantities of a pump's world, {without} have sizes without a source.\n"
+    yield "\n## Without a source\n\n| quantities | size | what | why there is none, and a bound |\n|---|---|---|---|\n"
+    for those in _rows([quantity for quantity in there if quantity.unsourced]):
+        yield f"| {_names(those)} | {_sizes(those, told)} | {those[0].source} | {_sentence(those[0].unsourced)} |\n"
+    yield "\n## With a source, or with no size that could have one\n\n"
+    yield "| quantities | size | what, and where from |\n|---|---|---|\n"
+    for those in _rows([quantity for quantity in there if not quantity.unsourced]):
+        yield f"| {_names(those)} | {_sizes(those, told)} | {those[0].source} |\n"
+
+
+def _rows(quantities: list[Quantity]) -> Iterator[list[Quantity]]:
+    for _, those in groupby(quantities, lambda quantity: (quantity.source, quantity.unsourced)):
+        yield list(those)
+
+
+def _names(those: list[Quantity]) -> str:
+    """The group of some quantities and their number, or the name of one."""
+    if len(those) == 1:
+        return f"`{those[0].name}`"
+    words = zip(*(quantity.name.split(".") for quantity in those), strict=False)
+    common = [each[0] for each in takewhile(lambda each: len({*each}) == 1, words)]
+    return f"`{'.'.join(common)}`, {len(those)}"
+
+
+def _sizes(those: list[Quantity], told: dict[str, str]) -> str:
+    return "; ".join(dict.fromkeys(told[quantity.name] for quantity in those))
+
+
+def _sentence(text: str) -> str:
+    return text[0].upper() + text[1:]
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
