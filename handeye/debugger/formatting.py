@@ -66,7 +66,7 @@ def _standing(reply: Reply) -> str:
 def summary_lines(did: Sequence[StepSummary], most: int | None = None) -> list[str]:
     """Summarize the executed steps as lines of text, at most the last `most`."""
     left_out = 0 if most is None else max(0, len(did) - most)
-    head = [f"      … {counted(left_out, 'line')} before" if left_out else ""][: left_out and 1]
+    head = [f"      … {counted(left_out, 'line')} before these" if left_out else ""][: left_out and 1]
     return head + [told_row(step) for step in did[left_out:]]
 
 

@@ -179,7 +179,7 @@ def test_of_a_long_way_the_last_lines_are_told(say: Say) -> None:
     reply = say("s 2")[0]
     many = msgspec.structs.replace(reply, did=reply.did[1:2] * 30 + reply.did[2:])
     assert as_text(many, most=24).splitlines()[:2] == [
-        "      … 7 lines before",
+        "      … 7 lines before these",
         "    4 OPEN .5                        gap 0.50 in",
     ]
     assert len(as_text(many).splitlines()) == 7 + len(as_text(many, most=24).splitlines()) - 1
