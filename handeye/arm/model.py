@@ -21,6 +21,11 @@ class GraspModel:
     speed: float  # m/s of the opening, free
     centring: float  # m/s of the opening while centring
     settle: int  # servo periods pressed before the gap is read; half of them after centring
+    give: float = 0.004  # m by which the fingers must be held up to press with all the force allowed; chosen
+
+    def lag(self, force: float, grip: float) -> float:
+        """m by which the set-point of the gap is ahead of fingers that press with a force, of `grip` at most (N)."""
+        return self.give * force / grip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,7 +16,6 @@ from handeye.cell.state import finite
 from handeye.core.record import Record
 from handeye.ports.workcell import HandPort, HandReading, LampPort, ScrewdriverPort
 
-_GIVE: Final = 0.004  # m by which the fingers must be held up to press with all the force allowed. Chosen.
 _LAG: Final = 0.03  # s, time constant of the finger servo. Assembly study: 60 N s/m over 2000 N/m.
 
 
@@ -50,7 +49,11 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         noise: np.random.Generator,
         lines: SignalLines = SOUND,
     ) -> None:
-        """A hand at rest; lines: `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y` and `.minus_y`."""
+        """A hand at rest.
+
+        Its lines: `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y` and `.minus_y`; `switch_force.plus_y` and
+        `.minus_y`, by how many times its force a switch fires at; and `switches`, at whose 1 the two are exchanged.
+        """
         self.name = f"{prefix}hand"
         self._model, self._data = model, data
         self._hand, self._errors, self._noise, self._lines = hand, errors, noise, lines
@@ -87,7 +90,8 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         gap, grip = self._command
         goal = min(max(gap, 0.0), self._hand.gap_max)
         here, step = self._reading.gap, self._hand.gap_speed * seconds
-        start = min(max(self._set_point, here - _GIVE), here + _GIVE)
+        give = self._hand.grasp.give
+        start = min(max(self._set_point, here - give), here + give)
         if (goal - here) * (start - here) < 0 and abs(start - here) > step:
             start = here
         moved = min(max(goal - start, -step), step)
@@ -103,9 +107,9 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         The actuator goes by the true gap, which the servo does not know: its set-point is off as the reading is,
         and ahead by what the servo lags.
         """
-        model, motor = self._model, self._motor
-        model.actuator_gainprm[motor, 0] = grip / _GIVE
-        model.actuator_biasprm[motor, 1:3] = (-grip / _GIVE, -grip / _GIVE * _LAG)
+        model, motor, stiffness = self._model, self._motor, grip / self._hand.grasp.give
+        model.actuator_gainprm[motor, 0] = stiffness
+        model.actuator_biasprm[motor, 1:3] = (-stiffness, -stiffness * _LAG)
         model.actuator_forcerange[motor] = (-grip, grip)
         self._data.act[self._act] = start + rate * _LAG - (self._reading.gap - self.gap)
         self._data.ctrl[motor] = rate
@@ -114,14 +118,17 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         errors, noise = self._errors, self._noise.standard_normal()
         gap = self.gap * (1 + errors.gap_scale) + errors.gap_offset + errors.gap_noise * noise
         gap = self._lines.carried("gap_potentiometer", gap)
+        first, second = self._told("plus_y", 0), self._told("minus_y", 1)
+        exchanged = bool(self._lines.carried("switches", 0.0))
         self._reading = HandReading(
             gap=converted(gap, errors.gap_step),
-            touch=(self._told("plus_y", 0), self._told("minus_y", 1)),
+            touch=(second, first) if exchanged else (first, second),
         )
 
     def _told(self, finger: str, number: int) -> bool:
         """State of a finger's switch as it is read."""
-        closed = self._data.sensordata[self._switches[number]] > self._errors.switch_force[number]
+        force = self._errors.switch_force[number] * self._lines.carried(f"switch_force.{finger}", 1.0)
+        closed = self._data.sensordata[self._switches[number]] > force
         return bool(self._lines.carried(f"finger_switch.{finger}", float(closed)))
 
     def state(self) -> HandState:

@@ -111,11 +111,11 @@ ERRORS: Final[dict[int, str]] = {
     GASKET_WRONG: "the gasket is not on properly",
     PART_ASTRAY: "the part does not stand as it stood in the earlier picture",
     SWITCH_WRONG: "a finger switch does not tell what its finger touches",
-    GAP_WRONG: "the gap does not follow its drive: its potentiometer fails, or something holds the fingers",
+    GAP_WRONG: "the gap is not that of the fingers: its potentiometer fails, or something holds them",
     FORCE_WRONG: "the hand feels a force in free air: something touches it, the load is not as declared, "
     "or the force sense or a drive fails",
     JOINT_SENSE_WRONG: "the potentiometer and the tachometer of a joint disagree: one of them fails",
-    CURRENT_WRONG: "the screwdriver runs, and its motor current shows nothing",
+    CURRENT_WRONG: "the current of the screwdriver's motor is not that of its torque and speed",
     PICTURE_WRONG: "the camera gives a picture that is not a live one",
     JOINT_STIFF: "a joint alone does not follow its drive: its drive, its brake or its friction is not as it was",
 }

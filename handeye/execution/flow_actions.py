@@ -115,7 +115,7 @@ def load(run: ExecutionContext, operation: Load) -> None:
 
 def tool(run: ExecutionContext, operation: Tool) -> None:
     """Run the screwdriver."""
-    run.drive.state.tool, run.drive.state.current = operation.speed, 0.0
+    run.drive.state.tool, run.drive.state.current, run.drive.state.starting = operation.speed, 0.0, []
 
 
 def nothing(_: ExecutionContext, __: Operation) -> None:

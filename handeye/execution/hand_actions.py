@@ -15,14 +15,27 @@ from handeye.program.diagnosis.causes import (
     GapStill,
     GapTooLarge,
     GapTooSmall,
+    GapUnlike,
     NothingBetween,
     SwitchesClosed,
+    SwitchesCrossed,
+    SwitchesHard,
     SwitchesOpen,
 )
 from handeye.program.motion_operations import Center, Close, Open
 from handeye.program.operation import Operation
 from handeye.touch.centring import Centring
-from handeye.touch.senses import FREE_OPENING, GAP_ERROR, at_least, at_most, followed, least_gap, stood_still
+from handeye.touch.senses import (
+    FREE_OPENING,
+    GAP_ERROR,
+    SWITCH_FORCE,
+    at_least,
+    at_most,
+    followed,
+    least_gap,
+    stood_still,
+    thick,
+)
 
 _SHUT: Final = -0.02  # gap set-point, m, beyond any closed gap: the fingers press with full force
 
@@ -90,10 +103,17 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
         outcome = drive.shift(here, X_WT)
         if outcome.error is not None:
             return Fault(number=outcome.error, cause=outcome.cause)
-    drive.hold(grasp.settle // 2)
-    still = _still(run, start, _driven(start, drive.state.gap))
+    driven = _driven(start, drive.state.gap)
+    drive.hold(1)
+    if not centring.error:
+        drive.state.gap = drive.sensed.gap - grasp.lag(SWITCH_FORCE, drive.state.grip)
+    drive.hold(grasp.settle // 2 - 1)
+    still = _still(run, start, driven)
     if still is not None:
         return still
+    if centring.error == errors.SWITCH_WRONG:
+        touch = drive.sensed.touch
+        return _switch_wrong(SwitchesCrossed(fingers=touch, moved=round(centring.eased, 6)))
     least = least_gap(operation.minimum)
     if centring.error and "touch" not in run.without:
         gap = (
@@ -105,7 +125,11 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
     run.state.finger_line = (
         np.zeros(3) if "touch" in run.without else line
     )  # without touch it measures nothing
-    return _thick_enough(run, least)
+    thin = _thick_enough(run, least)
+    first, second = _touch(run)
+    if thin is None and "touch" not in run.without and not (first and second):
+        return _switch_wrong(SwitchesHard(fingers=(not first, not second), force=round(SWITCH_FORCE, 6)))
+    return thin
 
 
 def _touch(run: ExecutionContext) -> tuple[bool, bool]:
@@ -148,6 +172,11 @@ def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault |
         return thin
     if not touching and at_least(gap, GAP_ERROR):
         return _switches_open(run)
+    held = next(
+        (held for held in run.plan.program.held.items() if run.state.place in held[1].positions), None
+    )
+    if held is not None and held[1].thickness is not None and not thick(gap, held[1].thickness):
+        return _gap_wrong(GapUnlike(gap=round(gap, 6), thickness=held[1].thickness, held=held[0]))
     if maximum is not None and not at_most(gap, maximum):
         return Fault(number=errors.WRONG_THICKNESS, cause=GapTooLarge(gap=round(gap, 6), maximum=maximum))
     return None

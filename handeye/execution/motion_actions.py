@@ -26,9 +26,11 @@ from handeye.planning.motions import (
 )
 from handeye.program.diagnosis.causes import (
     CurrentSilent,
+    CurrentUnlike,
     GuardsUnmet,
     HeightOutside,
     HeightUnknown,
+    MotorSlow,
     TravelOutside,
 )
 from handeye.program.events import Adjusted, GuardFaint, GuardTripped, Restored
@@ -36,7 +38,7 @@ from handeye.program.guards import GuardKind, Guards, unmet
 from handeye.program.motion_operations import Change, Height, Move, Travel, Turn
 from handeye.program.operation import Operation
 from handeye.touch.guards import monitor
-from handeye.touch.senses import STARTING_TORQUE
+from handeye.touch.senses import CURRENT_NOISE, STALLED_TORQUE, STARTING_PERIODS, STARTING_TORQUE
 
 PLAN_TOLERANCE: Final = 1e-4  # a goal or start within this (m, rad) of its planned value is run as planned
 
@@ -54,7 +56,7 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
         run.emit(
             Restored(time=run.time, name=restore.name, goal=operation.goal, difference=vector(difference))
         )  # fmt: skip
-    run.state.goal = X_WT[:3, 3].copy()
+    run.state.goal, run.state.place = X_WT[:3, 3].copy(), operation.goal
     if operation.searching and run.state.search is not None:
         X_WT = translated(X_WT, (*run.state.search.offset(run.search), 0.0))
         run.state.search.around = operation.goal
@@ -166,13 +168,34 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
         run.emit(
             GuardTripped(time=run.time, guard=trip.guard, value=round(trip.value, 6), limit=round(trip.limit, 6))
         )  # fmt: skip
+    kinds = tuple(guard.kind for guard in guards)
+    if GuardKind.TORQUE in kinds and run.drive.state.tool:
+        doubted = _motor(run)
+        if doubted is not None:
+            return Fault(number=errors.CURRENT_WRONG, cause=doubted)
+    if outcome.trip is not None or not guards:
         return None
-    if not guards:
-        return None
-    kinds, drive = tuple(guard.kind for guard in guards), run.drive.state
-    if GuardKind.TORQUE in kinds and drive.tool and drive.current < STARTING_TORQUE:
-        return Fault(number=errors.CURRENT_WRONG, cause=CurrentSilent(torque=round(drive.current, 6)))
     return Fault(number=unmet(guards), cause=GuardsUnmet(guards=kinds))
+
+
+def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow | None:
+    """Check the current of the screwdriver's motor against the torques that are known, of its start and of its clutch.
+
+    It may start against something, and takes more then; it never takes less, nor more than its clutch lets through.
+    """
+    drive, least = run.drive.state, STARTING_TORQUE - 4 * CURRENT_NOISE / math.sqrt(STARTING_PERIODS)
+    if drive.current > STALLED_TORQUE + 5 * CURRENT_NOISE:
+        return CurrentUnlike(torque=round(drive.current, 6), known=STALLED_TORQUE)
+    if len(drive.starting) < STARTING_PERIODS:
+        return None
+    first, mean = drive.starting[0], sum(drive.starting) / STARTING_PERIODS
+    if mean >= least:
+        return None
+    if drive.current < 2 * CURRENT_NOISE:
+        return CurrentSilent(torque=round(drive.current, 6))
+    if first >= least:
+        return MotorSlow(share=round(mean / STARTING_TORQUE, 3))
+    return CurrentUnlike(torque=round(mean, 6), known=STARTING_TORQUE)
 
 
 def travel(run: ExecutionContext, operation: Travel) -> Fault | None:

@@ -23,6 +23,7 @@ from handeye.execution.state import DriveState
 from handeye.execution.undo.way import Track
 from handeye.ports.workcell import Sensed, Workcell
 from handeye.touch.guards import ActiveGuard, Reading
+from handeye.touch.senses import STARTING_PERIODS, leapt
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -182,6 +183,11 @@ class Servo:
         self.state.cut = sensed.braked and tau is not None
         if self.state.tool:
             self.state.current = max(self.state.current, abs(sensed.tool_torque))
+            if len(self.state.starting) < STARTING_PERIODS:
+                self.state.starting = [*self.state.starting, abs(sensed.tool_torque)]
+        reach = self.arm.hand.gap_speed * periods * self.period
+        if self.state.leapt is None and leapt(sensed.gap - before.gap, reach):
+            self.state.leapt = before.gap, sensed.gap
         if feel is not None and not halted:
             feel(sensed)
         unfelt = feel is None or taring or halted or sensed.braked  # no drive tells what brakes bear

@@ -131,6 +131,10 @@ class DriveState(MutableRecord, kw_only=True):
     """Link weights by the arm's own weighing over the model's, shape (n,); None: not weighed."""
     tool: float = 0.0  # screwdriver speed, rad/s
     current: float = 0.0  # its greatest torque since that speed was set, N m
+    starting: list[float] = msgspec.field(default_factory=list)
+    """Its torques in the first servo periods since then, N m."""
+    leapt: tuple[float, float] | None = None
+    """Gaps (m) before and after a servo period in which the gap changed more than fingers can move."""
     magnet: bool = True  # the magnet of its bit is on
     lamp: bool = False
     cut: bool = False  # the watchdog has cut the drives and set the brakes
@@ -172,6 +176,7 @@ class ExecutionState(SystemState, kw_only=True):
     restored: dict[str, Array] = msgspec.field(default_factory=dict)  # added to the goal of the last Move
     goal: Array = msgspec.field(default_factory=lambda: np.zeros(3))
     """Goal of the last Move without search offset, W, m."""
+    place: str = ""  # its name
     travel: float = 0.0  # m, of the last straight motion
     finger_line: Array | None = None  # unit vector, if the last action was a Center
     grasping: bool = False  # the fingers were last closed

@@ -5,8 +5,9 @@ joined by planned motions, make the plan.
 """
 
 from collections.abc import Collection
+from typing import Annotated
 
-from msgspec import field
+from msgspec import Meta, field
 
 from handeye.core.errors import ERRORS
 from handeye.core.obb import Box
@@ -111,11 +112,13 @@ class Fixture(Record, frozen=True, kw_only=True):
     boxes: tuple[Box, ...]
 
 
-class Held(Record, frozen=True, kw_only=True):
+class Held(Record, frozen=True, kw_only=True, omit_defaults=True):
     """An object that the hand holds after closing at one of `positions`, as boxes in the hand frame T."""
 
     positions: tuple[str, ...]
     boxes: tuple[Box, ...]
+    thickness: Annotated[float, Meta(gt=0)] | None = None
+    """The gap of fingers that hold it there, as drawn, m; None: not known."""
 
 
 class Program(Record, frozen=True, kw_only=True, omit_defaults=True):

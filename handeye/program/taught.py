@@ -99,9 +99,11 @@ class HeldTable(msgspec.Struct, forbid_unknown_fields=True):
 
     positions: tuple[str, ...]
     boxes: tuple[Box, ...]
+    thickness: float | None = None
 
     def si(self) -> Held:
-        return Held(positions=self.positions, boxes=_boxes(self.boxes))
+        thick = None if self.thickness is None else self.thickness * INCH
+        return Held(positions=self.positions, boxes=_boxes(self.boxes), thickness=thick)
 
 
 Entry = TypeVar("Entry", PositionTable, PartTable, FixtureTable, HeldTable)

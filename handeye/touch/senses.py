@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from handeye.core.pose import Array
-from handeye.core.units import INCH, OUNCE_FORCE, OUNCE_INCH
+from handeye.core.units import INCH, OUNCE_FORCE
 
 FREE_OPENING: Final = 0.12 * INCH
 """Opening after which a finger is clear of anything it touched, m.
@@ -26,8 +26,23 @@ By arithmetic, masses and mass centres of the links, drive gains and joint frict
 down, are felt as 6.1 N at most in 400 nominal worlds, at 15 places on the table, and as 8.9 N at the high level; the
 base's weight beyond its declared load adds 2 N there.
 """
-STARTING_TORQUE: Final = 3 * OUNCE_INCH
-"""Least torque shown by a starting motor, N m: it takes 7 ounce-inches, and its current wavers by .6."""
+SWITCH_FORCE: Final = 10 * OUNCE_FORCE
+"""Force with which fingers press that have been centred, N: both switches tell of it.
+
+They fire at 2 ounces, and at 4.4 at most (three times twice their stated spread of .4). One finger may bear 3 ounces
+less than the other: the arm holds the difference, and the gap is known to a step of its converter.
+"""
+GAP_OFFSET: Final = (
+    0.06 * INCH
+)  # m by which the gap may be off, as GAP_SCALE: three times twice its stated errors
+GAP_SCALE: Final = 0.03  # of the gap
+STARTING_TORQUE: Final = 0.05
+"""Torque of a starting motor, N m: 7 ounce-inches, until the spindle turns as fast as it should."""
+STALLED_TORQUE: Final = 0.37  # N m, at most: that of the clutch, and of the spindle beside it
+STARTING_PERIODS: Final = (
+    4  # servo periods that a motor takes to start at the speed of driving; measured: 4.2
+)
+CURRENT_NOISE: Final = 0.008  # N m, of a reading: twice the stated noise of the current
 
 
 def off_zero(force: Array) -> bool:
@@ -38,6 +53,17 @@ def off_zero(force: Array) -> bool:
 def followed(gap: float, goal: float) -> bool:
     """True if the gap is at its goal, m."""
     return abs(gap - goal) <= GAP_ERROR
+
+
+def leapt(change: float, reach: float) -> bool:
+    """True if the gap has changed by more than its motor drives the fingers in that time (m)."""
+    return abs(change) > reach + GAP_NOISE
+
+
+def thick(gap: float, thickness: float) -> bool:
+    """True if a gap can be that of fingers that hold an object of known thickness (m), between grips full and light,
+    straight or askew."""
+    return abs(gap - thickness) <= GAP_OFFSET + GAP_SCALE * thickness + SKEW
 
 
 def stood_still(change: float, driven: float) -> bool:

@@ -18,6 +18,7 @@ from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH, OUNCE_INCH
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.ports.workcell import ArmReading, HandReading
+from handeye.program.program import Held
 
 DOWN = "STOP [0 0 -12]\nCHANGE [0 0 -1] .5"
 
@@ -87,11 +88,28 @@ def test_fingers_that_hold_something_may_close_again() -> None:
     assert gripping("OPEN 2\nCENTER .1\nCLOSE .1", 1.0, lambda read: read).errors == []
 
 
-@pytest.mark.parametrize("word", ["CLOSE .1", "CENTER .1"])
-def test_switches_that_stay_open_on_something_are_told(word: str) -> None:
-    run = gripping(f"OPEN 2\n{word}", 1.0, lambda read: replace(read, touch=(read.touch[0], False)))
+def test_a_switch_that_stays_open_on_something_is_told() -> None:
+    run = gripping("OPEN 2\nCLOSE .1", 1.0, lambda read: replace(read, touch=(read.touch[0], False)))
     assert run.errors == [errors.SWITCH_WRONG]
     assert "the switch of the -y finger is open although something 1.00 in thick" in run.told
+
+
+def test_a_finger_that_the_hand_does_not_come_off_has_no_switch_of_its_own() -> None:
+    run = gripping("OPEN 2\nCENTER .1", 1.0, lambda read: replace(read, touch=(read.touch[0], False)))
+    assert run.errors == [errors.SWITCH_WRONG]
+    assert "the switch of the +y finger is still closed after the hand went 0.06 in to that side" in run.told
+    assert run.told.endswith("the switches are exchanged, or the other one stays open)")
+
+
+def test_a_switch_that_takes_far_too_much_force_is_told_when_the_fingers_press_lightly() -> None:
+    run = fake_run("OPEN 2\nCENTER .1")
+    hand = run.cell.hand
+    hand.thickness = lambda _: 1.0 * INCH
+    right = hand.read
+    # closed while the fingers go on closing, and open when they only press with what is left
+    hand.read = lambda: replace(right(), touch=(right().touch[0], hand.goal < hand.gap - 2e-4))  # type: ignore[method-assign]
+    assert run.go().errors == [errors.SWITCH_WRONG]
+    assert "the switch of the -y finger is open although the fingers press with 10 oz" in run.told
 
 
 def test_fingers_that_close_on_nothing_are_no_matter_of_the_switches() -> None:
@@ -113,6 +131,26 @@ def test_a_gap_that_stays_as_the_hand_closes_is_told(word: str) -> None:
     run = gripping(f"OPEN 2\n{word}", 1.0, lambda read: replace(read, gap=2.0 * INCH))
     assert run.errors == [errors.GAP_WRONG]
     assert "the gap still reads 2.00 in" in run.told
+
+
+def test_a_gap_that_changes_faster_than_fingers_move_is_told() -> None:
+    run = fake_run("OPEN 2\nOPEN 2.1")
+    run.executor.step()
+    right = run.cell.hand.read
+    run.cell.hand.read = lambda: replace(right(), gap=1.15 * right().gap)  # type: ignore[method-assign]
+    run.executor.run.drive.hold(1)  # a step of its own sees the one before and after
+    run.cell.hand.read = lambda: replace(right(), gap=1.3 * right().gap)  # type: ignore[method-assign]
+    assert run.go().errors == [errors.GAP_WRONG]
+
+
+@pytest.mark.parametrize(("factor", "wrong"), [(0.85, True), (0.98, False), (1.05, False), (1.15, True)])
+def test_a_gap_that_is_not_that_of_what_is_held_is_told(factor: float, wrong: bool) -> None:
+    pin = Held(positions=("T",), boxes=(), thickness=1.0 * INCH)
+    run = fake_run("OPEN 2\nMOVE T\nCLOSE .1", held={"PIN": pin})
+    run.cell.hand.thickness = lambda _: factor * INCH  # as it is read
+    assert run.go().errors == [errors.GAP_WRONG] * wrong
+    if wrong:
+        assert run.told.endswith(f"in on PIN, which is 1.00 in thick there: {factor:.2f} times as much)")
 
 
 # -- force ----------------------------------------------------------------------------------------------
@@ -201,13 +239,43 @@ DRIVE = "MOVE T\nTOOL 190\nTORQUE 42\nCHANGE [0 0 -1] .2"
 def test_a_motor_that_shows_no_current_while_it_runs_is_told() -> None:
     run = fake_run(DRIVE).go()
     assert run.errors == [errors.CURRENT_WRONG]
-    assert run.told.startswith("the screwdriver runs, and its motor current shows nothing")
+    assert run.told.startswith(ERRORS[errors.CURRENT_WRONG])
 
 
 def test_a_motor_that_starts_and_meets_nothing_lacks_its_torque() -> None:
     run = fake_run(DRIVE)
     run.cell.screwdriver.load = 7 * OUNCE_INCH
     assert run.go().errors == [errors.NO_TORQUE]
+
+
+STARTS = [0.05] * 4 + [0.0] * 20
+"""Torques (N m) of a motor that starts and meets nothing."""
+
+
+@pytest.mark.parametrize(
+    ("torques", "told"),
+    [
+        ([0.5 * each for each in STARTS] + [0.185] * 999, "it shows 3.5 oz-in where the motor takes 7.1"),
+        (
+            [2 * each for each in STARTS] + [0.74] * 999,
+            "it shows 104.8 oz-in where the motor takes 52.4: 2.0 times",
+        ),
+        ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "it turns slower than it is told"),
+    ],
+)
+def test_a_current_that_is_not_that_of_a_known_torque_is_told(torques: list[float], told: str) -> None:
+    run = fake_run(DRIVE)
+    driver, shown = run.cell.screwdriver, iter(torques)
+    clock, last = run.cell.devices.clock, [0.0, -1.0]
+
+    def torque() -> float:
+        if driver.speed and clock.now > last[1]:
+            last[:] = next(shown), clock.now
+        return last[0] if driver.speed else 0.0
+
+    driver.torque = torque  # type: ignore[method-assign]
+    assert run.go().errors == [errors.CURRENT_WRONG]
+    assert told in run.told
 
 
 # -- the camera -----------------------------------------------------------------------------------------

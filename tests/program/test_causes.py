@@ -58,6 +58,28 @@ WORDS: list[tuple[c.Cause, str]] = [
         "the switches of both fingers are open although something 0.30 in thick holds the fingers apart",
     ),
     (
+        c.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
+        "the switch of the +y finger is still closed after the hand went 0.06 in to that side: the switches are "
+        "exchanged, or the other one stays open",
+    ),
+    (
+        c.SwitchesHard(fingers=(True, True), force=10 * OUNCE_FORCE),
+        "the switches of both fingers are open although the fingers press with 10 oz",
+    ),
+    (
+        c.GapJumped(gap=2.3 * INCH, before=2.0 * INCH),
+        "it read 2.00 in, and 2.30 in at once: no finger is so fast",
+    ),
+    (
+        c.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),
+        "it reads 1.15 in on PIN, which is 1.00 in thick there: 1.15 times as much",
+    ),
+    (
+        c.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),
+        "it shows 3.5 oz-in where the motor takes 7.0: 0.5 times as much",
+    ),
+    (c.MotorSlow(share=0.4), "the motor had started after 0.4 of its time: it turns slower than it is told"),
+    (
         c.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
         "the gap reads 0.50 in; the fingers were driven to 1.80 in",
     ),

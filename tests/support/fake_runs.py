@@ -17,7 +17,7 @@ from handeye.execution.executor import Executor
 from handeye.planning.planner import make_plan
 from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import ErrorRaised, Event, StepStarted
-from handeye.program.program import Part, Position
+from handeye.program.program import Held, Part, Position
 from handeye.program.taught import Taught
 from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.world.nominal import DRAWING
@@ -79,10 +79,14 @@ class FakeRun:
 
 
 def fake_run(
-    script: str, *, parts: dict[str, Part] | None = None, positions: dict[str, Position] | None = None
+    script: str,
+    *,
+    parts: dict[str, Part] | None = None,
+    positions: dict[str, Position] | None = None,
+    held: dict[str, Held] | None = None,
 ) -> FakeRun:
     """A script that knows the position T, and others besides, ready to go from there."""
-    taught = Taught(positions={"T": T, **(positions or {})}, parts=parts or {})
+    taught = Taught(positions={"T": T, **(positions or {})}, parts=parts or {}, held=held or {})
     program, diagnostics = compile_text(Source(name="fake.al", text=script), taught)
     assert program is not None, diagnostics
     plan, problems = make_plan(program, STANFORD, task="water_pump", start=AT_T)

@@ -2,9 +2,9 @@ from dataclasses import dataclass
 
 import pytest
 
-from handeye.core.errors import NOTHING_HELD
+from handeye.core.errors import NOTHING_HELD, SWITCH_WRONG
 from handeye.core.units import INCH, JIFFY
-from handeye.touch.centring import Centring
+from handeye.touch.centring import EASING, Centring
 from handeye.touch.senses import least_gap
 
 SPEED = 0.5 * INCH
@@ -54,12 +54,24 @@ def test_the_hand_moves_to_the_object_and_not_the_object_to_the_hand(off: float)
     assert bench.gap == pytest.approx(1.2 * INCH, abs=2 * TRAVEL)
 
 
-def test_the_finger_that_touched_first_stands_still_while_the_hand_moves() -> None:
+def test_the_finger_that_touched_first_comes_off_while_the_hand_moves() -> None:
     for touch, side in (((True, False), 1), ((False, True), -1)):
         step = Centring(speed=SPEED).step(touch=touch, gap=INCH, period=JIFFY)
         assert step.gap < 0
-        assert step.hand + side * step.gap / 2 == 0
-        assert step.hand * side > 0
+        assert step.hand * side > -step.gap / 2
+
+
+@pytest.mark.parametrize("off", [0.2 * INCH, -0.1 * INCH])
+def test_switches_that_are_exchanged_are_told_when_the_finger_that_touches_does_not_come_off(
+    off: float,
+) -> None:
+    bench = Bench(centre=off, width=1.2 * INCH)
+    told = bench.touch
+    bench.touch = lambda: told()[::-1]  # type: ignore[method-assign]
+    centring = Centring(speed=SPEED)
+    bench.run(centring)
+    assert centring.error == SWITCH_WRONG
+    assert abs(bench.centre - off) < 2 * EASING
 
 
 def test_both_fingers_close_while_none_touches() -> None:

@@ -17,8 +17,8 @@ from handeye.execution.state import ExecutedStep, ExecutionState, check_fits
 from handeye.execution.undo.way import packed
 
 REMEMBERED: Final = (
-    "pending", "checked", "saved", "heights", "counters", "search", "restored", "goal", "travel", "finger_line",
-    "grasping", "general", "world",
+    "pending", "checked", "saved", "heights", "counters", "search", "restored", "goal", "place", "travel",
+    "finger_line", "grasping", "general", "world",
 )  # fmt: skip
 Memory = dict[str, Any]  # by field of the state
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}

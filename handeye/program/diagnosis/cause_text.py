@@ -58,7 +58,8 @@ def cause_sentence(cause: Cause) -> str:
         case c.NothingBetween():
             return f"the fingers do not both touch anything; the gap is {_inches(cause.gap)}"
         case (
-            c.SwitchesClosed() | c.SwitchesOpen() | c.GapAstray() | c.GapStill() | c.ForceInAir()
+            c.SwitchesClosed() | c.SwitchesOpen() | c.SwitchesCrossed() | c.SwitchesHard() | c.GapAstray()
+            | c.GapStill() | c.GapJumped() | c.GapUnlike() | c.CurrentUnlike() | c.MotorSlow() | c.ForceInAir()
             | c.JointSensesApart() | c.JointAlone() | c.CurrentSilent() | c.PictureRepeated() | c.PictureBlank()
         ):  # fmt: skip
             return doubt_sentence(cause)
@@ -189,6 +190,28 @@ def doubt_sentence(cause: c.SenseCause) -> str:
         case c.SwitchesOpen():
             held = f"something {_inches(cause.gap)} thick holds the fingers apart"
             return f"{_switches(cause.fingers)} open although {held}"
+        case c.SwitchesCrossed():
+            still = f"still closed after the hand went {_inches(cause.moved)} to that side"
+            return (
+                f"{_switches(cause.fingers)} {still}: the switches are exchanged, or the other one stays open"
+            )
+        case c.SwitchesHard():
+            force = f"{cause.force / OUNCE_FORCE:.0f} oz"
+            return f"{_switches(cause.fingers)} open although the fingers press with {force}"
+        case c.GapJumped():
+            before, after = _apart(cause.before, cause.gap)
+            return f"it read {before} in, and {after} in at once: no finger is so fast"
+        case c.GapUnlike():
+            gap, thick = _apart(cause.gap, cause.thickness)
+            times = f"{cause.gap / cause.thickness:.2f} times as much"
+            return f"it reads {gap} in on {cause.held}, which is {thick} in thick there: {times}"
+        case c.CurrentUnlike():
+            told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
+            return f"it shows {told:.1f} oz-in where the motor takes {known:.1f}: {told / known:.1f} times as much"
+        case c.MotorSlow():
+            return (
+                f"the motor had started after {cause.share:.1f} of its time: it turns slower than it is told"
+            )
         case c.GapAstray():
             return f"the gap reads {_inches(cause.gap)}; the fingers were driven to {_inches(cause.goal)}"
         case c.GapStill():

@@ -136,6 +136,35 @@ class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
     gap: float
 
 
+class SwitchesCrossed(CauseRecord, frozen=True, kw_only=True):
+    """The switches of `fingers` stay closed although the hand has gone to that side by `moved` (m)."""
+
+    fingers: tuple[bool, bool]
+    moved: float
+
+
+class SwitchesHard(CauseRecord, frozen=True, kw_only=True):
+    """Switches of `fingers` are open although they press with `force` (N)."""
+
+    fingers: tuple[bool, bool]
+    force: float
+
+
+class GapJumped(CauseRecord, frozen=True, kw_only=True):
+    """The gap (m) has changed faster than the fingers can move."""
+
+    gap: float
+    before: float
+
+
+class GapUnlike(CauseRecord, frozen=True, kw_only=True):
+    """The gap (m) is not that of an object of known thickness (m), by its name in the taught file."""
+
+    gap: float
+    thickness: float
+    held: str
+
+
 class GapAstray(CauseRecord, frozen=True, kw_only=True):
     """The gap (m) is not what the fingers were driven to."""
 
@@ -174,6 +203,19 @@ class JointAlone(CauseRecord, frozen=True, kw_only=True):
     joint: JointName
     torque: float
     friction: float | None = None
+
+
+class CurrentUnlike(CauseRecord, frozen=True, kw_only=True):
+    """The motor showed this torque (N m), where a known one was."""
+
+    torque: float
+    known: float
+
+
+class MotorSlow(CauseRecord, frozen=True, kw_only=True):
+    """The motor had started after this share of the time that it takes."""
+
+    share: float
 
 
 class CurrentSilent(CauseRecord, frozen=True, kw_only=True):
@@ -330,7 +372,8 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
 
 SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part
 SenseCause = (
-    SwitchesClosed | SwitchesOpen | GapAstray | GapStill | ForceInAir | JointSensesApart | JointAlone | CurrentSilent
+    SwitchesClosed | SwitchesOpen | SwitchesCrossed | SwitchesHard | GapAstray | GapStill | GapJumped | GapUnlike
+    | CurrentUnlike | MotorSlow | ForceInAir | JointSensesApart | JointAlone | CurrentSilent
     | PictureRepeated | PictureBlank
 )  # fmt: skip
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown

@@ -111,6 +111,17 @@ def _switches() -> Iterator[DeviceFault]:
             side = "+y" if line.endswith("plus_y") else "-y"
             meaning = f"The switch of the {side} finger {tells}."
             yield _fault(f"{line}.stuck_{state}", meaning, line, stuck, expected)
+    yield _fault(
+        "finger_switch.swapped", "Either finger's switch tells of the other finger.", "switches", Stuck(1.0),
+        replace(expected, harmless="CENTER alone goes by which finger touches; both may touch at once."),
+    )  # fmt: skip
+    yield _fault(
+        "finger_switch.hard", "The switches of both fingers take so many times their force.",
+        ("switch_force.plus_y", "switch_force.minus_y"), GainEffect,
+        replace(expected, harmless="Up to five times its force a switch tells of fingers that press with ten ounces; "
+                "CENTER alone goes by a lighter touch."),
+        Size(unit="", usual=10.0, limits=(0.0, 100.0)),
+    )  # fmt: skip
 
 
 def _hand() -> Iterator[DeviceFault]:
@@ -119,6 +130,12 @@ def _hand() -> Iterator[DeviceFault]:
     yield _fault(
         f"{gap}.off", "The gap reads so much more than it is.", gap, OffsetEffect, expected,
         Size(unit="in", usual=0.5, limits=(-4.0, 4.0)),
+    )  # fmt: skip
+    yield _fault(
+        f"{gap}.factor", "The gap reads so many times what it is.", gap, GainEffect,
+        replace(expected, harmless="Parts are felt between fingers: a gap that is wrong by less than a tenth holds "
+                "them as well."),
+        Size(unit="", usual=1.15, limits=(0.1, 5.0)),
     )  # fmt: skip
     expected = ExpectedDetection(errors=(GAP_WRONG, NOTHING_HELD, FORCE_WRONG))
     yield _fault("finger_motor.dead", "The fingers press with nothing.", "finger_motor", DEAD, expected)
@@ -206,6 +223,20 @@ def _screwdriver() -> Iterator[DeviceFault]:
     yield _fault(
         f"{current}.dead", "The current of the screwdriver's motor reads zero, and so does its torque.", current, DEAD,
         ExpectedDetection(errors=(CURRENT_WRONG,)),
+    )  # fmt: skip
+    within = "A factor of 1.1 is within the noise of the current as the screw comes home, and .7 as the motor starts."
+    yield _fault(
+        f"{current}.factor", "The current of the screwdriver's motor reads so many times its torque.", current,
+        GainEffect,
+        ExpectedDetection(errors=(CURRENT_WRONG,), harmless=within), Size(unit="", usual=0.5, limits=(0.0, 10.0)),
+    )  # fmt: skip
+    yield _fault(
+        f"{motor}.slow", "The screwdriver's motor turns at so many times the speed that it is told.", motor, GainEffect,
+        ExpectedDetection(
+            errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
+            harmless="A screw that turns slower goes home as well; half the speed is told by a shorter start.",
+        ),
+        Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip
     yield _fault(
         f"{motor}.dead", "The screwdriver's motor never turns.", motor, DEAD,
