@@ -65,6 +65,15 @@ def gravity_and_jacobian(arm: ArmModel, q: Array) -> tuple[Array, Array]:
     return _bias(arm, links, None), tool_jacobian(arm, links.R, links.p)
 
 
+def link_weights(arm: ArmModel, q: Array) -> tuple[Array, Array]:
+    """Torques of joint j that bear link i, (..., i, j), and of these what the distance of its mass centre makes."""
+    links, k = _links(arm, q), constants(arm)
+    origins, _ = point_jacobian(arm, links.R, links.p, links.p[..., 1:, :])
+    of_distance = links.linear - origins * k.carried[:, :, None]
+    scale = GRAVITY * k.mass[:, None]
+    return links.linear[..., 2] * scale, of_distance[..., 2] * scale
+
+
 def _mass_matrix(arm: ArmModel, links: _Links) -> Array:
     k, linear, angular = constants(arm), links.linear, links.angular
     M = (linear * k.mass[:, None, None]) @ np.swapaxes(linear, -1, -2)

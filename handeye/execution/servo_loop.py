@@ -19,12 +19,14 @@ from handeye.arm.joint_drag import JointDrag, alone
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import constants
 from handeye.arm.samples import Samples
+from handeye.arm.torque_balance import TorqueBalance
 from handeye.core import errors
 from handeye.core.pose import Array, Pose, displaced, translated
 from handeye.execution.compliance import Course
 from handeye.execution.servo import Motion, Servo
 from handeye.program.diagnosis.causes import (
     Cause,
+    DrivesUnlike,
     ForceInAir,
     HandAstray,
     HandStuck,
@@ -98,8 +100,9 @@ class ServoLoop(Servo):
         direction: Array | None = None,
         beside: Callable[[int], None] = lambda _: None,
         drag: JointDrag | None = None,
+        balance: TorqueBalance | None = None,
     ) -> Motion[Outcome]:
-        """Follow set-points; end early when `guard` trips. `drag` takes down what torques that takes.
+        """Follow set-points; end early when `guard` trips. `drag` and `balance` take down what torques that takes.
 
         The guard looks along `direction`, unit vectors in W, shape (3,) or (N, 3); `beside` sets what else is put out
         in a servo period, by the number of its set-point.
@@ -133,6 +136,8 @@ class ServoLoop(Servo):
             self.state.q = samples.q[i]
             if drag is not None:
                 drag.step(spare, here.bias, self.sensed.qd)
+            if balance is not None:
+                balance.step(q, spare, self.sensed.qd)
             failed = self._doubted(sensors) or self._behind(met)
             if failed is not None:
                 return failed
@@ -152,12 +157,15 @@ class ServoLoop(Servo):
         """
         self.state.in_air = False
         drag = JointDrag(arm=self.arm)
-        outcome = yield from self.following(samples, guard, direction, drag=drag)
+        balance = TorqueBalance(arm=self.built, friction=self.state.friction)
+        outcome = yield from self.following(samples, guard, direction, drag=drag, balance=balance)
         if outcome.off > self.arm.servo.short / 2:  # far more than what lags on the way of a free arm
             yield from self.zeroing()
             return self._force_in_air()
         if outcome == REACHED and self.state.load <= LIGHT:
             outcome = self._dragging(drag) or REACHED
+        if outcome == REACHED and len(samples) and self.state.links is not None:
+            outcome = self._off_balance(balance) or REACHED
         self.state.in_air = outcome == REACHED
         return outcome
 
@@ -324,6 +332,18 @@ class ServoLoop(Servo):
             joint=self._named(stiff.joint), torque=round(stiff.torque, 6), friction=round(stiff.friction, 6)
         )
         return Outcome(error=errors.JOINT_STIFF, cause=cause)
+
+    def _off_balance(self, balance: TorqueBalance) -> Outcome | None:
+        """Compare the torques of a motion through free air with the weight of the arm, as it knows that by now."""
+        borne = jacobian(self.arm, balance.postures[len(balance.postures) // 2])[2] * self.state.load
+        self.state.weights, found = balance.weighed(self.state.weights, borne)
+        if found is None:
+            return None
+        cause = DrivesUnlike(
+            joints=tuple(map(self._named, found.joints)),
+            factors=tuple(round(each, 3) for each in found.factors),
+        )
+        return Outcome(error=errors.FORCE_WRONG, cause=cause)
 
     def _alone(self, met: Array) -> Outcome | None:
         """The error of the joint that alone keeps the arm from its set-point, unless a force at the hand does."""

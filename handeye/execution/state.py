@@ -129,6 +129,8 @@ class DriveState(MutableRecord, kw_only=True):
     load: float = 0.0  # compensated weight, N
     links: Array | None = None
     """Link weights by the arm's own weighing over the model's, shape (n,); None: not weighed."""
+    weights: Array | None = None
+    """What is not known of links and drives since, (3n, 1 + 3n), see `arm.torque_balance`; None: nothing more."""
     tool: float = 0.0  # screwdriver speed, rad/s
     current: float = 0.0  # its greatest torque since that speed was set, N m
     starting: list[float] = msgspec.field(default_factory=list)
@@ -158,7 +160,7 @@ class DriveState(MutableRecord, kw_only=True):
     def hold_anew(self, sensed: Sensed, arm: ArmModel) -> None:
         """Reset to hold the arm, keeping its measurements of itself."""
         anew = DriveState.holding(sensed, arm)
-        anew.friction, anew.links = self.friction, self.links
+        anew.friction, anew.links, anew.weights = self.friction, self.links, self.weights
         put_back(self, anew)
 
 
@@ -232,6 +234,7 @@ def _fits_sizes(state: ExecutionState, arm: ArmModel) -> bool:
     return (
         all(vector.shape == (3,) for vector in vectors)
         and all(values.shape == (len(arm.joints),) for values in joints if values is not None)
+        and (drive.weights is None or drive.weights.shape == (3 * len(arm.joints), 1 + 3 * len(arm.joints)))
         and all(values.shape == (6,) for values in (state.drive.tare, state.drive.wrench))
         and all(X.shape == (4, 4) for X in state.world.measured.values())
         and all(shot.picture.shape == (ROWS, COLUMNS) for shot in state.shots.values())

@@ -78,6 +78,10 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),
         "it shows 3.5 oz-in where the motor takes 7.0: 0.5 times as much",
     ),
+    (
+        c.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
+        "by the weight that it bears a drive gives more or less torque than it is told: that of the wrist 1.30 times",
+    ),
     (c.MotorSlow(share=0.4), "the motor had started after 0.4 of its time: it turns slower than it is told"),
     (
         c.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),

@@ -60,6 +60,7 @@ def cause_sentence(cause: Cause) -> str:
         case (
             c.SwitchesClosed() | c.SwitchesOpen() | c.SwitchesCrossed() | c.SwitchesHard() | c.GapAstray()
             | c.GapStill() | c.GapJumped() | c.GapUnlike() | c.CurrentUnlike() | c.MotorSlow() | c.ForceInAir()
+            | c.DrivesUnlike()
             | c.JointSensesApart() | c.JointAlone() | c.CurrentSilent() | c.PictureRepeated() | c.PictureBlank()
         ):  # fmt: skip
             return doubt_sentence(cause)
@@ -205,6 +206,10 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             gap, thick = _apart(cause.gap, cause.thickness)
             times = f"{cause.gap / cause.thickness:.2f} times as much"
             return f"it reads {gap} in on {cause.held}, which is {thick} in thick there: {times}"
+        case c.DrivesUnlike():
+            named = zip(cause.joints, cause.factors, strict=True)
+            gives = " and ".join(f"that of the {joint.name} {factor:.2f} times" for joint, factor in named)
+            return f"by the weight that it bears a drive gives more or less torque than it is told: {gives}"
         case c.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
             return f"it shows {told:.1f} oz-in where the motor takes {known:.1f}: {told / known:.1f} times as much"

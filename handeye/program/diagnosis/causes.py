@@ -205,6 +205,13 @@ class JointAlone(CauseRecord, frozen=True, kw_only=True):
     friction: float | None = None
 
 
+class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
+    """The drives of these joints give so many times the torque that they are told, or something bears on the hand."""
+
+    joints: tuple[JointName, ...]
+    factors: tuple[float, ...]
+
+
 class CurrentUnlike(CauseRecord, frozen=True, kw_only=True):
     """The motor showed this torque (N m), where a known one was."""
 
@@ -373,7 +380,7 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
 SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part
 SenseCause = (
     SwitchesClosed | SwitchesOpen | SwitchesCrossed | SwitchesHard | GapAstray | GapStill | GapJumped | GapUnlike
-    | CurrentUnlike | MotorSlow | ForceInAir | JointSensesApart | JointAlone | CurrentSilent
+    | CurrentUnlike | MotorSlow | DrivesUnlike | ForceInAir | JointSensesApart | JointAlone | CurrentSilent
     | PictureRepeated | PictureBlank
 )  # fmt: skip
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown

@@ -65,6 +65,12 @@ _WITHIN_DRIVES: Final = (
     "The drives overcome it, and what is pressed on is felt by less than its guard allows."
 )
 
+_WITHIN_WEIGHTS: Final = (
+    "Joints 2 and 3 alone bear weight, which the arm knows to 6 and to 17 %; what is wrong from the beginning is "
+    "weighed with its links."
+)
+_GAIN: Final = Size(unit="", usual=1.3, limits=(0.0, 3.0))
+
 Lines = Sequence[tuple[str, Callable[[float], Effect]]]
 """The lines that a fault breaks, and what it does to each, by its value."""
 DeviceFault = PumpFault[Lines]
@@ -198,11 +204,23 @@ def _joints() -> Iterator[DeviceFault]:
             Size(unit="%", usual=50.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
         yield _fault(
+            f"{drive}.factor", f"The drive {joint} gives so many times the torque that it is told.", drive, GainEffect,
+            ExpectedDetection(
+                errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True, harmless=_WITHIN_WEIGHTS,
+            ),
+            _GAIN,
+        )  # fmt: skip
+        yield _fault(
             f"brake.{number}.slips", f"So much is left of what the brake {joint} holds.", f"brake.{number}", GainEffect,
             replace(wrong, harmless="The brakes hold for as long as a picture takes, and the potentiometers tell where "
                     "the arm sank."),
             Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
+    yield _fault(
+        "drives.factor", "All drives give so many times the torque that they are told.",
+        [f"drive.{number}" for number in range(1, len(JOINT_UNITS) + 1)], GainEffect,
+        ExpectedDetection(errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True, harmless=_WITHIN_WEIGHTS), _GAIN,
+    )  # fmt: skip
     yield _fault(
         "servo.late", "The computer is late: no torque arrives at the drives for so many servo periods.", "servo",
         lambda periods: DropoutEffect(periods * JIFFY), ExpectedDetection(errors=(WATCHDOG,)),
