@@ -1,0 +1,62 @@
+"""Each command in the README's table can be typed as it stands there: with what is in brackets, and without."""
+
+import re
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from cyclopts import CycloptsError
+
+from handeye.cli import app
+
+README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
+TABLE = README.partition("## Commands")[2].partition("\n\nThe language")[0]
+ROWS = re.findall(r"^\| (`.*?`[^|]*) \|", TABLE, re.MULTILINE)
+FOR = {
+    "N": "3",
+    "DIR": "pump",
+    "FOLDER": "folder",
+    "STAGE": "pins",
+    "NAME": "insertion",
+    "FAULT": "base.absent",
+}
+"""Words that stand for others; a name with an ending is taken as it is."""
+
+
+def typed() -> Iterator[str]:
+    """The commands of the table, each as long and as short as it can be."""
+    for row in ROWS:
+        for quoted in re.findall(r"`(handeye [^`]*)`", row):
+            yield from dict.fromkeys((re.sub(r" ?\[[^\]]*\]", "", quoted), re.sub(r"[\[\]]", "", quoted)))
+
+
+def refused(command: str) -> str | None:
+    """What the command line finds wrong with a command, which is not carried out."""
+    words = [FOR.get(word, word) for word in shlex.split(command)[1:]]
+    try:
+        app.parse_args(words, exit_on_error=False, print_error=False)
+    except CycloptsError as error:
+        return str(error)
+    return None
+
+
+@pytest.mark.parametrize("command", list(typed()))
+def test_a_row_can_be_typed_as_it_stands(command: str) -> None:
+    assert refused(command) is None
+
+
+def test_the_table_holds_nothing_but_commands() -> None:
+    assert len(ROWS) > 30
+    loose = [
+        quoted
+        for row in ROWS
+        for quoted in re.findall(r"`([^`]*)`", row)
+        if not quoted.startswith("handeye ")
+    ]
+    assert loose == ["python -m benchmarks NAME"]
+
+
+def test_what_cannot_be_typed_is_seen() -> None:
+    assert refused("handeye trace export tables -o x")
+    assert refused("handeye trace thin DIR")
