@@ -417,11 +417,11 @@ DEFINE SWING GRIP OUT BACK
         SKIPN   2
         WAIT    "THE CRANK IS NOT WHERE IT WAS LEFT"
         OPEN    .44
-        STOP    20
+        STOP    18
         TURN    ROTOR OUT
         SKIPE   23              ;it should meet no such resistance
         WAIT    "THE ROTOR IS HARD TO TURN"
-        STOP    20
+        STOP    18
         TURN    ROTOR BACK
         SKIPE   23
         WAIT    "THE ROTOR IS HARD TO TURN"

@@ -1,4 +1,4 @@
-"""Step 11: the rotor is turned, and is to resist with less than 20 ounces.
+"""Step 11: the rotor is turned, and is to resist with less than 18 ounces.
 
 That a free one turns and meets nothing is in `test_whole_run`.
 """
