@@ -72,9 +72,10 @@ def _step(source: Source, draft: "_Draft") -> Step:
     length, column = statement.end - statement.start, text.column(start)
     modifiers = tuple([_place(source, modifier) for modifier in draft.modifiers]) if draft.modifiers else ()
     shown = text.text[start : start + length] if draft.line is None else draft.line.text
+    *outer, macro = draft.inside or ("",)
     return Step(
-        operation=draft.operation, stage=draft.stage, labels=draft.labels, macro=draft.macro, file=text.key,
-        line=statement.line, span=(column, column + length), text=shown,
+        operation=draft.operation, stage=draft.stage, labels=draft.labels, macro=macro,
+        call=outer[0] if outer else "", file=text.key, line=statement.line, span=(column, column + length), text=shown,
         modifiers=modifiers, next=draft.next,
     )  # fmt: skip
 
@@ -95,7 +96,7 @@ class _Draft(msgspec.Struct, gc=False):
     operation: AnyOperation | None
     modifier: ExpandedStatement | None  # the first one
     next: int | None  # the following draft
-    macro: str
+    inside: tuple[str, ...]  # the macros it stands in, outermost first
     reach: Call  # the call whose labels a jump sees
     line: FilledLine | None
     modifiers: Sequence[Statement] = ()  # modifiers that apply, and calls that give them operands
@@ -214,7 +215,7 @@ class _Lowerer:
             modifiers = (*modifiers, *dict.fromkeys(call for line in filled for call in line.calls))
         self.drafts.append(
             _Draft(
-                item.statement, item.call, self.stage, made, modifier, behind, item.macro,
+                item.statement, item.call, self.stage, made, modifier, behind, item.inside,
                 item.jumps_from, item.line, modifiers,
             )
         )  # fmt: skip

@@ -20,12 +20,17 @@ MAX_DEPTH: Final = 20
 
 
 class ExpandedStatement(msgspec.Struct, frozen=True, gc=False):
-    """A statement in the expanded program, never a macro call; `macro` is the one it stands in, or ""."""
+    """A statement in the expanded program, never a macro call; it stands in the macros `inside`, outermost first."""
 
     statement: Statement
     call: Call
-    macro: str
+    inside: tuple[str, ...]
     line: FilledLine | None = None  # with a call's operands filled in
+
+    @property
+    def macro(self) -> str:
+        """The macro it stands in, or ""."""
+        return self.inside[-1] if self.inside else ""
 
     @property
     def jumps_from(self) -> Call:
@@ -63,7 +68,7 @@ class _Frame(msgspec.Struct, frozen=True):
     by: Statement | None = None
 
     def placed(self, statement: Statement, line: FilledLine | None = None) -> ExpandedStatement:
-        return ExpandedStatement(statement, self.call, self.inside[-1] if self.inside else "", line)
+        return ExpandedStatement(statement, self.call, self.inside, line)
 
 
 @dataclass(slots=True)

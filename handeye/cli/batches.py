@@ -113,9 +113,8 @@ def assembly_trials(
     for limit in (simulated_limit, cpu_limit):
         if not 0 < limit < inf:
             raise BadArgument(f"a limit of time is a number of seconds above 0; {limit:g} is not")
-    senses, errors = errors.senses, errors.errors()
     record = plan_or_own(plan, errors.task)
-    errors = errors.of(record.task)
+    errors, spared = errors.of(record.task).apart(record.program.calls)
     world = broken(errors.spec(chosen[0]), fault, errors.work, record.program)
     planned(errors.work).check_arm(record)
     if parse_policy(on_stop, record.program.stages) is None:
@@ -126,7 +125,7 @@ def assembly_trials(
         plan=record,
         world=world,
         camera=camera_here(camera),
-        without=senses,
+        without=spared,
         on_stop=on_stop,
         simulated_limit_s=simulated_limit,
         cpu_limit_s=cpu_limit,
@@ -137,7 +136,7 @@ def assembly_trials(
         if following
         else f"{counted(len(chosen), 'world')} by name, from {world} on"
     )
-    lacking = f", without {', '.join(senses)}" if senses else ""
+    lacking = f", without {', '.join(spared)}" if spared else ""
     answered = "" if on_stop == "abort" else f", with {on_stop} where the operator is called"
     command = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
     return carry_out_sweep(
@@ -196,16 +195,15 @@ def dismantling_trials(
 
     positive(n, "trial")
     positive(options.jobs, "worker")
-    senses, errors = errors.senses, errors.errors()
     record = plan_or_own(plan, errors.task)
-    errors = errors.of(record.task)
+    errors, spared = errors.of(record.task).apart(record.program.calls)
     if not errors.work.judges_apart:
         raise Refused(
             f"the referee of the task {quoted(record.task)} does not look at what the arm has undone"
         )
     world = broken(errors.spec(seed), fault, errors.work, record.program)
     stage = "" if to is None else record.program.stages[stage_number(to, record.program)]
-    trial = DismantlingTrial(plan=record, world=world, camera=camera_here(camera), without=senses, to=stage)
+    trial = DismantlingTrial(plan=record, world=world, camera=camera_here(camera), without=spared, to=stage)
     built = f"up to {stage}" if stage else "wholly"
     made = ([] if plan is None else ["--plan", str(plan)]) + (["--to", stage] if stage else [])
     return carry_out_sweep(

@@ -82,13 +82,13 @@ def assemble(
         raise BadArgument("--then dismantle and --then assemble go in turn: what stands is dismantled first")
     if report and out is None:
         raise BadArgument("--report needs --out, the folder that the page is left in")
-    world, senses = world.apart()
-    spec, done = world.spec, world.work
     started = time.process_time()
     plan = plan_or_own(None, world.task)
     planning = time.process_time() - started
+    world, spared = world.apart(plan.program.calls)
+    spec, done = world.spec, world.work
     setup = Setup(
-        plan=plan, world=broken(spec, fault, done, plan.program), camera=camera, judged=True, without=senses
+        plan=plan, world=broken(spec, fault, done, plan.program), camera=camera, judged=True, without=spared
     )
     return work(
         Job(
@@ -163,12 +163,12 @@ def run(
     _check_live(live, step)
     plan, judge = plan_at(file, world.task), is_program(file) if judge is None else judge
     wanted = world
-    world, senses = world.of(plan.task).apart()
+    world, spared = world.of(plan.task).apart(plan.program.calls)
     if stage is not None and (first is not None or to is not None):
         raise BadArgument("--stage excludes --from and --to")
     if world_of is None:
         spec = broken(world.spec, fault, world.work, plan.program)
-        setup = Setup(plan=plan, world=spec, camera=camera, judged=judge, without=senses)
+        setup = Setup(plan=plan, world=spec, camera=camera, judged=judge, without=spared)
     elif wanted.chosen or fault or camera != "auto":
         others = "--seed, --level, --without, --set, --scale, --fault and --camera"
         raise BadArgument(f"{world_of} brings its own world; {others} do not go with --world-of")

@@ -1,5 +1,6 @@
 """Options that choose a world, the same on every command that builds one."""
 
+from collections.abc import Set
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Final, Literal, Self
 
@@ -10,7 +11,7 @@ from handeye.cli.common import TaskWords, whole
 from handeye.core.errors import BadArgument
 from handeye.core.variation import WorldSpec, checked_seed
 from handeye.core.world_options import StageNumber, faults, from_start_only, overrides
-from handeye.program.senses import SENSES, Sense
+from handeye.program.senses import SENSES
 from handeye.tasks import DEFAULT, any_task, named, option
 
 if TYPE_CHECKING:
@@ -46,7 +47,8 @@ class ErrorOptions:
         Parameter(
             help="Errors or groups of them to switch off, separated by commas; `handeye world` lists their names. "
             "`assemble`, `run` and `trials assembly` take senses, too: vision, touch, search, force, centring; the "
-            "program goes by what it believes without them.",
+            "program goes by what it believes without them. And they take macros that the program calls, such as the "
+            "checks HEADS and TOOLS of the pump: what they do is left out.",
             consume_multiple=False,
         ),
     ] = None
@@ -95,16 +97,12 @@ class ErrorOptions:
         self.work.variation().check(spec)
         return spec
 
-    @property
-    def senses(self) -> tuple[Sense, ...]:
-        """Senses to take away, each once."""
-        names = self._names()
-        return tuple(sense for sense in SENSES if sense in names)
-
-    def errors(self) -> "ErrorOptions":
-        """The same without the senses."""
-        names = [name for name in self._names() if name not in SENSES]
-        return replace(self, without=names or None)
+    def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
+        """The errors alone, and what a program is to do without, each once: senses, and macros that it calls."""
+        names = [name.upper() if name.upper() in calls else name for name in self._names()]
+        spared = [*SENSES, *sorted(calls)]
+        errors = [name for name in names if name not in spared]
+        return replace(self, without=errors or None), tuple(name for name in spared if name in names)
 
     def _names(self) -> list[str]:
         return [name.strip() for names in self.without or () for name in names.split(",")]
@@ -170,9 +168,10 @@ class WorldOptions:
         """The world; raises InvalidInput if there is no such seed, name, unit or value."""
         return self.errors.spec(self.seed or 0)
 
-    def apart(self) -> "tuple[WorldOptions, tuple[Sense, ...]]":
-        """The world, and senses that a program is to do without in it."""
-        return replace(self, errors=self.errors.errors()), self.errors.senses
+    def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
+        """The world, and what a program that calls these macros is to do without in it."""
+        errors, spared = self.errors.apart(calls)
+        return replace(self, errors=errors), spared
 
     def words(self) -> list[str]:
         """The options as they would be typed."""

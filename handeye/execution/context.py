@@ -15,7 +15,6 @@ from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.ports.workcell import Workcell
 from handeye.program.events import AnyEvent
 from handeye.program.guards import Guards
-from handeye.program.senses import Sense
 from handeye.program.world_model import WorldModel
 from handeye.touch.spiral import SearchPattern, spiral
 from handeye.vision.camera_model import CameraModel
@@ -48,7 +47,7 @@ class ExecutionContext:
     camera: CameraModel | None  # calibrated; None in a cell without one
     emit: Callable[[AnyEvent], None]
     search: SearchPattern = spiral  # places that a search tries
-    without: frozenset[Sense] = frozenset()  # senses not used; see `program.senses`
+    without: frozenset[str] = frozenset()  # senses not used; see `program.senses`
     vision: Stopwatch = field(default_factory=Stopwatch)
     """Processor time of vision; the working phase itself reads no host clock."""
     state: ExecutionState = field(init=False)

@@ -82,7 +82,7 @@ class Executor:
         found = before(run)
         run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
         fault = self._checked(step)
-        self.state.at = self._perform(step) if fault is None else here
+        self.state.at = self._past(self._perform(step)) if fault is None else here
         self.state.done.append(noted(run, found, step=here, enters=enters))
         motion, planned = run.plan.motions.get(here), None
         if motion is not None:
@@ -112,7 +112,7 @@ class Executor:
         assert stage is not None or choice == "proceed"
         going_on = {"proceed": self.state.onward}
         if stage is not None:
-            going_on |= {"retry": self._first(stage), "skip": self._first(stage + 1)}
+            going_on |= {"retry": self._past(self._first(stage)), "skip": self._past(self._first(stage + 1))}
         self.state.at, self.state.idle = going_on[choice], 0
         self.state.stopped = self.state.onward = None
         if choice != "proceed":
@@ -173,6 +173,13 @@ class Executor:
         if fault is not None:
             self.run.emit(ErrorRaised(time=self.run.time, number=fault.number, cause=fault.cause))
         return step.next
+
+    def _past(self, number: int | None) -> int | None:
+        """The step itself, or the first behind calls of macros that the run goes without."""
+        steps = self.run.plan.program.steps
+        while number is not None and steps[number].called in self.run.without:
+            number = number + 1 if number + 1 < len(steps) else None
+        return number
 
     def _tests(self, number: int | None) -> bool:
         """True if a step tests an error."""

@@ -13,7 +13,6 @@ from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.program.diagnosis.causes import Cause, InspectionCause, JointName
 from handeye.program.guards import GuardKind
-from handeye.program.senses import Sense
 
 AskedBy = Literal["person", "program", "job"]  # a job orders a reversal when its program has ended
 Importance = Literal["debug", "info", "warning", "error"]
@@ -50,13 +49,13 @@ class RunStarted(Event, frozen=True, kw_only=True):
     camera: Renderer  # how pictures are made
     versions: dict[str, str]
     replaced: dict[str, str] | UnsetType = UNSET  # parts by the caller's code, by name
-    without: tuple[Sense, ...] | UnsetType = UNSET
+    without: tuple[str, ...] | UnsetType = UNSET
     prepared: float = (
         0.0  # simulated seconds before that: the camera was calibrated, the arm measured or taught
     )
 
     @property
-    def lacking(self) -> tuple[Sense, ...]:
+    def lacking(self) -> tuple[str, ...]:
         """Senses that the program did without; empty where it had all."""
         return self.without or ()
 

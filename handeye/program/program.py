@@ -34,6 +34,7 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
     stage: int  # index
     labels: tuple[str, ...] = ()  # labels that jumps name
     macro: str = ""  # the macro it comes from, if any
+    call: str = ""  # the macro that the program calls, where `macro` is one within it
     file: str = ""  # a required file; empty: the main text
     line: int
     span: Columns = (0, 0)  # columns of its statement
@@ -46,6 +47,11 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
         """Steps that may follow, `next` first."""
         branch = self.operation.branch
         return (self.next,) if branch is None else (self.next, branch.target)
+
+    @property
+    def called(self) -> str:
+        """The macro that its stage calls here, or ""."""
+        return self.call or self.macro
 
     @property
     def needs(self) -> Device | None:
@@ -149,6 +155,11 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
             for label in step.labels:
                 found.setdefault(label, []).append(number)
         return found
+
+    @property
+    def calls(self) -> frozenset[str]:
+        """Macros that its stages call, which a run can leave out."""
+        return frozenset(step.called for step in self.steps if step.macro)
 
     @property
     def errors(self) -> Collection[int]:

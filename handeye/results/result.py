@@ -12,7 +12,6 @@ from handeye.core.files import read_whole
 from handeye.core.record import Record
 from handeye.core.variation import Seed, WorldSpec
 from handeye.judge.finding import Finding, Relation
-from handeye.program.senses import Sense
 
 _LARGEST: Final = 1 << 24  # Bytes: thousands of times what a result has
 Status = Literal["done", "under way", "skipped", "stopped", "not reached", "undone"]
@@ -151,7 +150,7 @@ class Result(Record, frozen=True, kw_only=True):
     """Limits given in place of the referee's own, by the names of its findings."""
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts replaced by the caller's code, with the names of that code."""
-    without: tuple[Sense, ...] | UnsetType = UNSET
+    without: tuple[str, ...] | UnsetType = UNSET
     """Senses that the program did without."""
     apart: bool | UnsetType | None = UNSET
     """After a reversal: the referee's word whether everything lies where it was found; None: not asked, or not all of

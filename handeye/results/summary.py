@@ -24,7 +24,7 @@ from handeye.program.events import (
     StepStarted,
     UndoOrdered,
 )
-from handeye.program.senses import ASSUMPTIONS
+from handeye.program.senses import assumption
 from handeye.results.pauses import pause_sentence
 from handeye.results.result import CameraReport, Check, Result, Stage, Status, Timing
 from handeye.runs.advance import Pause
@@ -93,7 +93,7 @@ def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:
     place = ""
     for event in events:
         if isinstance(event, RunStarted):
-            yield from (f"without {sense}: {ASSUMPTIONS[sense]}" for sense in event.lacking)
+            yield from (f"without {sense}: {assumption(sense)}" for sense in event.lacking)
         elif isinstance(event, StepStarted):
             place = event.place
         elif isinstance(event, GuardFaint):

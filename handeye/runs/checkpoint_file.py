@@ -21,7 +21,6 @@ from handeye.core.variation import WorldSpec
 from handeye.core.versions import versions
 from handeye.program.event_reading import read_packed
 from handeye.program.events import RunStarted, StageFinished, StageStarted
-from handeye.program.senses import Sense
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.runs.system import System
@@ -54,7 +53,7 @@ class Head(Record, frozen=True, kw_only=True):
     judged: bool = False  # the referee is to look at what came out
     limits: dict[str, float] | UnsetType = UNSET  # of findings, in place of the referee's
     replaced: dict[str, str] | UnsetType = UNSET  # replaced parts; others of these names must resume it
-    without: tuple[Sense, ...] | UnsetType = UNSET  # senses that the program does without
+    without: tuple[str, ...] | UnsetType = UNSET  # senses that the program does without
 
 
 class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):

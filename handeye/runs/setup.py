@@ -7,7 +7,6 @@ from handeye.core.errors import BadFile
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
-from handeye.program.senses import Sense
 
 
 class Setup(Record, frozen=True, kw_only=True):
@@ -21,7 +20,7 @@ class Setup(Record, frozen=True, kw_only=True):
     limits: dict[str, float] = msgspec.field(default_factory=dict)
     """Limits that findings of the task's referee stand against in the place of its own, in their units."""
     replaced: dict[str, str] = msgspec.field(default_factory=dict)  # parts by the caller's code, by name
-    without: tuple[Sense, ...] = ()  # senses that the program does without, in the order of `SENSES`
+    without: tuple[str, ...] = ()  # senses that the program does without, in the order of `SENSES`
 
     @property
     def task(self) -> str:

@@ -7,7 +7,6 @@ from handeye.cell.arm import ArmState
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
-from handeye.program.senses import Sense
 from handeye.results.finishing import finished
 from handeye.results.judging import Limits, Referee, check_limits
 from handeye.results.result import Result
@@ -42,7 +41,7 @@ def run_plan(
     viewed: Callable[[int, int], None] = lambda *_: None,
     calibrate: bool = False,
     halt: Callable[[], bool] = lambda: False,
-    without: tuple[Sense, ...] = (),
+    without: tuple[str, ...] = (),
     operator: Operator = NOBODY,
 ) -> FinishedRun:
     """Carry out a plan in a world, and have it judged.

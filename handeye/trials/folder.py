@@ -16,7 +16,6 @@ from handeye.core.variation import Seed, WorldSpec
 from handeye.core.versions import code_digest, versions
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest, read_plan, write_plan
-from handeye.program.senses import Sense
 from handeye.trials.sweep import R, Sweep
 
 _OURS: Final = {
@@ -68,7 +67,7 @@ class Head(Record, frozen=True, kw_only=True):
     plan: str = ""  # Digest of the plan; empty: there is none
     program: str = ""
     camera: str = ""
-    without: tuple[Sense, ...] = ()
+    without: tuple[str, ...] = ()
     on_stop: str = "abort"  # How calls of the operator are answered
     simulated_limit_s: float | None = None
     settings: dict[str, str] = msgspec.field(default_factory=dict)

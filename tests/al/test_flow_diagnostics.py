@@ -28,10 +28,25 @@ def test_the_same_is_taught_for_the_careful_program_as_for_that_of_1973() -> Non
     careful, of_1973 = (load_taught(PLANS / f"water_pump{year}.toml") for year in ("", "_1973"))
     more = {
         name: careful.positions.pop(name)
-        for name in ("ASIDE", "Q2Y", "SIDE", "WAIST", "RIM1", "RIM2", "T1END", "T2END", "TOPEND", "TOPUP")
+        for name in (
+            "ASIDE",
+            "CRANKB",
+            "DEND",
+            "P1END",
+            "P2END",
+            "Q2Y",
+            "SIDE",
+            "WAIST",
+            "RIM1",
+            "RIM2",
+            "T1END",
+            "T2END",
+            "TOPEND",
+            "TOPUP",
+        )
     }
     careful.held["TOP"] = msgspec.structs.replace(careful.held["TOP"], positions=("TOP",))  # TOPUP, too
-    assert (careful, len(more)) == (of_1973, 10)
+    assert (careful, len(more)) == (of_1973, 14)
 
 
 def test_listing_of_1973_has_nothing_to_be_warned_of() -> None:

@@ -21,8 +21,9 @@ from handeye.program.events import (
     RunStarted,
     Saved,
     SearchAdvanced,
+    StepStarted,
 )
-from handeye.program.senses import SENSES, Sense
+from handeye.program.senses import SENSES
 from handeye.program.vision_operations import General, Inspect, Match, Specific
 from handeye.runs.advance import advance, ended
 from handeye.runs.checkpoint_file import decode, encode
@@ -64,12 +65,12 @@ FREE:   OPEN    1
 """It should meet something, then nothing, and nothing once more; in fact it meets nothing at all."""
 
 
-def begun(script: str, *without: Sense, world: WorldSpec = WORLD) -> Runner:
+def begun(script: str, *without: str, world: WorldSpec = WORLD) -> Runner:
     setup = Setup(plan=plan_of(script), world=world, camera="ray", without=without)
     return Runner(Checkpoint(setup=setup))
 
 
-def ran(script: str, *without: Sense) -> Runner:
+def ran(script: str, *without: str) -> Runner:
     runner = begun(script, *without)
     advance(runner)
     return runner
@@ -147,12 +148,51 @@ def test_checkpoint_beginning_and_result_tell_what_was_lacking() -> None:
 
 
 def test_senses_are_told_from_errors_of_the_world() -> None:
-    options = ErrorOptions(without=["touch,camera", "vision"])
-    assert (options.senses, options.errors().without) == (("vision", "touch"), ["camera"])
+    options = ErrorOptions(without=["touch,camera", "vision", "heads"])
+    errors, spared = options.apart({"HEADS", "TOOLS"})
+    assert (spared, errors.without) == (("vision", "touch", "HEADS"), ["camera"])
     with pytest.raises(
         InvalidInput, match=r"^`touch` is a sense and no error of the world: here, no program can go"
     ):
         options.spec(0)
+
+
+CHECKED = """
+TRANS   ABOVE [25 38 6 90 90 0]
+DEFINE LOOK2 GAP
+        OPEN    GAP
+
+DEFINE CHECK
+        MOVE    ABOVE
+        LOOK2   .5
+
+        STAGE   "one"
+        OPEN    1
+        CHECK
+        STAGE   "two"
+        CHECK
+        LOOK2   .7
+"""
+"""A check that ends a stage, and one that begins one."""
+
+
+@pytest.mark.parametrize(
+    ("without", "done"),
+    [
+        ((), ["OPEN", "MOVE", "OPEN", "MOVE", "OPEN", "OPEN"]),
+        (("CHECK",), ["OPEN", "OPEN"]),
+        (("LOOK2",), ["OPEN", "MOVE", "OPEN", "MOVE", "OPEN"]),
+        (("CHECK", "LOOK2"), ["OPEN"]),
+    ],
+)
+@pytest.mark.slow
+def test_a_macro_that_the_run_goes_without_is_passed_over_where_a_stage_calls_it(
+    without: tuple[str, ...], done: list[str]
+) -> None:
+    runner = ran(CHECKED, *without)
+    assert [event.text.split()[0] for event in of(runner, StepStarted)] == done
+    assert ended(runner).kind == "end"
+    assert of(runner, RunStarted)[0].lacking == without
 
 
 def test_no_error_of_the_world_has_the_name_of_a_sense() -> None:

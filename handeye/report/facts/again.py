@@ -8,7 +8,6 @@ from handeye.core.resources import plans
 from handeye.core.units import UNITS, Unit
 from handeye.core.variation import Quantity, WorldSpec
 from handeye.planfile.store import written_digest
-from handeye.program.senses import Sense
 from handeye.report.recorded import RecordedRun
 from handeye.tasks import DEFAULT, known, option
 
@@ -46,7 +45,7 @@ def is_shipped(digest: str) -> bool:
     return made.is_file() and written_digest(made.read_bytes()) == digest
 
 
-def sense_words(senses: Sequence[Sense]) -> list[str]:
+def sense_words(senses: Sequence[str]) -> list[str]:
     """The options that take senses away."""
     return [word for sense in senses for word in ("--without", sense)]
 

@@ -19,7 +19,7 @@ from handeye.core.markup import (
 from handeye.core.variation import World
 from handeye.core.versions import HANDEYE
 from handeye.program.events import ExperimentMade, LineTyped, OperatorAnswered
-from handeye.program.senses import ASSUMPTIONS
+from handeye.program.senses import assumption
 from handeye.report.facts.again import command
 from handeye.report.recorded import RecordedRun, told_faults
 from handeye.results.world_page import QuantityReport, report
@@ -58,7 +58,7 @@ def facts(run: RecordedRun) -> Markup:
         ("plan", element("code", head.plan)),
         ("arm", element("span", f"{head.arm} ", element("code", head.arm_digest))),
         ("pictures by", renderer_name(head.camera)),
-        *((f"without {sense}", ASSUMPTIONS[sense]) for sense in head.lacking),
+        *((f"without {sense}", assumption(sense)) for sense in head.lacking),
         *((f"{part} by", name) for part, name in head.own_parts.items()),
         ("versions", ", ".join(f"{name} {version}" for name, version in head.versions.items())),
         ("trace", f"format {run.trace.version}{', thinned' if run.trace.thinned else ''}"),

@@ -12,7 +12,6 @@ from handeye.core.variation import WorldSpec
 from handeye.judge.finding import all_right
 from handeye.planfile.plan import Plan
 from handeye.program.events import AnyEvent, StepStarted, UndoFinished, to_line
-from handeye.program.senses import Sense
 from handeye.results.finishing import finished
 from handeye.results.judging import findings
 from handeye.runs.advance import AfterStage, advance
@@ -40,7 +39,7 @@ class Trial:
     plan: Plan
     world: WorldSpec  # What the worlds are but for their seeds
     camera: str = "auto"
-    without: tuple[Sense, ...] = ()
+    without: tuple[str, ...] = ()
     on_stop: str = "abort"
     """The policy that answers calls of the operator, as `parse_policy` reads it; it must not ask a person."""
     simulated_limit_s: float = SIMULATED_LIMIT_S
