@@ -9,7 +9,9 @@
 ; A screw from its place in the dispenser: the socket over its head, then down to it.
 DEFINE FETCH S
         SEARCH  .05
-M:      MOVE    S
+M:      SKIPN   6               ;all places tried
+        WAIT    "THE BIT FINDS NO SCREW AT {S}: IT IS LOST, OR A JOINT READS WRONG"
+        MOVE    S
         RESTORE DRX
         RESTORE DRV
         RESTORE DS LEVEL
@@ -64,7 +66,9 @@ DEFINE SCREW S H ACROSS NR
         FETCH   S
 TRY:    ASSIGN  N 4
         SEARCH  .05
-K:      MOVE    H
+K:      SKIPN   6
+        WAIT    "SCREW {NR} FINDS NO HOLE AT {H}: POINT OR HOLE IS WRONG, OR A JOINT READS WRONG"
+        MOVE    H
         RESTORE ACROSS          ;where the pin at that end of the base stands
         RESTORE X2
         RESTORE HS LEVEL        ;one hole found helps to find the others
@@ -151,18 +155,27 @@ TIGHT:  TOOL    0
         SAVE    HS
         CHANGE  [0 0 1] 1
 
-; The screwdriver out of its rack, its place felt both ways.
-DEFINE DRIVER
+; The screwdriver out of its rack, its place felt both ways: the first time it is as far off as rack and arm may be, the
+; second time it stands where it stood.
+DEFINE DRIVER MOST
         OPEN    2.2
         MOVE    D
+        RESTORE DRV             ;where it was the last time, if it was taken before
         CENTER  .5
         SKIPN   2
         WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
+        TRAVEL  0 MOST
+        SKIPN   8
+        WAIT    "THE SCREWDRIVER IS NOT WHERE IT SHOULD BE: ITS RACK HAS MOVED, OR A JOINT READS WRONG"
         SAVE    DRV             ;where the driver really is across the fingers
         OPEN    2
         MOVE    DX
         RESTORE DRV
+        RESTORE DRX
         CENTER  .5
+        TRAVEL  0 MOST
+        SKIPN   8
+        WAIT    "THE SCREWDRIVER IS NOT WHERE IT SHOULD BE: ITS RACK HAS MOVED, OR A JOINT READS WRONG"
         SAVE    DRX             ;and the other way
         OPEN    2
         MOVE    D
@@ -175,9 +188,13 @@ DEFINE DRIVER
 ; The screwdriver back into its rack.
 DEFINE RACK
         SEARCH  .07
-PUT:    MOVE    DUP
+PUT:    SKIPN   6
+        WAIT    "THE SCREWDRIVER DOES NOT GO INTO ITS RACK: IT HAS MOVED, OR A JOINT READS WRONG"
+        MOVE    DUP
         RESTORE DRX
         RESTORE DRV
+        SKIPN   4
+        WAIT    "THE SCREWDRIVER DOES NOT GO INTO ITS RACK: IT HAS MOVED, OR A JOINT READS WRONG"
         STOP    [0 0 -30]
         FREE    [1 1 0]         ;let the guides guide it
         CHANGE  [0 0 -1] 2.4    ;straight into the rack until it stands
@@ -189,17 +206,24 @@ PUT:    MOVE    DUP
         CHANGE  [0 0 1] 2
 
 ; A pin back into its holder.
-DEFINE UNPIN Q P
+DEFINE UNPIN Q P NR
         OPEN    .8
         MOVE    Q
         RESTORE Y1
         RESTORE X2
         RESTORE HS LEVEL        ;how far the base has moved since, by the hole of the last screw
+        SKIPN   4
+        WAIT    "PIN {NR} IS NOT WHERE IT WAS PUT: IT OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
         CENTER  .1              ;that tells it to the play of the screwdriver in the hand
-        CLOSE   .1
+        SKIPE   2
+        JUMP    PIN
+        WAIT    "PIN {NR} IS NOT WHERE IT WAS PUT: IT OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
+PIN:    CLOSE   .1
         CHANGE  [0 0 1] 2
         SEARCH  .05
-R:      MOVE    P
+R:      SKIPN   6
+        WAIT    "PIN {NR} DOES NOT GO INTO ITS HOLDER: IT HAS MOVED, OR A JOINT READS WRONG"
+        MOVE    P
         RESTORE C1 LEVEL        ;one pin has told where the holder is along y,
         RESTORE C2 LEVEL        ;and the other along x
         STOP    [0 0 -30]
@@ -264,7 +288,9 @@ LR:     SKIPN   6
         JUMP    ON
         AOJ     LR
 WIDER:  SEARCH  .05
-LF:     MOVE    GON
+LF:     SKIPN   6
+        WAIT    "THE GASKET DOES NOT GO DOWN ON ITS PINS: IT IS HELD ASKEW, OR A JOINT READS WRONG"
+        MOVE    GON
         RESTORE E2 LEVEL
         STOP    [0 0 -24]
         CHANGE  [0 0 -1] 2.3
@@ -350,7 +376,9 @@ LZ:     SKIPN   6
         JUMP    ON
         AOJ     LZ
 WIDER:  SEARCH  .05
-LU:     MOVE    TOPON
+LU:     SKIPN   6
+        WAIT    "THE TOP DOES NOT GO DOWN ON ITS PINS: IT IS HELD ASKEW, OR A JOINT READS WRONG"
+        MOVE    TOPON
         RESTORE E1 LEVEL
         STOP    [0 0 -43]
         CHANGE  [0 0 -1] 2.3
@@ -373,6 +401,8 @@ DEFINE UNCOVER
         SKIPE   23
         CHANGE  [0 0 1] .05     ;off the flange
         CLOSE   2 2.4
+        SKIPN   2
+        WAIT    "THE TOP DOES NOT LIE FLAT ON THE GASKET"
         LOAD    36
         CHANGE  [0 0 1] 2.3
 
@@ -435,7 +465,7 @@ DEFINE ROTATION
 
 ; The heads, one after the other around the pump: so the driver never goes over the crank.
 DEFINE HEADS
-        DRIVER
+        DRIVER  .1
         TIGHTEN H1 Y1 4
         TIGHTEN H0 Y1 1
         TIGHTEN H4 Y2 5
@@ -494,7 +524,7 @@ WIDE:   LOOK    WIDE
         JUMP    NEAR
         MOVE    ASIDE
         SOJG    LOOKS WIDE
-        WAIT    "NO BASE IS SEEN ON THE BELT"
+        WAIT    "THE BASE IS NOT SEEN ON THE BELT: ITS OUTLINE"
 NEAR:   LENS    50
         AIM     BASE
         ASSIGN  LOOKS 3
@@ -504,7 +534,7 @@ CLOSER: LOOK    CLOSE_UP
         JUMP    SEEN
         MOVE    ASIDE
         SOJG    LOOKS CLOSER
-        WAIT    "THE HOLES OF THE BASE ARE NOT SEEN"
+        WAIT    "THE BASE IS NOT SEEN ON THE BELT: ITS HOLES"
 SEEN:   LOAD    0               ;nothing is in the hand
 
         STAGE   "feel for the grasp"
@@ -512,7 +542,11 @@ SEEN:   LOAD    0               ;nothing is in the hand
         OPEN    0               ;shut, they must read nothing
 GRASP:  OPEN    1.775
         SEARCH  .2
-LA:     MOVE    A
+LA:     SKIPN   6               ;all places tried
+        JUMP    MISSED
+        MOVE    A
+        SKIPN   4               ;the base is where it should not be
+        JUMP    MISSED
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] 1.5    ;one finger into the large hole
         SKIPE   23              ;no resistance: neither finger stands on the casting
@@ -524,7 +558,9 @@ LA:     MOVE    A
         OPEN    1.42
         ASSIGN  FAR 1
         SEARCH  .2
-LB:     MOVE    B
+LB:     SKIPN   6
+        JUMP    MISSED
+        MOVE    B
         RESTORE DA
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] 1.5    ;one finger into the small hole
@@ -560,7 +596,7 @@ FELT:   OPEN    1.85
         JUMP    HELD
 MISSED: OPEN    1.775
         SOJG    TRIES AFRESH
-        WAIT    "THE BASE IS NOT BETWEEN THE FINGERS"
+        WAIT    "THE BASE IS NOT WHERE IT WAS SEEN: IT OR THE CAMERA HAS MOVED, OR A JOINT READS WRONG"
 AFRESH: PARK                    ;look again: it may have been moved
         LOOK    CLOSE_UP
         SPECIFIC BASE CLOSE_UP
@@ -573,7 +609,7 @@ HELD:   LOAD    84.6
         STOP    [0 0 -29]
         CHANGE  [0 0 -1] 1.2 .5 ;set it down
         SKIPN   23
-        WAIT    "NO TABLE UNDER THE BASE: IT IS LOST, OR A JOINT READS WRONG"
+        WAIT    "NO TABLE: THE BASE IS LOST, OR A JOINT READS WRONG"
         LOAD    0
         STOP    [0 72 0]
         CHANGE  [0 1 0] 1.2 .5  ;against the far block
@@ -593,13 +629,18 @@ HELD:   LOAD    84.6
         OPEN    1.3
         MOVE    P1
         CENTER  .1
+        TRAVEL  0 .2
+        SKIPN   8
+        WAIT    "THE HOLDER OF PIN 1 IS NOT WHERE IT SHOULD BE: IT HAS MOVED, OR A JOINT READS WRONG"
         SAVE    C1              ;where the holder really is
         CLOSE   0.1             ;grasp it
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
         CLOSE   0.1             ;has it come along?
         MOVE    T1              ;GO TO THE HOLE
         SEARCH  .07 STEPS 4     ;as far as arm, holder and hand may be off together
-L1:     MOVE    T1              ;GO TO THE HOLE
+L1:     SKIPN   6               ;all places tried
+        JUMP    NONE1
+        MOVE    T1              ;GO TO THE HOLE
         STOP    [0 0 -50]
         CHANGE  [0 0 -1] 0.6    ;TRY TO GO DOWN WITHOUT MEETING RESISTANCE
         SKIPE   23              ;no resistance: the pin is in a hole
@@ -615,19 +656,33 @@ L1:     MOVE    T1              ;GO TO THE HOLE
         CHANGE  [0 1 0] .3 .5   ;a push: its hole leaves it .02 in of play, the large hole 2 in
         SKIPN   23
         AOJ     L1              ;it does: that was no screw hole
-        OPEN    .5
+        JUMP    IN1
+NONE1:  MOVE    T1              ;is there anything to stand on?
+        STOP    [0 0 -50]
+        CHANGE  [0 0 -1] 1
+        SKIPE   23
+        JUMP    FULL1
+        WAIT    "NO BASE STANDS UNDER PIN 1"
+        JUMP    IN1
+FULL1:  WAIT    "PIN 1 FINDS NO HOLE: ITS NOSE OR THE HOLE IS WRONG, OR A JOINT READS WRONG"
+IN1:    OPEN    .5
         CENTER  .1
         SAVE    Y1              ;where its hole is, across the line of centres
         OPEN    1.3
         MOVE    P2
         CENTER  .1
+        TRAVEL  0 .2
+        SKIPN   8
+        WAIT    "THE HOLDER OF PIN 2 IS NOT WHERE IT SHOULD BE: IT HAS MOVED, OR A JOINT READS WRONG"
         SAVE    C2              ;where the holder really is
         CLOSE   0.1             ;grasp it
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
         CLOSE   0.1             ;has it come along?
         MOVE    T2              ;GO TO THE HOLE
         SEARCH  .07 STEPS 4
-L2:     MOVE    T2              ;GO TO THE HOLE
+L2:     SKIPN   6               ;all places tried
+        JUMP    NONE2
+        MOVE    T2              ;GO TO THE HOLE
         STOP    [0 0 -50]
         CHANGE  [0 0 -1] 0.6    ;TRY TO GO DOWN WITHOUT MEETING RESISTANCE
         SKIPE   23              ;no resistance: the pin is in a hole
@@ -643,7 +698,16 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         CHANGE  [-1 0 0] .3 .5  ;it should resist a push, too
         SKIPN   23
         AOJ     L2              ;it does: that was no screw hole
-        OPEN    .5
+        JUMP    IN2
+NONE2:  MOVE    T2
+        STOP    [0 0 -50]
+        CHANGE  [0 0 -1] 1
+        SKIPE   23
+        JUMP    FULL2
+        WAIT    "NO BASE STANDS UNDER PIN 2"
+        JUMP    IN2
+FULL2:  WAIT    "PIN 2 FINDS NO HOLE: ITS NOSE OR THE HOLE IS WRONG, OR A JOINT READS WRONG"
+IN2:    OPEN    .5
         CENTER  .1
         SAVE    X2              ;where its hole is, along the line of centres
         OPEN    1.2
@@ -682,12 +746,12 @@ GA:     MOVE    GUP
         SKIPN   23
         JUMP    INSIDE
         SOJG    TRIES BESIDE
-        WAIT    "THE GASKET LIES OFF ITS PLACE"
+        WAIT    "THE GASKET IS NOT WHERE IT SHOULD BE: ITS HOLES ARE NOT FELT, OR A JOINT READS WRONG"
 BESIDE: AOJ     GA
 INSIDE: CLOSE   .7
         CHANGE  [0 0 1] 1
         SKIPN   4               ;it is caught on its stand
-        WAIT    "THE GASKET DOES NOT COME UP: IT LIES OFF ITS PLACE"
+        WAIT    "THE GASKET IS NOT WHERE IT SHOULD BE: IT DOES NOT COME UP, OR A JOINT READS WRONG"
         ASSIGN  TRIES 2
 LAYING: LAY
         MOVE    FACE
@@ -720,7 +784,7 @@ LOOKS:  LOOK    AFTER HOLD
         JUMP    RIGHT
         SOJG    LOOKS LOOKS
         SOJG    TRIES ANEW
-        WAIT    "THE GASKET IS NOT ON PROPERLY"
+        WAIT    "THE GASKET IS NOT ON PROPERLY, OR THE CAMERA OR THE LIGHT HAS CHANGED"
         JUMP    RIGHT
 ANEW:   LIFT                    ;both pictures again, the arm elsewhere: its shadow may have lain on the pump
         MOVE    ASIDE
@@ -758,14 +822,18 @@ TOPPING: COVER
         MOVE    FLANGE          ;over its narrow end
         RESTORE Y1
         RESTORE X2
+        SKIPN   4               ;the hand has met it: it stands askew on its pins
+        JUMP    ASKEW
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
+        SKIPN   52
+        JUMP    ASKEW
         SKIPN   23
         WAIT    "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
         HEIGHT  LAID .27 .33    ;its flange is .3 in thick: nothing is under it
         SKIPE   9
         JUMP    COVERED
-        CHANGE  [0 0 1] 2       ;above the pins, before the hand opens
+ASKEW:  CHANGE  [0 0 1] 2       ;above the pins, before the hand opens
         SOJG    TRIES OFF
         WAIT    "THE TOP DOES NOT LIE FLAT ON THE GASKET"
         JUMP    COVERED
@@ -785,17 +853,17 @@ PINS:   FEEL    T1END           ;do both still stand?
 TOPPED: OPEN    2.2             ;for the screwdriver
 
         STAGE   "drive the first two screws"
-        DRIVER
+        DRIVER  .25
         SCREW   S1 H0 Y1 1
         SCREW   S2 H2 Y1 2
         RACK
 
         STAGE   "take out the aligning pins"
-        UNPIN   Q1 P1UP
-        UNPIN   Q2 P2UP
+        UNPIN   Q1 P1UP 1
+        UNPIN   Q2 P2UP 2
 
         STAGE   "drive the last four screws"
-        DRIVER
+        DRIVER  .1
         SCREW   S3 H5 Y2 3
         SCREW   S4 H1 Y1 4
         SCREW   S5 H4 Y2 5

@@ -99,7 +99,7 @@ _MEANINGS: Final = {
     "finger line",
     "HERE": "define a position as where the hand is; a taught position of a part stays on that part",
     "WHERE": "show where the hand is, as `TRANS` writes it: inches and degrees",
-    "TRAVEL": "check how far (in) the last CHANGE or PLACE went; error 8 outside the range",
+    "TRAVEL": "check how far (in) the last CHANGE, PLACE or CENTER went; error 8 outside the range",
     "HEIGHT": "check how much higher (in) the hand has come to a stop than where SAVE took the name; error 9 outside "
     "the range",
     "TOOL": "run the screwdriver (rpm, positive drives in); 0 is off",

@@ -101,7 +101,7 @@ ERRORS: Final[dict[int, str]] = {
     WATCHDOG: "the computer missed a servo period: drives cut, brakes set",
     SEARCH_EXHAUSTED: "the search has tried all its places",
     WRONG_THICKNESS: "the thing between the fingers is thicker than the maximum",
-    WRONG_TRAVEL: "the last CHANGE or PLACE went too far, or not far enough",
+    WRONG_TRAVEL: "the last CHANGE, PLACE or CENTER went too far, or not far enough",
     WRONG_HEIGHT: "the hand has not come to the height it should over where a SAVE was",
     NO_FORCE: "the motion ended without meeting the force it was to stop on",
     NO_TORQUE: "the motion ended without meeting the torque it was to stop on",

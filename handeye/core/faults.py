@@ -3,6 +3,7 @@
 A task has a catalogue of them. A run records its faults with its world; none is ever drawn at random.
 """
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Final, Literal
@@ -40,10 +41,20 @@ class ExpectedDetection:
     """The expected end of a run with a fault of usual size, present from the start."""
 
     errors: tuple[int, ...] = ()  # errors that identify it
-    calls: tuple[str, ...] = ()  # operator messages that identify it
+    calls: tuple[str, ...] = ()
+    """Operator messages that identify it; `{...}` in one stands for any part's name or number."""
     at_setup: bool = False  # measuring the arm or calibrating the camera fails
     stages: tuple[str, ...] = ()  # stages in which these are right; empty: any
     harmless: str = ""  # why the work may still come out right; empty: it must be noticed
+
+    def called(self, message: str) -> bool:
+        """True if an operator message is one of those that identify it."""
+        return any(is_call(call, message) for call in self.calls)
+
+
+def is_call(call: str, message: str) -> bool:
+    """True if an operator message is a call of a declaration, in which `{...}` stands for any part's name or number."""
+    return re.fullmatch(".+".join(map(re.escape, re.split(r"\{[^}]*\}", call))), message) is not None
 
 
 UNKNOWN: Final = ExpectedDetection()  # no expectation stated

@@ -86,13 +86,14 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
     if "centring" in run.without:
         fault = close(run, Close(minimum=operation.minimum))  # the object moves to the middle of the hand
         run.state.finger_line = forward(run.arm, run.drive.state.q)[:3, 1] if fault is None else None
+        run.state.travel = 0.0
         return fault
     fault = _begin_to_close(run)
     if fault is not None:
         return fault
     drive, grasp = run.drive, run.arm.hand.grasp
     X_WT = forward(run.arm, drive.state.q)
-    line = X_WT[:3, 1]
+    begun, line = X_WT[:3, 3], X_WT[:3, 1]
     here = drive.dynamics()
     start = drive.state.gap = drive.sensed.gap
     centring = Centring(minimum=operation.minimum, speed=grasp.centring)
@@ -108,6 +109,7 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
     if not centring.error:
         drive.state.gap = drive.sensed.gap - grasp.lag(SWITCH_FORCE, drive.state.grip)
     drive.hold(grasp.settle // 2 - 1)
+    run.state.travel = abs(float((X_WT[:3, 3] - begun) @ line))
     still = _still(run, start, driven)
     if still is not None:
         return still

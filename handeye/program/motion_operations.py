@@ -162,13 +162,14 @@ class Center(Operation, frozen=True, kw_only=True):
     raising: ClassVar = action(
         errors.NOTHING_HELD, errors.JOINT_LIMIT, errors.SERVO_LAG, errors.SWITCH_WRONG, errors.GAP_WRONG
     )
+    writing: ClassVar = {"travel": ()}
     bounds: ClassVar = {"minimum": _GAP}
 
     minimum: float = 0.0
 
 
 class Travel(Operation, frozen=True, kw_only=True):
-    """Check how far the last Change went (m): error 8 outside the range."""
+    """Check how far the hand went (m) in the last Change or Center: error 8 outside the range."""
 
     family: ClassVar = "test"
     raising: ClassVar = action(errors.WRONG_TRAVEL)

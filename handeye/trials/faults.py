@@ -185,7 +185,7 @@ def _named(expected: ExpectedDetection, result: Result) -> bool:
     """See whether a run stopped by something that calls the fault by its right name."""
     if result.error is not None:
         return result.error in expected.errors
-    return expected.at_setup if result.stopped_at is None else result.message in expected.calls
+    return expected.at_setup if result.stopped_at is None else expected.called(result.message)
 
 
 def _placed(expected: ExpectedDetection, result: Result) -> bool:

@@ -123,6 +123,12 @@ def test_row_27_center_measures_along_the_finger_line_only(seed: int | None) -> 
     assert closing.run.saved("D")[[0, 2]] == pytest.approx([0.0, 0.0], abs=1e-3)
 
 
+@IN_WORLDS
+def test_travel_after_center_is_how_far_the_arm_has_given_way(seed: int | None) -> None:
+    closing = closed("CENTER", seed)
+    assert closing.run.run.state.travel / INCH == pytest.approx(abs(closing.off), abs=0.05)
+
+
 FEELING = (None, 1, 2, 4)
 """Worlds in which the base is felt for. In seed 4 the arm itself is .11 in off there, which no touch can tell it."""
 LEFT = 0.26 * DEGREE

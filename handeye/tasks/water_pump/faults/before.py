@@ -14,14 +14,11 @@ import numpy as np
 
 from handeye.core.errors import (
     FEATURES_NOT_SEEN,
-    FORCE_WRONG,
-    GASKET_WRONG,
     JOINT_LIMIT,
     NO_SOLUTION,
     NOTHING_HELD,
     PART_NOT_SEEN,
     SEARCH_EXHAUSTED,
-    SERVO_LAG,
     WRONG_HEIGHT,
 )
 from handeye.core.faults import ExpectedDetection, Fault, Size
@@ -76,13 +73,13 @@ def _fault(
 def _base() -> Iterator[PartFault]:
     yield _fault(
         "base.missing", "Nothing lies on the belt.", partial(_missing, "base"),
-        ExpectedDetection(errors=(PART_NOT_SEEN,), calls=detect.UNSEEN),
+        ExpectedDetection(errors=(PART_NOT_SEEN,), calls=(detect.UNSEEN,)),
     )  # fmt: skip
     yield _fault(
         "base.turned", "The base lies with its line of centres in this direction.",
         lambda spec, yaw: _turn(spec, "base", _plate_centre(), yaw),
         ExpectedDetection(
-            errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=detect.UNSEEN,
+            errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=(detect.UNSEEN,),
             harmless="The job is for a base that lies anyhow within the arm's reach.",
         ),
         Size(unit="deg", usual=35.0, limits=(-360.0, 360.0)),
@@ -90,12 +87,12 @@ def _base() -> Iterator[PartFault]:
     yield _fault(
         "base.far", "The belt has carried the base so much too far: out of the arm's reach, or out of sight.",
         partial(_shift, "base", (0.0, 1.0)),
-        ExpectedDetection(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=detect.UNSEEN),
+        ExpectedDetection(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=(detect.UNSEEN,)),
         Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
     )  # fmt: skip
     yield _fault(
         "base.reversed", "The base lies end for end.", lambda spec, _: _reverse(spec, "base", _plate_centre()),
-        ExpectedDetection(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=detect.UNSEEN),
+        ExpectedDetection(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=(detect.UNSEEN,)),
     )  # fmt: skip
 
 
@@ -116,7 +113,7 @@ def _gasket() -> Iterator[PartFault]:
     yield from _moved(part, "the gasket", {
         "x": ExpectedDetection(calls=(detect.GASKET_OFF,), harmless="The hand feels for it around its place."),
         "y": ExpectedDetection(
-            errors=(SEARCH_EXHAUSTED,), calls=(detect.GASKET_STAYS,),
+            errors=(SEARCH_EXHAUSTED,), calls=(detect.GASKET_OFF, detect.ON_PINS),
             harmless="The search finds the pins with a gasket that is held a quarter inch off.",
         ),
     })  # fmt: skip
@@ -124,9 +121,9 @@ def _gasket() -> Iterator[PartFault]:
         "gasket.turned", "The gasket lies turned about the vertical on its stand.",
         lambda spec, angle: _turn(spec, part, middle, _yaw(spec, part) + angle),
         ExpectedDetection(
-            errors=(SEARCH_EXHAUSTED, GASKET_WRONG),
+            errors=(SEARCH_EXHAUSTED,),
             # Down beside the pins, it leaves bare where the hand feels how thick it is.
-            calls=(detect.GASKET_OFF, detect.GASKET_STAYS, detect.THICKNESS),
+            calls=(detect.GASKET_OFF, detect.ON_PINS, detect.THICKNESS),
             harmless="Fingers that close on the gasket turn it straight.",
         ),
         Size(unit="deg", usual=12.0, limits=(-90.0, 90.0)),
@@ -144,19 +141,15 @@ def _top() -> Iterator[PartFault]:
     )  # fmt: skip
     off = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED,),
+        calls=(detect.ON_PINS,),
         harmless="CENTER takes the top where it stands, and the search finds the pins along the fingers.",
     )
     yield from _moved("top", "the top", {"x": off, "y": off})
     yield _fault(
         "top.tilted", "A chip so high lies under one end of the top, on its stand.", _chip,
         ExpectedDetection(
-            # Askew on the pins it may reach up to where the hand comes down on it, and touch it in what should be free
-            # air.
-            errors=(NOTHING_HELD, SERVO_LAG, WRONG_HEIGHT, SEARCH_EXHAUSTED, FORCE_WRONG),
-            calls=(
-                "THE TOP DOES NOT LIE FLAT ON THE GASKET",
-                *(f"PIN {pin} DOES NOT STAND: THE TOP HAS DRAWN IT OUT" for pin in (1, 2)),
-            ),
+            errors=(WRONG_HEIGHT, SEARCH_EXHAUSTED),
+            calls=(detect.NOT_FLAT, "PIN {number} DOES NOT STAND: THE TOP HAS DRAWN IT OUT", detect.ON_PINS),
             stages=(detect.PUT_ON_TOP,),
             harmless="Fingers that close on two flats set the top straight.",
         ),
@@ -214,7 +207,7 @@ def _holes(count: int) -> Iterator[PartFault]:
         blocked = ExpectedDetection(calls=(misfit, high))
         full = ExpectedDetection(  # the mouth of a hole that is full still lets a point in, by less than a thread
             errors=(SEARCH_EXHAUSTED,),
-            calls=(misfit, loose),
+            calls=(misfit, loose, detect.SCREW_IN_NO_HOLE),
             stages=(detect.DRIVE_FIRST if screw <= 2 else detect.DRIVE_LAST,),
         )
         if number in detect.PINNED:

@@ -30,7 +30,6 @@ from handeye.core.errors import (
     PART_NOT_SEEN,
     PICTURE_WRONG,
     SEARCH_EXHAUSTED,
-    SERVO_LAG,
     SWITCH_WRONG,
     WATCHDOG,
 )
@@ -172,7 +171,7 @@ def _joints() -> Iterator[DeviceFault]:
         )
         yield _fault(
             f"{pot}.jump", f"The position {joint} reads so much more than it is.", pot, OffsetEffect,
-            ExpectedDetection(errors=(JOINT_SENSE_WRONG, FORCE_WRONG), calls=detect.ASTRAY, at_setup=True), _JUMP[unit],
+            replace(wrong, errors=(JOINT_SENSE_WRONG, FORCE_WRONG), calls=(detect.JOINT_OR_PLACE,)), _JUMP[unit],
         )  # fmt: skip
         yield _fault(
             f"{pot}.drift", f"The position {joint} reads more and more: so much more each second.", pot, DriftEffect,
@@ -190,7 +189,9 @@ def _joints() -> Iterator[DeviceFault]:
             f"gear.{number}.slips",
             f"The gear {joint} slips so far within {SLIP_S:g} s behind both senses: neither shows it.",
             ((pot, _slipped), (tachometer, _slipping)),
-            ExpectedDetection(calls=detect.ASTRAY, harmless=_WITHIN_SEARCHES), _SLIP[unit], stage=8,
+            ExpectedDetection(
+                calls=(detect.JOINT_OR_PLACE, detect.NOT_AT_BLOCKS), harmless=_WITHIN_SEARCHES
+            ), _SLIP[unit], stage=8,
         )  # fmt: skip
         yield _fault(
             f"joint.{number}.stiff", f"The friction {joint} is so many times what it was.", f"friction.{number}",
@@ -260,14 +261,14 @@ def _screwdriver() -> Iterator[DeviceFault]:
         f"{motor}.dead", "The screwdriver's motor never turns.", motor, DEAD,
         ExpectedDetection(errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1),)),
     )  # fmt: skip
-    lost = [
-        (f"SCREW {screw} IS NOT ON THE BIT", detect.lost_screw(screw), f"NO SCREW AT S{screw}")
-        for screw in range(1, 7)  # it is fetched once more, and may lie elsewhere by then
-    ]
     yield _fault(
         "magnet.weak", "So much is left of the force of the bit's magnet, which holds a screw.", "magnet", GainEffect,
         ExpectedDetection(
-            calls=tuple(call for calls in lost for call in calls),
+            calls=(
+                "SCREW {number} IS NOT ON THE BIT",
+                "SCREW {number} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE",
+                "NO SCREW AT S{number}",  # it is fetched once more, and may lie elsewhere by then
+            ),
             harmless="A screw weighs .06 N, a hundredth of that force: what bears it holds it straight, too.",
         ),
         Size(unit="%", usual=1.0, limits=_PERCENT_LEFT),
@@ -287,14 +288,13 @@ def _sight() -> Iterator[DeviceFault]:
         "camera.bumped", "The camera has been bumped: it looks so far aside and down of where its mount is told.",
         ("camera.pan", "camera.tilt"), OffsetEffect,
         ExpectedDetection(
-            # The base is not where it was seen: nothing is between the fingers, or it is in their way.
-            errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, SEARCH_EXHAUSTED, NOTHING_HELD, SERVO_LAG, GASKET_WRONG),
-            calls=(*detect.UNSEEN, *detect.OFF, detect.NOT_HELD),
+            errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, SEARCH_EXHAUSTED, NOTHING_HELD, GASKET_WRONG),
+            calls=(detect.UNSEEN, detect.NOT_WHERE_SEEN, detect.NOT_ON),
             harmless="The hand feels for the base around where it was seen.",
         ),
         Size(unit="deg", usual=1.0, limits=(-20.0, 20.0)), stage=1,
     )  # fmt: skip
     yield _fault(
         "turret.stuck", "The lens stays that was turned to first after this set in.", "turret", Stuck(),
-        ExpectedDetection(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG), calls=detect.UNSEEN), stage=1,
+        ExpectedDetection(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG), calls=(detect.UNSEEN,)), stage=1,
     )  # fmt: skip

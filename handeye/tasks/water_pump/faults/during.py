@@ -103,7 +103,7 @@ def _light_and_pushes() -> Iterator[MishapFault]:
     size = Size(unit="N", usual=40.0, limits=(-300.0, 300.0))
     expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),
-        calls=detect.ASTRAY,
+        calls=(detect.ASTRAY,),
         harmless="The drives bear a push that is over before the hand feels for anything.",
     )
     for number, axis in enumerate("xyz"):
@@ -115,21 +115,23 @@ def _base() -> Iterator[MishapFault]:
     size = Size(unit="in", usual=1.0, limits=(-6.0, 6.0))
     expected = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED, NOTHING_HELD),
-        calls=(detect.NOT_HELD, "THE PUMP IS NOT WHERE IT WAS PUT", "THE PUMP HAS MOVED SINCE IT WAS FELT"),
-        stages=("feel for the grasp",),
+        calls=(detect.NOT_WHERE_SEEN, detect.NOT_AT_BLOCKS, detect.MOVED),
         harmless="The hand feels for the base around where it was seen.",
     )
     for number, axis in enumerate("xy"):
         meaning = f"Somebody moves the base along table {axis} within {MOVE_S:g} s, with what stands on it."
         yield declared(f"base.moved.{axis}", meaning, partial(_moved, number), expected, size, stage=2)
     meaning = "Somebody takes the base away, and all that stands on it."
-    yield declared("base.removed", meaning, always(Mishap(_take_away)), detect.NO_HOLE_FOR_PIN, stage=4)
+    gone = ExpectedDetection(
+        errors=(SEARCH_EXHAUSTED,), calls=(detect.NO_BASE, detect.NOT_AT_BLOCKS, detect.MOVED)
+    )
+    yield declared("base.removed", meaning, always(Mishap(_take_away)), gone, stage=4)
 
 
 def _losses() -> Iterator[MishapFault]:
     gasket = ExpectedDetection(
         errors=(NOTHING_HELD, WRONG_HEIGHT),
-        calls=(detect.GASKET_LOST, detect.THICKNESS, *detect.OFF),
+        calls=(detect.GASKET_LOST, detect.THICKNESS),
         stages=(detect.PUT_ON_GASKET,),
     )
     top = ExpectedDetection(

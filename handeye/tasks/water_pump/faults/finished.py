@@ -143,7 +143,7 @@ def _taken() -> Iterator[MishapFault]:
         "driver.fallen", meaning, always(Mishap(partial(_take, "driver"))), expected, stage=LAST_STAGE
     )
     for part, expected, stage in (
-        ("gasket", ExpectedDetection(errors=(GASKET_WRONG,), calls=detect.OFF), 6),
+        ("gasket", ExpectedDetection(errors=(GASKET_WRONG,), calls=(detect.NOT_ON,)), 6),
         ("top", ExpectedDetection(calls=(detect.loose_screw(1),)), 8),
     ):
         meaning = f"Somebody takes the {part} away, if nothing holds it."

@@ -14,6 +14,7 @@ from handeye.core.errors import (
     PART_NOT_SEEN,
     PICTURE_WRONG,
     SEARCH_EXHAUSTED,
+    WRONG_HEIGHT,
 )
 from handeye.core.faults import UNKNOWN, ExpectedDetection
 
@@ -26,34 +27,60 @@ PUT_ON_TOP: Final = "put on the top"
 DRIVE_FIRST: Final = "drive the first two screws"
 DRIVE_LAST: Final = "drive the last four screws"
 
-ASTRAY: Final = (
-    "NO TABLE UNDER THE BASE: IT IS LOST, OR A JOINT READS WRONG",
-    "NO FAR BLOCK: THE BASE IS LOST, OR A JOINT READS WRONG",
-    "NO LEFT BLOCK: THE BASE IS LOST, OR A JOINT READS WRONG",
+ASTRAY: Final = "{what}: THE BASE IS LOST, OR A JOINT READS WRONG"
+"""Of no table and no block: a joint that was off from the beginning. Both its senses agree, the camera is calibrated
+with it, and only what stands in the cell shows it."""
+JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
+"""All calls of a place that is not where it should be, or where it was felt before, and of a hole or pin that is not
+found: the place, or the gear or potentiometer of a joint."""
+UNSEEN: Final = "THE BASE IS NOT SEEN ON THE BELT: ITS {what}"
+NOT_WHERE_SEEN: Final = (
+    "THE BASE IS NOT WHERE IT WAS SEEN: IT OR THE CAMERA HAS MOVED, OR A JOINT READS WRONG"
 )
-"""A joint that was off from the beginning: both its senses agree, the camera is calibrated with it, and only what
-stands in the cell shows it."""
-UNSEEN: Final = ("NO BASE IS SEEN ON THE BELT", "THE HOLES OF THE BASE ARE NOT SEEN")
-"""The careful program has looked again, and calls the operator; that of 1973 stops by an error."""
-NOT_HELD: Final = "THE BASE IS NOT BETWEEN THE FINGERS"
+NOT_ON: Final = "THE GASKET IS NOT ON PROPERLY, OR THE CAMERA OR THE LIGHT HAS CHANGED"
 THICKNESS: Final = "NO GASKET LIES ON THE BASE, OR TWO, OR ONE OF ANOTHER THICKNESS"
-OFF: Final = ("THE GASKET IS NOT ON PROPERLY", "THE GASKET CANNOT BE TAKEN UP AGAIN")
-GASKET_OFF: Final = "THE GASKET LIES OFF ITS PLACE"
-GASKET_STAYS: Final = "THE GASKET DOES NOT COME UP: IT LIES OFF ITS PLACE"
+GASKET_OFF: Final = "THE GASKET IS NOT WHERE IT SHOULD BE: {how}, OR A JOINT READS WRONG"
 GASKET_LOST: Final = "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
 TOP_LOST: Final = "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
+NOT_FLAT: Final = "THE TOP DOES NOT LIE FLAT ON THE GASKET"
+ON_PINS: Final = "THE {part} DOES NOT GO DOWN ON ITS PINS: IT IS HELD ASKEW, OR A JOINT READS WRONG"
+PIN_IN_NO_HOLE: Final = "PIN {number} FINDS NO HOLE: ITS NOSE OR THE HOLE IS WRONG, OR A JOINT READS WRONG"
+NO_BASE: Final = "NO BASE STANDS UNDER PIN {number}"
+NOT_AT_BLOCKS: Final = "THE PUMP IS NOT WHERE IT WAS PUT"
+MOVED: Final = "THE PUMP HAS MOVED SINCE IT WAS FELT"
+SCREW_IN_NO_HOLE: Final = (
+    "SCREW {number} FINDS NO HOLE AT {hole}: POINT OR HOLE IS WRONG, OR A JOINT READS WRONG"
+)
+
+ONCE: Final = {
+    PART_NOT_SEEN: (UNSEEN,),
+    FEATURES_NOT_SEEN: (UNSEEN,),
+    GASKET_WRONG: (NOT_ON,),
+    WRONG_HEIGHT: (THICKNESS, NOT_FLAT),
+    NOTHING_HELD: (NOT_WHERE_SEEN,),
+    SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
+}
+"""Errors by which a program that does each thing once, as that of 1973, tells what the careful one calls: one name."""
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN"
 CRANK_ASTRAY: Final = "THE CRANK IS NOT WHERE IT WAS LEFT"
 NO_DRIVER: Final = "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
 
 NO_PIN: Final = ExpectedDetection(errors=(NOTHING_HELD,), stages=(INSERT_PINS,))
-NO_HOLE_FOR_PIN: Final = ExpectedDetection(errors=(SEARCH_EXHAUSTED,), stages=(INSERT_PINS,))
+NO_HOLE_FOR_PIN: Final = ExpectedDetection(
+    errors=(SEARCH_EXHAUSTED,), calls=(PIN_IN_NO_HOLE,), stages=(INSERT_PINS,)
+)
 POOR_LIGHT: Final = ExpectedDetection(
     errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG, GASKET_WRONG),
-    calls=(*UNSEEN, *OFF),
+    calls=(UNSEEN, NOT_ON),
     harmless="The eye adjusts itself to what light there is.",
 )
+
+
+def names(expected: ExpectedDetection) -> set[int | str]:
+    """The names of a fault: its calls, and those errors that tell nothing else."""
+    told = {number for number in expected.errors if not {*ONCE.get(number, ())} & {*expected.calls}}
+    return {*expected.calls, *told}
 
 
 def lost_screw(number: int) -> str:
