@@ -12,7 +12,8 @@ import pytest
 from conftest import Command
 from cyclopts import App
 
-from handeye.cli import app
+from handeye.cli import app, scripts
+from handeye.cli.commands import restore_docstring
 from handeye.core.resources import demo
 from handeye.planfile.plan import VERSION
 
@@ -342,3 +343,48 @@ def test_commands_that_move_nothing_import_no_simulator_no_eye_and_no_solver(tmp
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert "job.al: no errors" in done.stdout
+
+
+def test_a_docstring_that_python_leaves_out_is_found_in_the_source() -> None:
+    checked = scripts.check
+    told = checked.__doc__
+    checked.__doc__ = None
+    try:
+        restore_docstring(checked)
+        assert checked.__doc__ == told
+    finally:
+        checked.__doc__ = told
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("words", ["--help", "trig --help"])
+def test_help_does_not_hang_on_docstrings(words: str) -> None:
+    call = ["-m", "handeye", *words.split()]
+    whole, without = (
+        subprocess.run([sys.executable, *flag, *call], capture_output=True, text=True, check=True).stdout
+        for flag in ([], ["-OO"])
+    )
+    assert without == whole
+
+
+def test_a_script_whose_name_leaves_no_room_for_a_taught_file_is_checked(command: Command) -> None:
+    name = "n" * 252 + ".al"
+    Path(name[1:]).write_text("OPEN 1\n", encoding="utf-8")
+    assert command("check", name[1:])[:2] == (0, f"{name[1:]}: no errors\n")
+    Path(name[1:]).write_text("MOVE P\n", encoding="utf-8")
+    code, _, err = command("check", name[1:])
+    assert (code, "unknown-position" in err) == (2, True)
+
+
+@pytest.mark.parametrize(
+    "error", [MemoryError(), ValueError("Error: engine error: Could not allocate memory")]
+)
+def test_too_little_memory_is_told_in_a_sentence(
+    command: Command, monkeypatch: pytest.MonkeyPatch, error: Exception
+) -> None:
+    def fail(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(scripts, "script_at", fail)
+    code, _, err = command("check", "a.al")
+    assert (code, err.startswith("handeye: there is not enough memory; ")) == (2, True)

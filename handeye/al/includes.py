@@ -145,7 +145,9 @@ class Requirements:
             return None if told else problem("too-much-required", message, file.span)
         message = f"{quoted(file.text)} cannot be read"
         if found is not None:
-            return problem("unreadable-file", message, file.span, notes=(found.problem,))
+            slashed = file.text.replace("\\", "/")
+            divided = None if slashed == file.text else f"folders are divided by `/`: {quoted(slashed)}"
+            return problem("unreadable-file", message, file.span, notes=(found.problem,), help=divided)
         notes = ("this text is not in a file",)
         help = "paths are relative to the file that requires them: save this text as a file"
         return problem("unreadable-file", message, file.span, notes=notes, help=help)

@@ -20,6 +20,7 @@ from handeye.core.versions import HANDEYE
 BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130
 GONE: Final = 141
+_NO_MEMORY: Final = "allocate memory"
 
 app = App(
     name="handeye",
@@ -73,6 +74,10 @@ def _carried_out() -> int:
         if error.filename is None:
             raise
         return _complained(f"{error.filename}: {error.strerror}")
+    except Exception as error:  # MuJoCo's is a ValueError
+        if not (isinstance(error, MemoryError) or _NO_MEMORY in str(error)):
+            raise
+        return _complained("there is not enough memory; end other programs, or raise the limit (`ulimit -v`)")
     return code if isinstance(code, int) else 0
 
 

@@ -1,5 +1,7 @@
 """The commands by name, each loaded when it is called or asked for its help; lists of commands load none."""
 
+from contextlib import suppress
+from types import FunctionType
 from typing import Final
 
 from cyclopts import App
@@ -65,8 +67,25 @@ class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
         """Import the command. Its own help is its docstring: the sentence is for lists, which do not import it."""
         self.help = None
-        loaded(self.import_path, "the command at ")
+        restore_docstring(loaded(self.import_path, "the command at "))
         return super().resolve(parent_app)
+
+
+def restore_docstring(command: object) -> None:
+    """Give a command the docstring back that Python leaves out with -OO, from its source: it is the help."""
+    if isinstance(command, App):
+        for part in (command.default_command, *command._commands.values()):
+            restore_docstring(part)
+    if command.__doc__ is not None or not isinstance(command, FunctionType):
+        return
+    import ast
+    import inspect
+    from textwrap import dedent
+
+    with suppress(OSError):  # where the source is not shipped
+        (written,) = ast.parse(dedent(inspect.getsource(command))).body
+        assert isinstance(written, ast.FunctionDef)
+        command.__doc__ = ast.get_docstring(written, clean=False)
 
 
 def add_commands(app: App, table: str, folder: str = "") -> None:

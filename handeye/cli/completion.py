@@ -6,6 +6,7 @@ from typing import Annotated, Final, Literal
 
 from cyclopts import App, Parameter
 
+from handeye.cli.commands import restore_docstring
 from handeye.cli.common import say
 from handeye.core.errors import BadArgument
 
@@ -39,6 +40,7 @@ def register(app: App) -> None:
         say(f"Completion works in every {chosen} that is started from now on{CONDITION.get(chosen, '')}.")
         return 0
 
+    restore_docstring(install_completion)
     app.command(install_completion, name="--install-completion")
 
 

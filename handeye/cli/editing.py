@@ -13,7 +13,7 @@ from handeye.cli.common import note, put, say, show
 from handeye.core.diagnostics import has_errors, quoted, suggestion
 from handeye.core.errors import BadArgument, BadFile
 from handeye.core.files import write_whole
-from handeye.core.source import Source, read_source
+from handeye.core.source import Source, read_source, with_line_ends
 from handeye.program.language import own_language
 
 STANDARD_INPUT = Path("-")
@@ -71,7 +71,8 @@ def _fmt(file: Path, source: Source, *, check: bool) -> int:
 
 def _standard_input() -> Source:
     try:
-        return Source(name="standard input", text=sys.stdin.buffer.read().decode("utf-8-sig"))
+        text = sys.stdin.buffer.read().decode("utf-8-sig")
+        return Source(name="standard input", text=with_line_ends(text))
     except UnicodeDecodeError as error:
         raise BadFile(f"standard input is not UTF-8 text: {error.reason} at byte {error.start}") from None
 

@@ -16,9 +16,11 @@ from handeye.core.files import check_place, write_over
 from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
+    from handeye.report.recorded import RecordedRun
     from handeye.results.export import Export
     from handeye.runs.exported_state import ExportedState
     from handeye.trace.tables import Format
+    from handeye.trace.trace import Trace
 
 Run = Annotated[
     Path, Parameter(help="The folder of a run, or a checkpoint; without one, a world as it is drawn.")
@@ -103,7 +105,7 @@ def plot(
 ) -> int:
     """Draw joints, force of the hand and events of a run against time; it needs the extra `plot`, matplotlib.
 
-    Exit code 0: it is written; 2: bad input.
+    Exit code 0: it is written; 1: so it is, of a trace that was cut short; 2: bad input.
     """
     from handeye.trace.plot import KINDS, drawn
     from handeye.trace.plot import plot as plot_of
@@ -114,15 +116,16 @@ def plot(
             f"a plot is a file whose name ends in {', '.join(KINDS)}; {quoted(output.name)} does not"
         )
     check_place(output, kind)
-    write_over(output, drawn(plot_of(read_recorded(run).trace, stage), output.suffix.lower()), kind)
+    recorded = read_recorded(run)
+    write_over(output, drawn(plot_of(recorded.trace, stage), output.suffix.lower()), kind)
     say(str(output))
-    return 0
+    return _cut(recorded)
 
 
 def csv(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) -> int:
     """Write tables of a run as CSV, with a README that tells their columns.
 
-    Exit code 0: they are written; 2: bad input.
+    Exit code 0: they are written; 1: so they are, of a trace that was cut short; 2: bad input.
     """
     return _exported(run, output, "csv", overwrite=overwrite)
 
@@ -130,7 +133,7 @@ def csv(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) -> i
 def parquet(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) -> int:
     """Write tables of a run as Parquet, with a README that tells their columns; it needs the extra `export`, pyarrow.
 
-    Exit code 0: they are written; 2: bad input.
+    Exit code 0: they are written; 1: so they are, of a trace that was cut short; 2: bad input.
     """
     return _exported(run, output, "parquet", overwrite=overwrite)
 
@@ -138,10 +141,25 @@ def parquet(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) 
 def _exported(run: Path, output: Path, kind: "Format", *, overwrite: bool) -> int:
     from handeye.trace.tables import export_tables
 
-    written = export_tables(output, lambda: read_recorded(run).trace, kind, overwrite=overwrite)
+    recorded: list[RecordedRun] = []
+
+    def trace() -> "Trace":
+        recorded.append(read_recorded(run))
+        return recorded[0].trace
+
+    written = export_tables(output, trace, kind, overwrite=overwrite)
     said = ", ".join(f"{table.name} ({counted(table.rows, 'row')})" for table in written)
     say(f"{output}: {said}")
-    return 0
+    return _cut(recorded[0])
+
+
+def _cut(recorded: "RecordedRun") -> int:
+    """1 if the trace was cut short, which is noted; 0 if it is all that there is of a run."""
+    name = recorded.trace.name
+    if recorded.whole or name.endswith(".part"):  # which is noted, too
+        return 0
+    note(f"{name} was cut short; this is what it holds")
+    return 1
 
 
 def thin(

@@ -153,7 +153,7 @@ class _Work:
             raise
         for sentence in cautions(runner, judged=self.job.referee):
             note(sentence)
-        for sentence in () if self.job.folder is None else losses(self.job.folder, runner):
+        for sentence in () if self.folder is None else losses(self.folder, runner):
             note(sentence)
         return runner
 

@@ -10,7 +10,7 @@ from cyclopts import Parameter
 from handeye.cli.common import Json, WholeNumber, note, notes, positive, put_json, say, screen
 from handeye.cli.tally import Tally
 from handeye.core.errors import BadArgument
-from handeye.core.files import check_place, write_over
+from handeye.core.files import check_place, unguarded, write_over
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
 
@@ -100,6 +100,8 @@ def carry_out_sweep(
 
     wanted = {(case.condition, number) for case in cases for number in case.trials}
     folder = None if options.folder is None else BatchFolder(options.folder, sweep, head, plan, anew=anew)
+    if folder is not None and folder.unlocked:
+        note(unguarded(folder.path, folder.unlocked))
     timer = HostTimer()
     rows: dict[tuple[str, int], TrialRow] = {}
     try:

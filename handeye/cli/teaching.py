@@ -12,7 +12,7 @@ from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.errors import BadArgument
-from handeye.core.files import Kind, beside, check_place
+from handeye.core.files import Kind, beside, check_place, is_there
 from handeye.core.source import read_source
 from handeye.program.taught import Taught, load_taught
 from handeye.runs.scripts import default_script
@@ -143,7 +143,7 @@ def repl(
     from handeye.teaching.repl import COMMANDS, Repl
 
     taught = cell.taught
-    if script is not None and taught is None and beside(script, ".toml").exists():
+    if script is not None and taught is None and is_there(beside(script, ".toml")):
         taught = beside(script, ".toml")
     folder = Path() if script is None else script.parent
     with PanicButton() as panic:
@@ -204,8 +204,8 @@ def teacher_of(
     from handeye.teaching.teacher import Teacher
 
     path = file if file.suffix == ".toml" else beside(file, ".toml")
-    text = read_source(path).text if path.exists() else ""
-    known = load_taught(path) if path.exists() else Taught()
+    text = read_source(path).text if is_there(path) else ""
+    known = load_taught(path) if is_there(path) else Taught()
     check_place(path, _TAUGHT_FILE)  # before anything is taught that could not be saved
     return Teacher(workplace=cell.workplace(panic, known, observers), file=path, saved=text)
 

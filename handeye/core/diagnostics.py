@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 from handeye.core.codes import CODES, Severity
+from handeye.core.plain_text import shown
 from handeye.core.record import Record
 from handeye.core.source import Source, Span
 
@@ -242,17 +243,17 @@ def visible(text: str) -> str:
 
 def _visible(text: str) -> tuple[str, list[int]]:
     """`text` as a terminal may show it (tabs expanded, control characters as symbols), and columns by offset."""
-    shown, columns = "", []
+    line, columns = "", []
     for character in text:
-        columns.append(len(shown))
+        columns.append(len(line))
         if character == "\t":
-            shown += " " * (8 - len(shown) % 8)
+            line += " " * (8 - len(line) % 8)
         elif character < " ":
-            shown += chr(0x2400 + ord(character))
+            line += chr(0x2400 + ord(character))
         else:
-            shown += character if character.isprintable() else "\N{REPLACEMENT CHARACTER}"
-    columns.append(len(shown))
-    return shown, columns
+            line += shown(character)
+    columns.append(len(line))
+    return line, columns
 
 
 def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:

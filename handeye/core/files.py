@@ -13,6 +13,15 @@ from handeye.core.errors import BadFile, CannotWrite, InvalidInput
 from handeye.core.plain_text import counted
 
 LARGEST: Final = 1 << 30  # bytes: a hundred traces of a whole run
+_CANNOT: Final = {
+    errno.EINVAL,
+    errno.ENOSYS,
+    errno.ENOTSUP,
+    errno.EOPNOTSUPP,
+}  # of a file system that cannot do it
+_NOWHERE: Final = {errno.ENOENT, errno.ENOTDIR, errno.ENAMETOOLONG}
+_OF_NAME: Final = 40
+"""Characters of a name that a temporary file takes over: with all of a long one, its own would be too long."""
 
 _FRONT: Final = 1024  # bytes that identify a file
 
@@ -31,6 +40,8 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
     file = Path(path)
     try:
         if not file.exists():
+            if file.is_symlink():
+                raise BadFile(f"{path} is a link that leads nowhere")
             raise BadFile(f"{path}: there is no such file")
         if file.is_dir():
             raise BadFile(f"{path} is a directory, not a file")
@@ -50,6 +61,33 @@ def beside(path: Path, ending: str) -> Path:
     if not path.name:
         raise CannotWrite(f"{path} is a directory, not a file")
     return path.with_suffix(ending)
+
+
+def is_there(path: Path) -> bool:
+    """True if there is something of a name, be it a link that leads nowhere; raises BadFile if that cannot be known."""
+    try:
+        path.lstat()
+    except ValueError:  # a name with a NUL in it
+        return False
+    except OSError as error:
+        if error.errno in _NOWHERE:  # no file can have the name, for one
+            return False
+        raise BadFile(f"{path} cannot be read: {error.strerror}") from None
+    return True
+
+
+def temporary_beside(place: Path) -> str:
+    """The beginning of the name of a temporary file or folder that will replace one."""
+    return f".{place.name[:_OF_NAME]}."
+
+
+def settle(file: int) -> None:
+    """Have what was written to a descriptor on the disk; some file systems cannot say when it is."""
+    try:
+        os.fsync(file)
+    except OSError as error:
+        if error.errno not in _CANNOT:
+            raise
 
 
 def check_place(path: Path, kind: Kind) -> None:
@@ -93,12 +131,13 @@ def write_whole(path: Path, data: bytes) -> None:
         mode = stat.S_IMODE(place.stat().st_mode) if place.exists() else 0o666 & ~umask
         from tempfile import mkstemp
 
-        handle, temporary = mkstemp(dir=place.parent, prefix=f".{place.name}.")
+        handle, temporary = mkstemp(dir=place.parent, prefix=temporary_beside(place))
         with os.fdopen(handle, "wb") as file:
             file.write(data)
             file.flush()
-            os.fsync(file.fileno())
-        os.chmod(temporary, mode)
+            settle(file.fileno())
+        with suppress(OSError):  # of a file system without modes
+            os.chmod(temporary, mode)
         os.replace(temporary, place)
     except BaseException as error:  # Ctrl-C too
         if temporary is not None:
@@ -113,12 +152,19 @@ def _check_file(place: Path, named: Path) -> None:
         raise CannotWrite(f"{named} cannot be written: it is not a file")
 
 
+def unguarded(path: Path, why: str) -> str:
+    """The sentence that a file system has no locks."""
+    return f"{path} cannot be locked ({why}): see to it that no other command writes to it meanwhile"
+
+
 class LineFile:
     """Appends whole lines to a file; one writer at a time."""
 
     def __init__(self, path: Path, writer: str, *, again: bool = True) -> None:
         """Continue a file, less a last line cut short, or begin anew; raises CannotWrite if a `writer` has it open."""
         self.path = path
+        self.unlocked = ""
+        """Why others are not kept from writing to it, if they are not."""
         if path.exists() and not path.is_file():  # opening a pipe without a reader would wait for ever
             raise CannotWrite(f"{path} cannot be written: it is not a file")
         try:
@@ -146,7 +192,7 @@ class LineFile:
         self._file.close()
 
     def _lock(self, writer: str) -> None:
-        """Lock the file where the platform can; raises CannotWrite if it is locked."""
+        """Lock the file where platform and file system can; raises CannotWrite if it is locked."""
         with suppress(ImportError):
             import fcntl
 
@@ -155,6 +201,8 @@ class LineFile:
             except BlockingIOError:
                 self._file.close()
                 raise CannotWrite(f"{writer} is writing to {self.path} now") from None
+            except OSError as error:
+                self.unlocked = error.strerror or str(error)
 
     def _unwritable(self, error: OSError) -> InvalidInput:
         return CannotWrite(f"{self.path} cannot be written: {error.strerror}")

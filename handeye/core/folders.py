@@ -9,6 +9,7 @@ from pathlib import Path
 
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import CannotWrite, Taken
+from handeye.core.files import settle, temporary_beside
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,7 +56,7 @@ def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
     place = Path(os.path.realpath(path))
     temporary = None
     try:
-        temporary = Path(tempfile.mkdtemp(dir=place.parent, prefix=f".{place.name}."))
+        temporary = Path(tempfile.mkdtemp(dir=place.parent, prefix=temporary_beside(place)))
         for name, data in files.items():
             _write(temporary / "new" / name, data)
         if place.exists():
@@ -83,4 +84,4 @@ def _write(file: Path, data: bytes) -> None:
     with file.open("wb") as whole:
         whole.write(data)
         whole.flush()
-        os.fsync(whole.fileno())
+        settle(whole.fileno())

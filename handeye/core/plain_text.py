@@ -11,8 +11,15 @@ _SAME_DIGITS: Final = 1e-6  # of the last digit: computing error that does not r
 
 
 def printable(text: str) -> str:
-    """A text with replacement characters for what would control a terminal."""
-    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
+    """A text with stand-ins for blanks that are not ordinary ones, and for what would control a terminal."""
+    return "".join(map(shown, text))
+
+
+def shown(character: str) -> str:
+    """A character as a terminal may show it, one column wide."""
+    if character.isprintable():
+        return character
+    return "␣" if character.isspace() and character > "\x9f" else "\N{REPLACEMENT CHARACTER}"
 
 
 def one_line(text: str) -> str:

@@ -102,11 +102,16 @@ def line_name(line: int, file: str = "") -> str:
     return f"{printable(file)}:{line}" if file else f"{line}"
 
 
+def with_line_ends(text: str) -> str:
+    """A text whose lines end as those of Unix do, if they end with a carriage return alone, as on old Macintoshes."""
+    return text if "\n" in text else text.replace("\r", "\n")
+
+
 def read_source(path: str | Path) -> Source:
     """Read a text named by its path; raises BadFile if unreadable, too large, or not UTF-8."""
     data = read_whole(path, LARGEST)
     try:
-        return Source(name=str(path), text=data.decode("utf-8-sig"))
+        return Source(name=str(path), text=with_line_ends(data.decode("utf-8-sig")))
     except UnicodeDecodeError as error:
         # `utf-8-sig` counts from behind a byte order mark, if there is one.
         byte = error.object[error.start]

@@ -6,13 +6,14 @@ from pathlib import Path
 
 from lsprotocol import types as lsp
 from pygls.uris import from_fs_path, to_fs_path
-from pygls.workspace import Workspace
+from pygls.workspace import TextDocument, Workspace
 
 from handeye.al.compiler import check_form
 from handeye.al.includes import led_by
 from handeye.core.diagnostics import Diagnostic, arranged
-from handeye.core.errors import InvalidInput
-from handeye.core.source import Source, Span, line_name, read_source
+from handeye.core.errors import BadFile, InvalidInput
+from handeye.core.files import is_there
+from handeye.core.source import Source, Span, line_name, read_source, with_line_ends
 from handeye.editor import wire
 from handeye.editor.document import Document
 from handeye.editor.navigation import Edit, Place
@@ -20,11 +21,20 @@ from handeye.program.taught import Taught
 from handeye.runs.scripts import taught
 
 
+def text_of(workspace: Workspace, uri: str) -> TextDocument:
+    """The text of a URI, open in the editor or in a file; raises BadFile if it is neither."""
+    if uri not in workspace.text_documents:
+        if not uri.startswith("file:"):
+            raise BadFile(f"{uri} is not open in the editor")
+        read_source(to_fs_path(uri) or uri)
+    return workspace.get_text_document(uri)
+
+
 class EditedScript:
     """A document with the client's way of counting characters."""
 
     def __init__(self, workspace: Workspace, uri: str) -> None:
-        text = workspace.get_text_document(uri)
+        text = text_of(workspace, uri)
         self.uri, self.version, self._workspace = uri, text.version, workspace
         self.units: wire.Units = text.position_codec.client_num_units
         self.problem: str | None = None
@@ -37,7 +47,7 @@ class EditedScript:
                 known = taught(Path(path))
             except InvalidInput as error:
                 self.problem = str(error)
-        source = Source(name=Path(path).name if path else uri, text=text.source)
+        source = Source(name=Path(path).name if path else uri, text=with_line_ends(text.source))
         read = self._read if path else None
         self.document = Document(source=source, taught=known, taught_text=taught_text, read=read)
 
@@ -93,7 +103,7 @@ class EditedScript:
 
     def _taught_text(self, file: Path) -> str:
         """Text of the taught file, from the editor if open there; empty if there is none."""
-        if not file.is_file():
+        if not is_there(file):
             return ""
         self.taught_uri = from_fs_path(str(file)) or ""
         opened = self._workspace.text_documents.get(self.taught_uri)

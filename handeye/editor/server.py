@@ -19,7 +19,8 @@ from handeye.editor.completion import completions
 from handeye.editor.fixes import fixes
 from handeye.editor.hover import hover
 from handeye.editor.navigation import STAGE, Symbol, definition, outline, references, renamable, rename
-from handeye.editor.script import EditedScript
+from handeye.editor.protocol import Protocol, end_with, log_in_lines
+from handeye.editor.script import EditedScript, text_of
 from handeye.program.language import OwnLanguage, own_language
 from handeye.program.taught import Taught
 
@@ -31,8 +32,11 @@ class ArmServer(LanguageServer):
     """The server, with the planner's diagnostics of each script and the text they are for."""
 
     def __init__(self) -> None:
-        super().__init__("handeye", HANDEYE)
+        super().__init__("handeye", HANDEYE, protocol_cls=Protocol)
         self.planned: dict[str, tuple[Source, Taught, list[Diagnostic]]] = {}
+        self.watching: asyncio.Future[None] | None = (
+            None  # of the editor's process, if it has said which that is
+        )
 
     def script(self, uri: str) -> EditedScript:
         """A script as it is now."""
@@ -56,7 +60,7 @@ class ArmServer(LanguageServer):
 
     async def publish_own(self, uri: str, language: OwnLanguage) -> None:
         """Send the client a system's diagnostics on a text in its own language."""
-        text = self.workspace.get_text_document(uri)
+        text = text_of(self.workspace, uri)
         source, units = Source(name=uri, text=text.source), text.position_codec.client_num_units
         found = [
             wire.diagnostic(problem, wire.range_(source, problem.primary.span, units), ())
@@ -106,16 +110,18 @@ _SYMBOLS: Final = {
 
 def serve() -> None:
     """Serve requests from standard input on standard output until the client ends."""
+    log_in_lines()
     make_server().start_io()
 
 
 def make_server() -> ArmServer:
     """A server with all handlers."""
     server = ArmServer()
-    for name, answer in _ANSWERS.items():
-        server.feature(name, _OPTIONS.get(name))(answer)
-    for name, answer in _ANSWERS_ON_SCRIPTS.items():
-        server.feature(name, _OPTIONS.get(name))(_of_scripts(answer))
+    for name, notice in _NOTICES.items():
+        server.feature(name)(notice)
+    answers = _ANSWERS | {name: _of_scripts(answer) for name, answer in _ANSWERS_ON_SCRIPTS.items()}
+    for name, answer in answers.items():
+        server.feature(name, _OPTIONS.get(name))(_told(answer))
     return server
 
 
@@ -125,12 +131,26 @@ def _of_scripts(answer: Callable[[EditedScript, Any], Any]) -> Callable[..., Any
     def answered(server: ArmServer, params: Any) -> Any:
         if own_language(params.text_document.uri) is not None:
             return None
+        return answer(server.script(params.text_document.uri), params)
+
+    return answered
+
+
+def _told(answer: Callable[..., Any]) -> Callable[..., Any]:
+    """An answer that tells the editor in a sentence what cannot be answered."""
+
+    def told(server: ArmServer, params: Any) -> Any:
         try:
-            return answer(server.script(params.text_document.uri), params)
+            return answer(server, params)
         except InvalidInput as error:
             raise JsonRpcInvalidParams(str(error)) from None
 
-    return answered
+    return told
+
+
+def _begun(server: ArmServer, params: lsp.InitializeParams) -> None:
+    if params.process_id is not None:
+        server.watching = asyncio.ensure_future(end_with(params.process_id))
 
 
 async def _opened(server: ArmServer, params: lsp.DidOpenTextDocumentParams) -> None:
@@ -186,7 +206,7 @@ def _completion(server: ArmServer, params: lsp.CompletionParams) -> list[lsp.Com
 def _own_words(
     server: ArmServer, language: OwnLanguage, params: lsp.CompletionParams
 ) -> list[lsp.CompletionItem]:
-    text = server.workspace.get_text_document(params.text_document.uri)
+    text = text_of(server.workspace, params.text_document.uri)
     source = Source(name=text.uri, text=text.source)
     at = wire.offset(source, params.position, text.position_codec.client_num_units)
     kind = lsp.CompletionItemKind.Keyword
@@ -260,11 +280,14 @@ def _code_actions(server: ArmServer, params: lsp.CodeActionParams) -> list[lsp.C
     return actions
 
 
-_ANSWERS: Final[dict[str, Callable[..., Any]]] = {
+_NOTICES: Final[dict[str, Callable[..., Any]]] = {
+    lsp.INITIALIZE: _begun,
     lsp.TEXT_DOCUMENT_DID_OPEN: _opened,
     lsp.TEXT_DOCUMENT_DID_CHANGE: _changed,
     lsp.TEXT_DOCUMENT_DID_CLOSE: _closed,
     lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES: _files_changed,
+}
+_ANSWERS: Final[dict[str, Callable[..., Any]]] = {
     lsp.TEXT_DOCUMENT_COMPLETION: _completion,
     lsp.TEXT_DOCUMENT_CODE_ACTION: _code_actions,
 }  # about texts in languages of other systems, too

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from handeye.core.files import unguarded
 from handeye.core.versions import versions
 from handeye.program.events import RunStarted
 from handeye.runs.folder import EVENTS, RunFolder
@@ -28,7 +29,9 @@ def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
 
 
 def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
-    """Sentences on what the folder of a run that goes on has lost of it."""
+    """Sentences on what the folder of a run that goes on has lost of it, and on what it cannot guard."""
+    if folder.unlocked:
+        yield unguarded(folder.path, folder.unlocked)
     if folder.lost:
         yield (
             f"the trace in {folder.path} was lost or damaged: it lacks the motions before {runner.time:.2f} s"

@@ -99,6 +99,11 @@ class RunFolder(Observer):
         """True if the event list of a resumed run was lost or another's, and was begun anew."""
         return self._journal is not None and self._journal.lost
 
+    @property
+    def unlocked(self) -> str:
+        """Why other commands are not kept from writing to the folder, if they are not."""
+        return "" if self._journal is None else self._journal.unlocked
+
     def begin(self, start: Checkpoint) -> None:
         """Let this run replace the one that was here."""
         self.kept.drop_after(-1)
@@ -189,12 +194,15 @@ class RunFolder(Observer):
 
     def discard(self) -> None:
         """Remove what `open_new` has made, if the run has not begun."""
-        if self._runner is not None:
+        if self._recorder is not None:
             return
         if self._first is not None:
             self._first.unlink(missing_ok=True)
         if self._first is not None or self.path in self._made:
             (self.path / PLAN).unlink(missing_ok=True)
+        if self._journal is not None and self.path in self._made:
+            self._journal.close()
+            (self.path / EVENTS).unlink()
         for folder in self._made:
             if not any(folder.iterdir()):
                 folder.rmdir()

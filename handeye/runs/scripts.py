@@ -10,7 +10,7 @@ from handeye.al import AL, sewn
 from handeye.core.diagnostics import quoted
 from handeye.core.entries import entry_of_file, refusal
 from handeye.core.errors import BadArgument
-from handeye.core.files import beside
+from handeye.core.files import beside, is_there
 from handeye.core.resources import plans
 from handeye.core.source import Source, read_source
 from handeye.program.language import Language, language_of
@@ -69,7 +69,7 @@ def taught(file: Path, work: Task | None = None) -> Taught:
 def taught_beside(file: Path) -> Taught:
     """Positions taught by the file beside a script, if there is one."""
     path = beside(file, ".toml")
-    return load_taught(path) if path.exists() else Taught()
+    return load_taught(path) if is_there(path) else Taught()
 
 
 def in_cell(known: Taught, work: Task) -> Taught:

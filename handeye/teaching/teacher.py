@@ -14,7 +14,7 @@ from handeye.arm.samples import Samples
 from handeye.cell.simulated import pushed
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import CannotWrite, NoSuchName, Refused
-from handeye.core.files import write_whole
+from handeye.core.files import is_there, write_whole
 from handeye.core.record import Vector3
 from handeye.core.source import Source, read_source
 from handeye.execution.servo import Halted
@@ -144,7 +144,7 @@ class Teacher:
         """Write the file and return the new names; raises CannotWrite, also if the file has changed meanwhile."""
         names = self.unsaved
         if names:
-            now = read_source(self.file).text if self.file.exists() else ""
+            now = read_source(self.file).text if is_there(self.file) else ""
             if now != self.saved:
                 raise CannotWrite(
                     f"{self.file} has changed meanwhile, and nothing was written; `list` shows what to add"

@@ -63,6 +63,11 @@ class Journal:
             for event in events:
                 self.append(event)
 
+    @property
+    def unlocked(self) -> str:
+        """Why other runs are not kept from writing to it, if they are not."""
+        return self._file.unlocked
+
     def append(self, event: AnyEvent) -> None:
         """Write one event; raises CannotWrite if there is no room."""
         owed, self._owed = self._owed, None

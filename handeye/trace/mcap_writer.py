@@ -12,6 +12,7 @@ from mcap.writer import Writer
 from zstandard import compress
 
 from handeye.core.errors import CannotWrite
+from handeye.core.files import settle
 from handeye.core.versions import HANDEYE
 from handeye.program.events import RunStarted
 from handeye.trace.channels import (
@@ -113,13 +114,13 @@ class GrowingFile:
             if self._pending:
                 self.uneven = True
                 self._end_chunk()
-            os.fsync(self._sink.handle)
+            settle(self._sink.handle)
 
     def finish(self) -> None:
         """Write the summary: the file is whole. If it cannot be written, what was in the file stays readable."""
         with self._complaining():
             self._writer.finish()
-            os.fsync(self._sink.handle)
+            settle(self._sink.handle)
 
     def release(self) -> None:
         """Close the file as it is."""

@@ -124,6 +124,11 @@ class BatchFolder(Generic[R]):
             self._file.close()
             raise
 
+    @property
+    def unlocked(self) -> str:
+        """Why other commands are not kept from writing to it, if they are not."""
+        return self._file.unlocked
+
     def append(self, row: R) -> None:
         """Keep a trial; raises InvalidInput if there is no room."""
         self._file.append(msgspec.json.encode(row) + b"\n")

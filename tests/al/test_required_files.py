@@ -49,6 +49,10 @@ def test_lines_of_a_required_file_stand_where_it_is_required(file: str) -> None:
     assert places(program) == ["1 PARK", "a.al:2 MOVE T", "a.al:3 OPEN 1", "3 MOVE P"]
 
 
+def test_a_path_with_backslashes_is_told_what_divides_folders() -> None:
+    assert "help: folders are divided by `/`: `lib/a.al`" in shown("REQUIRE lib\\a.al", {"lib/a.al": "PARK"})
+
+
 def test_blanks_in_a_file_s_name_need_no_quotes() -> None:
     assert codes("REQUIRE two words.al", {"two words.al": "PARK"}) == []
 

@@ -14,6 +14,12 @@ def test_text_is_read_without_its_byte_order_mark(tmp_path: Path) -> None:
     assert read_source(path) == Source(name=str(path), text="PARK\r\n")
 
 
+def test_lines_that_end_with_a_carriage_return_alone_are_lines(tmp_path: Path) -> None:
+    path = tmp_path / "a.al"
+    path.write_bytes(b"OPEN 1\rOPEN 2\r")
+    assert read_source(path).text == "OPEN 1\nOPEN 2\n"
+
+
 @pytest.mark.parametrize("mark", [b"", b"\xef\xbb\xbf"])
 def test_byte_that_is_not_utf8_is_named_with_its_offset(tmp_path: Path, mark: bytes) -> None:
     path = tmp_path / "a.al"

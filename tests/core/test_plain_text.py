@@ -7,6 +7,10 @@ def test_a_character_that_would_steer_a_terminal_is_shown_as_a_sign() -> None:
     assert printable("a\x1b[31mb\u202ec é") == "a\N{REPLACEMENT CHARACTER}[31mb\N{REPLACEMENT CHARACTER}c é"
 
 
+def test_a_blank_that_is_not_an_ordinary_one_is_shown_as_a_sign_for_a_blank() -> None:
+    assert printable("OPEN\u00a01 \u20032") == "OPEN␣1 ␣2"
+
+
 def test_a_statement_loses_the_blanks_of_its_columns() -> None:
     assert one_line("\tMOVE\t T  \x1b ") == "MOVE T \N{REPLACEMENT CHARACTER}"
 

@@ -1,6 +1,8 @@
 """The language server, driven over its standard input and output by a client."""
 
 import asyncio
+import json
+import re
 import subprocess
 import sys
 from collections.abc import Awaitable, Callable
@@ -14,7 +16,7 @@ from pygls.lsp.client import LanguageClient
 from handeye.core.codes import CODES
 from handeye.core.diagnostics import Diagnostic, Label
 from handeye.core.source import Span
-from handeye.editor import wire
+from handeye.editor import protocol, wire
 
 TAUGHT = """\
 [positions]
@@ -128,6 +130,56 @@ def test_a_taught_file_that_cannot_be_used_is_one_diagnostic(folder: Path) -> No
         assert await client.diagnostics() == []
 
     talk(folder, conversation)
+
+
+@pytest.mark.slow
+def test_what_is_asked_wrongly_is_answered_in_a_sentence_and_logged_in_a_line(tmp_path: Path) -> None:
+    at, never = {"line": 0, "character": 0}, {"uri": (tmp_path / "never.al").as_uri()}
+    change = {"textDocument": {**never, "version": 2}, "contentChanges": [{"text": ""}]}
+    untitled = {"uri": "untitled:1"}
+    messages = [
+        {"id": 1, "method": "initialize", "params": {"processId": None, "rootUri": None, "capabilities": {}}},
+        {"method": "textDocument/didOpen", "params": {"textDocument": 5}},
+        {"method": "textDocument/didChange", "params": change},
+        {"id": 2, "method": "textDocument/hover", "params": {"textDocument": never, "position": at}},
+        {"id": 3, "method": "textDocument/completion", "params": {"textDocument": untitled, "position": at}},
+        {
+            "id": 4,
+            "method": "textDocument/hover",
+            "params": {"textDocument": never, "position": {"line": -1}},
+        },
+        {"id": 5, "method": "textDocument/rename", "params": None},
+        {"id": 6, "method": "shutdown"},
+        {"method": "exit"},
+    ]
+    bodies = [json.dumps({"jsonrpc": "2.0", **message}).encode() for message in messages]
+    sent = b"".join(b"Content-Length: %d\r\n\r\n%s" % (len(body), body) for body in bodies)
+    done = subprocess.run(
+        [sys.executable, "-m", "handeye", "lsp"], input=sent, capture_output=True, check=False
+    )
+    heads = re.split(rb"Content-Length: \d+\r\n(?:Content-Type: [^\r]*\r\n)?\r\n", done.stdout)[1:]
+    answers = {body["id"]: body for body in map(json.loads, heads) if "id" in body}
+    assert "never.al: there is no such file" in answers[2]["error"]["message"]
+    assert answers[3]["error"]["message"] == "untitled:1 is not open in the editor"
+    for wrong in (4, 5):
+        assert "are not of the types that the protocol says" in answers[wrong]["error"]["message"]
+    assert (done.returncode, b"Traceback" in done.stderr) == (0, False)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("reaped", [True, False])
+def test_it_ends_with_the_editor_s_process_though_its_pipe_is_held_open(
+    reaped: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    editor = subprocess.Popen([sys.executable, "-c", ""])
+    if reaped:
+        editor.wait()
+    ended: list[int] = []
+    monkeypatch.setattr(protocol, "PAUSE_S", 0.01)
+    monkeypatch.setattr("os._exit", ended.append)
+    asyncio.run(protocol.end_with(editor.pid))
+    assert ended == [1]
+    editor.wait()
 
 
 @pytest.mark.slow

@@ -12,9 +12,10 @@ import pytest
 from forged_checkpoints import changed
 from short_runs import GRASP, begin, history, plan_of
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.planfile.store import write_plan
 from handeye.program.events import AnyEvent, WentBack
+from handeye.runs import folder as folders
 from handeye.runs.advance import AfterStage, advance
 from handeye.runs.checkpoint_file import encode
 from handeye.runs.checkpoint_store import CheckpointStore
@@ -282,6 +283,21 @@ def test_one_folder_takes_one_run_at_a_time(copy: Path) -> None:
         gone_on(copy)
     journal.close()
     assert (copy / "events.jsonl").read_bytes() == before
+
+
+def test_a_folder_that_a_run_cannot_begin_in_is_not_left_half_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise CannotWrite("no room")
+
+    monkeypatch.setattr(folders, "Journal", fail)
+    start = begin()
+    folder = open_new(tmp_path / "new" / "run", start)
+    with pytest.raises(CannotWrite, match=r"^no room$"):
+        Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
+    folder.discard()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_run_that_cannot_begin_leaves_the_record_of_the_one_before(whole: Path, tmp_path: Path) -> None:

@@ -121,6 +121,16 @@ def test_tables_are_replaced_only_if_somebody_says_so_and_nothing_else_ever(
     assert "told holds other things" in command(*words, "--overwrite")[2]
 
 
+def test_of_a_trace_that_was_cut_short_it_is_said_and_the_exit_code_says_so(
+    command: Command, tmp_path: Path
+) -> None:
+    record(tmp_path / "a.mcap")
+    whole = Path("a.mcap").read_bytes()
+    Path("a.mcap").write_bytes(whole[: len(whole) * 3 // 4])
+    code, out, err = command("trace", "export", "csv", "a.mcap", "-o", "told")
+    assert (code, out[:14], err) == (1, "told: joints (", "a.mcap was cut short; this is what it holds\n")
+
+
 def test_an_event_list_makes_no_tables(command: Command) -> None:
     Path("events.jsonl").touch()
     code, _, err = command("trace", "export", "csv", "events.jsonl", "-o", "told")

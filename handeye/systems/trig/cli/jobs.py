@@ -148,6 +148,7 @@ def _carried_out(
     video: "JobVideo | None",
 ) -> "tuple[JobReport, TaughtJob]":
     """Teach a job and carry it out; its result is in the folder before the user can interrupt."""
+    from handeye.results.cautions import losses
     from handeye.results.finishing import finished, outcome
     from handeye.runs.host_seconds import Meter
     from handeye.systems.trig.run.job import account, carry_out, job_of
@@ -160,6 +161,8 @@ def _carried_out(
             return [_Progress(runner, status), *watching]
 
         runner = _taught(start, panic, folder, observers)
+        for sentence in () if folder is None else losses(folder, runner):
+            note(sentence)
         job = job_of(runner).job
         if video is not None:
             video.watch(job)
