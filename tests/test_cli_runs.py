@@ -16,6 +16,7 @@ from handeye.program.events import AnyEvent, PanicStopped, RunStarted, StepStart
 from handeye.runs.checkpoint_file import read_head
 from handeye.runs.folder import open_again
 from handeye.systems.stanford.executor_run import RunningPlan
+from handeye.trace.compare import Repetition
 from handeye.trace.eventlist import effective, read_events
 
 pytestmark = pytest.mark.slow
@@ -599,6 +600,26 @@ def test_a_folder_of_which_nothing_was_carried_out_says_so(command: Command, fol
 def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
     code, out, _ = command("trace", "verify", str(folder))
     assert (code, "to the byte" in out) == (0, True)
+
+
+@pytest.mark.parametrize(
+    ("found", "code", "said"),
+    [
+        (Repetition(), 0, "it repeats: the same"),
+        (Repetition(rounded="A"), 0, "it repeats but for last places, on another kind of processor: the same"),
+        (Repetition(parts="B"), 1, "it does not repeat, on another kind of processor: B"),
+        (Repetition(parts="B", rounded="A"), 1, "processors round differently, differ before that: A"),
+    ],
+)  # fmt: skip
+def test_verify_has_three_answers_and_names_the_processors(
+    command: Command, folder: Path, monkeypatch: pytest.MonkeyPatch, found: Repetition, code: int, said: str
+) -> None:
+    monkeypatch.setattr("handeye.runs.verify.repetition", lambda *_: found)
+    monkeypatch.setattr("handeye.core.processor.processor", lambda: "a 6502")
+    really, out, told = command("trace", "verify", str(folder))
+    assert really == code
+    assert said in " ".join(out.replace(str(folder), "it").split())
+    assert "; this is a 6502" in " ".join(told.split())
 
 
 def test_a_run_with_experiments_and_an_operator_comes_out_the_same_again(

@@ -21,7 +21,7 @@ from handeye.inspection.drawing import flow_svg
 from handeye.inspection.flow import flow
 from handeye.inspection.inspection import InspectedStage, InspectedStep, Inspection, inspection
 from handeye.planfile import plan as planfile
-from handeye.planfile.store import decode, plan_digest, write_plan
+from handeye.planfile.store import alike, decode, plan_digest, write_plan
 from handeye.program.stage_names import stage_index
 from handeye.program.taught import Taught, load_taught, read_taught
 from handeye.runs.scripts import plan_script, plan_text, program_named
@@ -72,7 +72,9 @@ FileName = str | os.PathLike[str]
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """A script compiled, and the motions that one arm makes of it. Two plans are equal if they do the same.
+    """A script compiled, and the motions that one arm makes of it.
+
+    Two plans are equal if they do the same, but for last places of computed numbers.
 
     In a notebook it shows its stages, how long they take, what is doubtful about the script, and if short its flow.
 
@@ -109,7 +111,10 @@ class Plan:
 
     @property
     def digest(self) -> str:
-        """Sixteen hexadecimal digits that identify the plan in runs and traces."""
+        """Sixteen hexadecimal digits that identify the plan in runs and traces, the same on every processor.
+
+        They are taken over script, what is taught, arm, task and planner, and not over the computed motions.
+        """
         return plan_digest(self.record)
 
     def save(self, path: FileName) -> Path:
@@ -144,6 +149,9 @@ class Plan:
     @cached_property
     def _laid_open(self) -> Inspection:
         return inspection(self.record)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Plan) and self.digest == other.digest and alike(self.record, other.record)
 
     def __hash__(self) -> int:
         return hash(self.digest)

@@ -95,10 +95,14 @@ def verify(file: TraceFile, /, *, task: TaskWords = None) -> int:
     It repeats what operators and experimenters did, and compares an interrupted run up to its last whole
     step.
 
-    Exit code 0: the run repeats exactly; 1: it does not; 2: bad input.
+    It repeats; or it repeats but for last places of numbers, which another kind of processor and other versions round
+    otherwise; or it parts from the record, and the answer says where.
+
+    Exit code 0: the run repeats, exactly or but for last places; 1: it does not; 2: bad input.
     """
+    from handeye.core.processor import processor
     from handeye.core.versions import versions
-    from handeye.runs.verify import difference, settled
+    from handeye.runs.verify import repetition, settled
 
     wanted = made_known(task)
     trace, events = _read(file)
@@ -109,14 +113,27 @@ def verify(file: TraceFile, /, *, task: TaskWords = None) -> int:
     if changed:
         sentence = f"it was recorded with other versions of {', '.join(changed)}; the result may differ"
         note(sentence)
+    recorded = trace.head.processor or ""
+    elsewhere = ", on another kind of processor" if recorded and recorded != processor() else ""
+    if elsewhere:
+        note(f"it was recorded on {recorded}; this is {processor()}")
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder, notes.status("repeating the run"):
-        found = difference(trace, Path(folder) / "run")
-    if found is not None:
-        say(f"{file} does not repeat exactly: {found}")
+        found = repetition(trace, Path(folder) / "run")
+    if found.parts is not None:
+        say(f"{file} does not repeat{elsewhere}: {found.parts}")
+        if found.rounded is not None:
+            say(
+                f"last places of numbers, which processors round differently, differ before that: {found.rounded}"
+            )
         return 1
     count = settled(events)
     ended = "" if count == len(events) else " up to the step that was interrupted"
-    say(f"{file}: the same {counted(count, 'event')}{ended}, to the byte")
+    same = f"the same {counted(count, 'event')}{ended}"
+    if found.rounded is None:
+        say(f"{file} repeats: {same}, to the byte")
+    else:
+        why = elsewhere or (", with other versions" if changed else ", as on another kind of processor")
+        say(f"{file} repeats but for last places{why}: {same}; first, {found.rounded}")
     if trace.begins > 0:
         note(f"motions before {trace.begins:.2f} s are not in this trace, and were not compared")
     return 0

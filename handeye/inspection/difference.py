@@ -9,6 +9,7 @@ import numpy as np
 
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.robots import robot
+from handeye.core.closeness import alike
 from handeye.core.plain_text import one_line
 from handeye.core.pose import Pose, hand, planar
 from handeye.core.record import Record
@@ -102,10 +103,12 @@ def place_changes(before: Program, after: Program) -> list[PlaceChange]:
 def _placed(
     what: Literal["position", "part"], name: str, one: Position | Part | None, other: Position | Part | None
 ) -> PlaceChange | None:
-    if one == other:
-        return None
     if one is None or other is None:
+        if one is other:
+            return None
         return PlaceChange(kind="added" if one is None else "removed", what=what, name=name)
+    if _alike(one, other):
+        return None
     X_one, X_other = _pose(one), _pose(other)
     shift = X_other[:3, 3] - X_one[:3, 3]
     x, y, z = (float(value) for value in np.where(np.abs(shift) > _TOLERANCE_M, shift, 0.0))
@@ -252,7 +255,14 @@ def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
         yield "guard", guards[0], guards[1]
     if texts[0] == texts[1] and guards[0] == guards[1]:
         was, now = does(one), does(other)
-        yield from ((key, f"{was.get(key)}", f"{now[key]}") for key in now if was.get(key) != now[key])
+        yield from (
+            (key, f"{was.get(key)}", f"{now[key]}") for key in now if not alike(was.get(key), now[key])
+        )
+
+
+def _alike(one: Record, other: Record) -> bool:
+    """True if two records are the same but for last places of numbers."""
+    return alike(msgspec.to_builtins(one), msgspec.to_builtins(other))
 
 
 def _place(target: int | None) -> str:
@@ -264,7 +274,8 @@ def _motion(
 ) -> MotionChange | None:
     before, after = (None if m is None else round(sum(m.times), 6) for m in (one, other))
     if one is None or other is None or arm is None:
-        return None if one == other else MotionChange(before=before, after=after)
+        same = one is other or (one is not None and other is not None and _alike(one, other))
+        return None if same else MotionChange(before=before, after=after)
     if len(one.knots) == len(other.knots) and np.allclose(one.knots, other.knots, rtol=0, atol=_ALIKE):
         alike = np.allclose(one.times, other.times, rtol=0, atol=_ALIKE)
         return None if alike else MotionChange(before=before, after=after)

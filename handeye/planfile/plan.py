@@ -9,6 +9,7 @@ from handeye.core.record import Record
 from handeye.program.program import Program
 
 VERSION: Final = 3  # version of the format on disk
+PLANNER: Final = 1  # version of the planner: another one makes other motions of the same script
 
 Joints = tuple[float, ...]  # one for each joint of the arm, rad or m
 

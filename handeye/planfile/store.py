@@ -7,11 +7,13 @@ from typing import Any, Final
 
 import msgspec
 
+from handeye.core import closeness
 from handeye.core.entries import entry_of_file, refusal
 from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole, write_over
-from handeye.planfile.plan import VERSION, Plan
+from handeye.planfile.plan import PLANNER, VERSION, Plan
 from handeye.planfile.soundness import faults
+from handeye.program.events import RunStarted
 
 PLAN: Final = Kind("plan", rb'\{\s*"format": "handeye plan"')
 
@@ -95,12 +97,56 @@ def write_plan(path: Path, plan: Plan) -> None:
 
 
 def plan_digest(plan: Plan) -> str:
-    """Sixteen hexadecimal digits that identify a plan, from the bytes that `write_plan` writes."""
-    return written_digest(encode(plan).encode())
+    """Sixteen hexadecimal digits that identify a plan by what makes it: texts, what is taught, arm, task, planner.
+
+    They are the same on every processor. Whether its computed numbers are as well, `alike` says.
+    """
+    program = plan.program
+    here = program.written("position")  # planned, or taught and then moved
+    taught = {name: place for name, place in program.positions.items() if name not in here}
+    texts = (program.name, program.language, program.source, program.required)
+    cell = (taught, program.parts, program.fixtures, program.held)
+    made = (PLANNER, plan.version, plan.task, plan.arm, plan.arm_digest, plan.speed)
+    steps = _without_fractions(msgspec.to_builtins(program.steps))
+    return written_digest(
+        msgspec.json.encode((made, texts, cell, program.stages, steps), order="deterministic")
+    )
+
+
+def _without_fractions(value: Any) -> Any:
+    """A value made of dictionaries and lists without its fractions, which may be computed."""
+    if isinstance(value, dict):
+        return {key: _without_fractions(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_without_fractions(each) for each in value]
+    return None if isinstance(value, float) else value
+
+
+def alike(one: Plan, other: Plan) -> bool:
+    """True if two plans are the same but for last places of computed numbers."""
+    return one is other or closeness.alike(
+        *(msgspec.to_builtins(plan, str_keys=True) for plan in (one, other))
+    )
 
 
 def written_digest(data: bytes) -> str:
-    """The digest of a plan by its bytes, as the handeye that wrote them took it."""
+    """The digest of a plan's bytes, to the last place of its numbers."""
     import hashlib
 
     return hashlib.sha256(data).hexdigest()[:16]
+
+
+def is_plan_of(begun: RunStarted, data: bytes) -> bool:
+    """True if a run that began so carried out the plan in some bytes: just these, where it tells their digest."""
+    digest = written_digest(data)
+    if begun.content:
+        return digest == begun.content
+    return digest == begun.plan or begun.plan == _digest_of_plan(data)
+
+
+def _digest_of_plan(data: bytes) -> str | None:
+    """`plan_digest` of what is in some bytes; None if it is no plan of motions."""
+    try:
+        return plan_digest(decode(data, "it"))
+    except BadFile:
+        return None

@@ -41,18 +41,26 @@ class RunStarted(Event, frozen=True, kw_only=True):
     system: str = "program"  # the kind of system that carries it out
     program: str
     steps: int
-    plan: str  # digest of the plan
+    plan: str  # digest that identifies the plan
+    content: str | UnsetType = UNSET  # digest of its bytes, which a change of any number in it changes
     arm: str
     arm_digest: str
     world: WorldSpec
     task: str = "water_pump"
     camera: Renderer  # how pictures are made
     versions: dict[str, str]
+    processor: str | UnsetType = UNSET  # kind of processor, by which last places of numbers differ
     replaced: dict[str, str] | UnsetType = UNSET  # parts by the caller's code, by name
     without: tuple[str, ...] | UnsetType = UNSET
     prepared: float = (
         0.0  # simulated seconds before that: the camera was calibrated, the arm measured or taught
     )
+
+    @property
+    def made_alike(self) -> "RunStarted":
+        """The event, whatever processor and versions the run is made with."""
+        camera = msgspec.structs.replace(self.camera, platform="")
+        return msgspec.structs.replace(self, versions={}, processor=UNSET, camera=camera)
 
     @property
     def lacking(self) -> tuple[str, ...]:

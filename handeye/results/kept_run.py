@@ -9,7 +9,7 @@ from msgspec import UNSET
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.files import read_whole
-from handeye.planfile.store import written_digest
+from handeye.planfile.store import is_plan_of
 from handeye.program.diagnosis.cause_text import call_sentence
 from handeye.program.events import (
     AnyEvent,
@@ -100,7 +100,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
         raise BadFile(f"{path / EVENTS} is an event list without the start of a run")
     kind, data = system_named(begun.system), read_whole(path / PLAN)
     plan = kind.decode(data, str(path / PLAN))
-    if written_digest(kind.encode(plan)) != begun.plan:
+    if not is_plan_of(begun, kind.encode(plan)):
         raise BadFile(f"{path / PLAN} is not the plan that was carried out")
     listing = kind.listing(plan)
     stages = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}

@@ -19,6 +19,7 @@ from handeye.core.packed import decoded, encoded, packed, sealed, unpacked
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.core.versions import versions
+from handeye.planfile.store import is_plan_of
 from handeye.program.event_reading import read_packed
 from handeye.program.events import RunStarted, StageFinished, StageStarted
 from handeye.runs.setup import Setup
@@ -149,8 +150,10 @@ def decode(data: bytes, name: str) -> Checkpoint:
     begun = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}
     if not begun <= set(listing.stages):
         raise BadFile(f"{name} is not a sound checkpoint: it has stages that its plan lacks")
-    told = (head.task, head.program, head.plan, head.position, head.touched)
-    if told != (setup.task, listing.name, digest_of(setup), checkpoint.position, checkpoint.touched):
+    first = next(iter(events), None)
+    own = not isinstance(first, RunStarted) or is_plan_of(first, body.plan.encode())
+    told = (head.task, head.program, head.position, head.touched)
+    if not own or told != (setup.task, listing.name, checkpoint.position, checkpoint.touched):
         raise BadFile(f"{name} is not a sound checkpoint: its head does not match its content")
     return checkpoint
 

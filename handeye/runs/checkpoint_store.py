@@ -18,7 +18,7 @@ from handeye.runs.checkpoint_file import (
 from handeye.runs.parts import deciding, named
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.systems import digest_of, listing_of
+from handeye.runs.systems import digest_of, listing_of, same_plan
 
 
 class CheckpointStore:
@@ -60,9 +60,12 @@ class CheckpointStore:
 
     def check(self, setup: Setup) -> None:
         """Raises BadFile if the checkpoints here belong to a run with another setup."""
+        newest = next((path for path, _ in self.heads()), None)
         for path, head in self.heads():
             if (head.system, head.plan) != (setup.system, digest_of(setup)):
                 raise BadFile(f"{path} is of another plan ({head.program}, {head.plan})")
+            if path == newest and not same_plan(read_checkpoint(path).setup, setup):
+                raise BadFile(f"{path} is of another plan of this script: its motions are others")
             if (head.world, head.camera) != (setup.world, setup.camera):
                 raise BadFile(
                     f"{path} is of another run ({head.world}, camera {head.camera}) than this "

@@ -24,7 +24,7 @@ from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.systems import digest_of, system_of, written
+from handeye.runs.systems import same_plan, system_of, written
 from handeye.trace.eventlist import Journal
 from handeye.vision.marks import Mark
 
@@ -271,7 +271,7 @@ def _check_plan(path: Path, setup: Setup) -> None:
     if not beside.exists():
         return
     plan = system_of(setup).decode(read_whole(beside), str(beside))
-    if digest_of(msgspec.structs.replace(setup, plan=plan)) != digest_of(setup):
+    if not same_plan(msgspec.structs.replace(setup, plan=plan), setup):
         raise BadFile(f"the runs in {path} are of another plan than this one, by {beside}")
 
 

@@ -21,6 +21,7 @@ from handeye.execution.context import ExecutionContext, Stopwatch
 from handeye.execution.servo import ServoPeriod
 from handeye.execution.state import ReversalOrder, Shot
 from handeye.judge.finding import Findings
+from handeye.planfile.store import written_digest
 from handeye.ports.axes import Channel
 from handeye.program.events import AnyEvent, Choice
 from handeye.program.operation import Device
@@ -314,11 +315,19 @@ class System(ABC):
 
     @abstractmethod
     def encode(self, plan: Any) -> bytes:
-        """A plan as bytes; their digest stands for it."""
+        """A plan as bytes."""
 
     @abstractmethod
     def decode(self, data: bytes, name: str) -> Any:
         """The plan in some bytes, found sound; `name` is for messages. Raises InvalidInput."""
+
+    def digest(self, plan: Any, data: bytes) -> str:
+        """Sixteen hexadecimal digits that identify a plan, `data` as bytes."""
+        return written_digest(data)
+
+    def alike(self, one: Any, other: Any) -> bool:
+        """True if two plans are the same, but for last places of computed numbers."""
+        return self.encode(one) == self.encode(other)
 
     @abstractmethod
     def listing(self, plan: Any) -> Listing:

@@ -5,7 +5,6 @@ from pathlib import Path
 
 from handeye.core.entries import entries, entry_named, loaded
 from handeye.core.record import Record
-from handeye.planfile.store import written_digest
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, System
 
@@ -38,7 +37,14 @@ def written(setup: Setup) -> bytes:
 
 def digest_of(setup: Setup) -> str:
     """Sixteen hexadecimal digits that identify the program carried out."""
-    return written_digest(written(setup))
+    return _digest(_Identical(setup.system, setup.plan))
+
+
+def same_plan(one: Setup, other: Setup) -> bool:
+    """True if two runs carry out the same plan, but for last places of its computed numbers."""
+    return one.system == other.system and (
+        one.plan is other.plan or system_of(one).alike(one.plan, other.plan)
+    )
 
 
 class _Identical:
@@ -52,6 +58,11 @@ class _Identical:
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, _Identical) and other.system == self.system and other.plan is self.plan
+
+
+@lru_cache(maxsize=2)
+def _digest(what: _Identical) -> str:
+    return system_named(what.system).digest(what.plan, _written(what))
 
 
 @lru_cache(maxsize=2)

@@ -15,7 +15,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import system_named
-from handeye.trace.compare import first_difference
+from handeye.trace.compare import Repetition, compared
 from handeye.trace.reading import Trace, read_trace
 
 
@@ -45,7 +45,13 @@ def settled(events: Sequence[AnyEvent]) -> int:
 
 
 def difference(trace: Trace, folder: Path) -> str | None:
-    """Carry out a run again in `folder`; the first difference, in a sentence. Raises Refused if it is thinned."""
+    """The first difference, if only of last places, as a sentence; arguments as for `repetition`."""
+    found = repetition(trace, folder)
+    return found.rounded or found.parts
+
+
+def repetition(trace: Trace, folder: Path) -> Repetition:
+    """Carry out a run again in `folder` and compare. Raises Refused if the trace is thinned."""
     if trace.thinned:
         raise Refused(f"{trace.name} is thinned: verify the whole trace, which it was made from")
     wanted = trace.events[: settled(trace.events)]
@@ -59,4 +65,4 @@ def difference(trace: Trace, folder: Path) -> str | None:
     finally:
         keeping.close()
     again = read_trace(folder / TRACE)
-    return first_difference(trace, again, events=len(wanted), unseen=trace.unseen)
+    return compared(trace, again, events=len(wanted), unseen=trace.unseen)

@@ -14,7 +14,7 @@ from handeye.core.variation import WorldSpec
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
-from handeye.planfile.store import plan_digest
+from handeye.planfile.store import encode, plan_digest, written_digest
 from handeye.planning.planner import PlannedScript
 from handeye.program.events import Choice, RunStarted
 from handeye.program.taught import Taught
@@ -139,7 +139,7 @@ class Workplace:
         setup, begun = msgspec.structs.replace(here.setup, plan=plan), self.runner.events[0]
         assert isinstance(begun, RunStarted)
         begun = msgspec.structs.replace(
-            begun, time=self.run.time, plan=plan_digest(plan),
+            begun, time=self.run.time, plan=plan_digest(plan), content=written_digest(encode(plan).encode()),
             program=plan.program.name, steps=len(plan.program.steps),
         )  # fmt: skip
         self.runner = self._runner(Checkpoint(setup=setup, snapshot=snapshot, events=(begun,)))

@@ -1,4 +1,4 @@
-"""Comparison of two traces: the first difference."""
+"""Comparison of two traces: the first difference, and whether it is one of last places only."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -6,29 +6,56 @@ from itertools import zip_longest
 
 from handeye.tasks import known
 from handeye.trace.channels import EVENTS, JOINTS, LOG, MOMENTS
-from handeye.trace.quantities import differing, quantity_text, values_text
+from handeye.trace.quantities import differing, has_quantities, quantity_text, values_text
 from handeye.trace.records import RawMessage, until
 from handeye.trace.sentences import sentence
 from handeye.trace.trace import Trace
 
 
-def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:
-    """One sentence that names the first difference of two traces, however they are packed; None if they say the same.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Repetition:
+    """How two traces compare, a sentence each; both None: they say the same to the byte."""
+
+    parts: str | None = None  # where they truly part
+    rounded: str | None = None  # where they first differ by last places of numbers alone
+
+
+def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> Repetition:
+    """Compare two traces, however they are packed.
 
     Only the first `events` events and what came before and between them are compared, and nothing recorded beside the
-    first `unseen` of them.
+    first `unseen` of them. On which processor and with which versions the runs were made is no difference.
     """
     if a.plan != b.plan:
-        return "the traces are of different plans"
-    so_far = _SoFar()
-    sides = (_compared(trace, events, unseen) for trace in (a, b))
-    for here, there in zip_longest(*sides):
+        return Repetition(parts="the traces are of different plans")
+    so_far, rounded, reworded = _SoFar(), None, None
+    for here, there in zip_longest(*(_compared(trace, events, unseen) for trace in (a, b))):
         if here is not None and here.topic == JOINTS:
             so_far.periods, so_far.last = so_far.periods + 1, here.time
-        if here != there:
-            return _difference(a, b, here, there, so_far)
+        if here is None or there is None or (here.topic, here.time) != (there.topic, there.time):
+            return Repetition(parts=reworded or _difference(a, b, here, there, so_far), rounded=rounded)
+        same = here.data == there.data
+        if here.topic == LOG:  # the sentence of the event that follows
+            reworded = reworded if same else _difference(a, b, here, there, so_far)
+        elif not same and not (so_far.events == 0 and _begin_alike(a, b)):
+            if not _differ_in_last_places(here, there):
+                return Repetition(parts=_difference(a, b, here, there, so_far, rounded=True), rounded=rounded)
+            rounded, reworded = rounded or _difference(a, b, here, there, so_far), None
+        elif here.topic == EVENTS and reworded is not None and same:
+            return Repetition(parts=reworded, rounded=rounded)
         so_far.events += here.topic == EVENTS
-    return None
+    return Repetition(parts=reworded, rounded=rounded)
+
+
+def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:
+    """The first difference, if only of last places, as a sentence; arguments as for `compared`."""
+    found = compared(a, b, events=events, unseen=unseen)
+    return found.rounded or found.parts
+
+
+def _begin_alike(a: Trace, b: Trace) -> bool:
+    """True if two runs begin in the same way, whatever they are made with."""
+    return a.head.made_alike == b.head.made_alike
 
 
 @dataclass(slots=True)
@@ -47,7 +74,20 @@ def _compared(trace: Trace, events: int | None, unseen: int) -> Iterator[RawMess
         count += message.topic == EVENTS
 
 
-def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage | None, so_far: _SoFar) -> str:
+def _differ_in_last_places(here: RawMessage, there: RawMessage) -> bool:
+    return has_quantities(here) and differing(here, there, rounded=True) is None
+
+
+def _difference(
+    a: Trace,
+    b: Trace,
+    here: RawMessage | None,
+    there: RawMessage | None,
+    so_far: _SoFar,
+    *,
+    rounded: bool = False,
+) -> str:
+    """A sentence; of a quantity that differs by more than last places if these are `rounded`."""
     events = so_far.events
     last = a.events[events - 1] if events else None
     after = "before the first event" if last is None else f"after event {events} ({sentence(last)})"
@@ -58,16 +98,16 @@ def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage |
         return f"event {events + 1} differs: {_events(a, b, events)}"
     if here.topic == there.topic and here.time == there.time:
         period = f"in servo period {so_far.periods}, " if here.time == so_far.last else ""
-        return f"{period}at {_when(a, here.time / 1e9)}, {_quantity(a, here, there)}, {after}"
+        return f"{period}at {_when(a, here.time / 1e9)}, {_quantity(a, here, there, rounded)}, {after}"
     first, second = (
         f"{found.topic} at {_when(of, found.time / 1e9)}" for of, found in ((a, here), (b, there))
     )
     return f"one goes on with {first}, the other with {second}, {after}"
 
 
-def _quantity(a: Trace, here: RawMessage, there: RawMessage) -> str:
+def _quantity(a: Trace, here: RawMessage, there: RawMessage, rounded: bool) -> str:
     task = known(a.head.task)
-    found = differing(here, there, None if task is None else task.arm)
+    found = differing(here, there, None if task is None else task.arm, rounded=rounded)
     if found is None:
         return f"{here.topic} differs"
     one, other = values_text(found)

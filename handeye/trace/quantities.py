@@ -11,11 +11,13 @@ from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
 from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
 
 from handeye.arm.model import ArmModel
+from handeye.core.closeness import LAST_PLACES, alike
 from handeye.core.plain_text import distinct_digits, printable
 from handeye.core.record import Record
 from handeye.core.units import INCHES, UNITS, Measures
 from handeye.program.events import AnyEvent, FrictionMeasured
 from handeye.trace.channels import ANNOTATIONS, EVENTS, FRAMES, HAND, JOINTS, MACHINES, PICTURE
+from handeye.trace.hand_message import PLACES
 from handeye.trace.messages import GAP, LEVEL, read_annotations
 from handeye.trace.records import RawMessage
 
@@ -38,22 +40,29 @@ class QuantityDifference(Record, frozen=True, kw_only=True):
 
 
 def differing(
-    a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None = None
+    a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None = None, *, rounded: bool = False
 ) -> QuantityDifference | None:
     """The first quantity, times left out, in which two messages on a channel differ, or None.
 
     A message is None where one run has none there; without the `arm` whose joints they are about, units are not known.
+    With `rounded`, last places of numbers are no difference.
     """
     message = a or b
     tell = None if message is None else _TELLERS.get(message.topic)
     if message is None or tell is None:
         return None
     here, there = ({} if each is None else tell(each.data) for each in (a, b))
-    found = next(_differing(here, there), None)
+    places = _RECORDED.get(message.topic, LAST_PLACES) if rounded else 0.0
+    found = next((each for each in _differing(here, there) if not alike(*each[1:], places)), None)
     if found is None:
         return None
     quantity, one, other = found
     return QuantityDifference(quantity=quantity, unit=_unit(message, quantity, arm), a=one, b=other)
+
+
+def has_quantities(message: RawMessage) -> bool:
+    """True if the values of a message are told by name."""
+    return message.topic in _TELLERS
 
 
 def differing_events(a: AnyEvent, b: AnyEvent) -> QuantityDifference | None:
@@ -142,6 +151,8 @@ def _named(value: Any) -> Any:
 
 
 _AXES: Final = ("x", "y", "z", "O", "A", "T")
+_RECORDED: Final = {FRAMES: 2.0**-22, HAND: 1.1 * 10.0**-PLACES, EVENTS: 1.1e-6}
+"""Last places of numbers as they are recorded: 24 binary digits, and decimals that a last place may turn over."""
 _TELLERS: Final[Mapping[str, Callable[[bytes], dict[str, Any]]]] = {
     JOINTS: _joints,
     HAND: _hand,

@@ -13,7 +13,7 @@ from handeye.core.entries import entry_named, require
 from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole
 from handeye.planfile.plan import Plan
-from handeye.planfile.store import decode, written_digest
+from handeye.planfile.store import decode, is_plan_of
 from handeye.program.event_reading import EventReader
 from handeye.program.events import RunStarted
 from handeye.trace.channels import EVENTS, FORMAT, THINNED, VERSION
@@ -49,7 +49,7 @@ def read_trace_as(kind: type[AnyTrace], path: Path, *, lenient: bool = False) ->
         raise BadFile(f"{path}: event {len(events) + 1} cannot be understood: {error}") from None
     if not events or not isinstance(events[0], RunStarted):
         raise BadFile(f"{path} is a trace without the start of a run")
-    if written_digest(plan) != events[0].plan:
+    if not is_plan_of(events[0], plan):
         raise BadFile(f"the plan in {path} is not the one that was carried out")
     return kind(
         name=str(path),

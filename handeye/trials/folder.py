@@ -15,7 +15,7 @@ from handeye.core.record import Record
 from handeye.core.variation import Seed, WorldSpec
 from handeye.core.versions import code_digest, versions
 from handeye.planfile.plan import Plan
-from handeye.planfile.store import plan_digest, read_plan, write_plan
+from handeye.planfile.store import alike, plan_digest, read_plan, write_plan
 from handeye.trials.sweep import R, Sweep
 
 _OURS: Final = {
@@ -110,7 +110,7 @@ class BatchFolder(Generic[R]):
     ) -> None:
         """Begin a batch, go on with it, or (`anew`) drop it first; raises InvalidInput."""
         self.path, self._sweep = path, sweep
-        _check(path, sweep, head, anew=anew)
+        _check(path, sweep, head, plan, anew=anew)
         try:
             path.mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -145,7 +145,7 @@ class BatchFolder(Generic[R]):
         if empty:
             self._file.append(msgspec.json.encode(head) + b"\n")
             return
-        known = _same_batch(self.path, self._sweep, head)
+        known = _same_batch(self.path, self._sweep, head, plan)
         self.rows = {row.key: row for row in known if not row.to_be_tried_again}
 
 
@@ -174,7 +174,7 @@ def _decoded(line: bytes, kind: type[T], file: Path, number: int) -> T:
         raise BadFile(f"{file}, line {number}, is of no batch that this handeye reads: {error}") from None
 
 
-def _same_batch(path: Path, sweep: Sweep[R], head: Head) -> tuple[R, ...]:
+def _same_batch(path: Path, sweep: Sweep[R], head: Head, plan: Plan | None) -> tuple[R, ...]:
     """The trials of a batch that a folder holds; raises InvalidInput if it is another one."""
     file = path / TRIALS
     first, *lines = read_whole(file).split(b"\n")[:-1] or [b""]
@@ -185,12 +185,13 @@ def _same_batch(path: Path, sweep: Sweep[R], head: Head) -> tuple[R, ...]:
             f"{path} holds {counted(len(lines), 'trial')} of another batch, which differs in "
             f"{', '.join(differs)}; choose another folder"
         )
-    if (path / PLAN).exists() and plan_digest(read_plan(path / PLAN)) != head.plan:
+    kept = read_plan(path / PLAN) if (path / PLAN).exists() else None
+    if kept is not None and (plan_digest(kept) != head.plan or (plan is not None and not alike(kept, plan))):
         raise BadFile(f"{path / PLAN} is not the plan of the batch in {path}")
     return _rows(file, head, sweep, lines)
 
 
-def _check(path: Path, sweep: Sweep[Any], head: Head, *, anew: bool) -> None:
+def _check(path: Path, sweep: Sweep[Any], head: Head, plan: Plan | None, *, anew: bool) -> None:
     """Raises InvalidInput if the contents of a folder forbid writing to it; nothing there is touched."""
     if not path.exists():
         return
@@ -198,7 +199,7 @@ def _check(path: Path, sweep: Sweep[Any], head: Head, *, anew: bool) -> None:
         if anew:
             read_batch(path)
         else:
-            _same_batch(path, sweep, head)
+            _same_batch(path, sweep, head, plan)
     if (path / TRIALS).exists():
         return
     if not path.is_dir():

@@ -8,13 +8,20 @@ import pytest
 from recordings import EVENTS, Recording
 
 from handeye.program.events import Event
-from handeye.trace.compare import first_difference
+from handeye.trace.channels import LOG
+from handeye.trace.compare import Repetition, compared, first_difference
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 
 
 def _changed(
-    path: Path, *, event: int = -1, tick: int = -1, last: int = len(EVENTS), **fields: object
+    path: Path,
+    *,
+    event: int = -1,
+    tick: int = -1,
+    off: float = 1.0,
+    last: int = len(EVENTS),
+    **fields: object,
 ) -> Trace:
     """A trace of the run in which fields of the event or servo period of that number are others."""
     recording = Recording(path).begin()
@@ -26,7 +33,7 @@ def _changed(
 
     recording.recorder.event = altered  # type: ignore[method-assign]
     recording.recorder.tick = lambda period: sense(  # type: ignore[method-assign]
-        replace(period, effort=period.effort + (next(ticks) == tick))
+        replace(period, effort=period.effort + off * (next(ticks) == tick))
     )
     recording.play(last=last).close()
     return read_trace(path)
@@ -76,3 +83,33 @@ def test_traces_can_be_compared_up_to_an_event(tmp_path: Path, whole: Trace) -> 
     other = _changed(tmp_path / "b.mcap", event=19, last=25, line=99)
     assert first_difference(whole, other, events=19) is None
     assert str(first_difference(whole, other, events=20)).startswith("event 20 differs: line of StepStarted")
+
+
+def test_last_places_of_numbers_are_told_from_where_runs_part(tmp_path: Path, whole: Trace) -> None:
+    rounded = compared(whole, _changed(tmp_path / "b.mcap", tick=7, off=1e-13))
+    assert rounded.parts is None
+    assert str(rounded.rounded).startswith("in servo period 8, at 0.133 s, torque of joint column differs: ")
+    both = compared(whole, _changed(tmp_path / "c.mcap", tick=7, off=1e-13, event=19, line=99))
+    assert both.rounded == rounded.rounded
+    assert str(both.parts).startswith("event 20 differs: line of StepStarted")
+    parted = compared(whole, _changed(tmp_path / "d.mcap", tick=7, off=1e-3))
+    assert parted.rounded is None
+    assert "torque of joint column" in str(parted.parts)
+
+
+def test_behind_other_versions_and_processors_the_motion_is_compared(tmp_path: Path, whole: Trace) -> None:
+    made = {"versions": {"handeye": "9", "mujoco": "3"}, "processor": "a 6502"}
+    assert compared(whole, _changed(tmp_path / "b.mcap", event=0, **made)) == Repetition()
+    other = compared(whole, _changed(tmp_path / "c.mcap", event=0, tick=7, **made))
+    assert str(other.parts).startswith("in servo period 8")
+    elsewhere = compared(whole, _changed(tmp_path / "d.mcap", event=0, program="another", **made))
+    assert str(elsewhere.parts).startswith("event 1 differs: ")
+
+
+def test_a_sentence_that_its_event_does_not_say_is_a_difference(tmp_path: Path, whole: Trace) -> None:
+    reworded = replace(
+        whole, messages=[replace(m, data=m.data[:-1] + b"!") if m.topic == LOG else m for m in whole.messages]
+    )
+    assert (
+        str(compared(whole, reworded).parts) == "event 1 differs: RunStarted at 0.000 s has another wording"
+    )

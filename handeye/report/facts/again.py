@@ -7,7 +7,7 @@ from typing import Final
 from handeye.core.resources import plans
 from handeye.core.units import UNITS, Unit
 from handeye.core.variation import Quantity, WorldSpec
-from handeye.planfile.store import written_digest
+from handeye.planfile.store import plan_digest, read_plan
 from handeye.report.recorded import RecordedRun
 from handeye.tasks import DEFAULT, known, option
 
@@ -42,7 +42,7 @@ def is_shipped(digest: str) -> bool:
     assert task is not None
     assert task.script is not None
     made = (plans() / task.script).with_suffix(".plan.json")
-    return made.is_file() and written_digest(made.read_bytes()) == digest
+    return made.is_file() and plan_digest(read_plan(made)) == digest
 
 
 def sense_words(senses: Sequence[str]) -> list[str]:

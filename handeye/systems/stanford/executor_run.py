@@ -20,6 +20,7 @@ from handeye.core.errors import (
     PhysicsFailed,
 )
 from handeye.core.plain_text import counted
+from handeye.core.processor import processor
 from handeye.core.units import DEGREE, INCH
 from handeye.core.versions import versions
 from handeye.execution.camera_calibration import calibrate_camera
@@ -30,7 +31,7 @@ from handeye.execution.state import ExecutedStep, ExecutionState, ReversalOrder,
 from handeye.execution.undo.undoing import order
 from handeye.execution.vision_actions import just_found
 from handeye.planfile.plan import Plan
-from handeye.planfile.store import decode, encode, plan_digest
+from handeye.planfile.store import alike, decode, encode, plan_digest, written_digest
 from handeye.program.diagnosis.causes import ArmNames
 from handeye.program.events import AnyEvent, Choice, FrictionMeasured, JointFriction, RunStarted
 from handeye.program.program import Position
@@ -185,12 +186,14 @@ class RunningPlan(RunningSystem):
             program=self.plan.program.name,
             steps=len(self.plan.program.steps),
             plan=plan_digest(self.plan),
+            content=written_digest(encode(self.plan).encode()),
             arm=self.plan.arm,
             arm_digest=self.plan.arm_digest,
             world=self._setup.world,
             task=self._setup.task,
             camera=self._cell.renderer,
             versions=versions(),
+            processor=processor(),
             replaced=self._setup.replaced or UNSET,
             without=self._setup.without or UNSET,
             prepared=self._prepared,
@@ -335,6 +338,12 @@ class PlanSystem(System):
 
     def decode(self, data: bytes, name: str) -> Plan:
         return decode(data, name)
+
+    def digest(self, plan: Plan, data: bytes) -> str:
+        return plan_digest(plan)
+
+    def alike(self, one: Plan, other: Plan) -> bool:
+        return alike(one, other)
 
     def listing(self, plan: Plan) -> Listing:
         return plan.program

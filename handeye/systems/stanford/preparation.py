@@ -12,6 +12,7 @@ import numpy as np
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.state import CellState
 from handeye.core.mutable_records import copied
+from handeye.core.processor import processor
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.core.versions import code_digest, versions
@@ -90,7 +91,7 @@ def conditions_of(setup: Setup, camera: Renderer) -> Conditions | None:
         feels=plan_of(setup).program.feels,
         versions=versions(),
         code=code_digest(),
-        machine=(platform.system(), platform.machine(), *instructions),
+        machine=(platform.system(), processor(), *instructions),
     )
 
 

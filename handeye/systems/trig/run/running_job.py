@@ -10,6 +10,7 @@ from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.errors import BadFile, Refused
 from handeye.core.mutable_records import put_back
 from handeye.core.pose import Array
+from handeye.core.processor import processor
 from handeye.core.record import Vector3
 from handeye.core.units import MILLIMETRE
 from handeye.core.versions import versions
@@ -123,6 +124,7 @@ class RunningJob(RunningSystem):
                 task=self._setup.task,
                 camera=self.job.cell.renderer,
                 versions=versions(),
+                processor=processor(),
                 prepared=self._taught,
             )
         ]

@@ -1,0 +1,20 @@
+"""Equality but for the last places of computed numbers, which another kind of processor rounds otherwise."""
+
+from collections.abc import Mapping
+from typing import Any, Final
+
+LAST_PLACES: Final = 1e-9  # of numbers above 1, as a share; SI
+
+
+def alike(a: Any, b: Any, places: float = LAST_PLACES) -> bool:
+    """True if values made of dictionaries, lists, texts and numbers are equal but for last places of fractions.
+
+    `places` is how much those may differ.
+    """
+    if isinstance(a, float) and isinstance(b, float):
+        return a == b or abs(a - b) <= places * max(1.0, abs(a), abs(b))
+    if isinstance(a, Mapping) and isinstance(b, Mapping):
+        return a.keys() == b.keys() and all(alike(value, b[key], places) for key, value in a.items())
+    if isinstance(a, list | tuple) and isinstance(b, list | tuple):
+        return len(a) == len(b) and all(alike(one, other, places) for one, other in zip(a, b, strict=True))
+    return type(a) is type(b) and bool(a == b)
