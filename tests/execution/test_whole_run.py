@@ -1,25 +1,20 @@
-"""One whole run in one drawn world: eleven stages, their senses, their times, the referee's word, and a walk in it.
+"""One whole run in one drawn world: eleven stages, their senses, their times, and the referee's word.
 
-The run is that of the first notebook, in the world of docs/stepping.md; `teaching/test_seventh_screw.py` has the only
+The run is that of the first notebook; `teaching/test_seventh_screw.py` has the only
 other one that assembles a pump.
 """
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-from figures import as_recorded
 from running_notebooks import SCRIPTS, runs_to_its_end
-from stepping_walk import SAID, commands, of_command, pieces, stands
 from whole_runs import STAGES, Whole, whole_in
 
 from handeye.core.errors import NO_FORCE
 from handeye.core.world_options import by_number, faults
-from handeye.debugger.breakpoints import stage_number
-from handeye.debugger.formatting import MAX_STEPS_SHOWN, as_text
-from handeye.debugger.stepper import Stepper
 from handeye.program.events import (
     AnyEvent,
     ErrorRaised,
@@ -38,7 +33,6 @@ from handeye.runs.folder import CHECKPOINTS
 from handeye.runs.runner import Runner
 from handeye.tasks import task
 from handeye.tasks.water_pump.referee.findings import judge
-from handeye.trace.account import account
 from handeye.trials.chaos.sound_run import with_faults
 
 pytestmark = [pytest.mark.slow, pytest.mark.render]
@@ -168,43 +162,3 @@ def test_a_pump_that_somebody_moves_behind_the_last_touch_is_not_done(folder: Pa
     paused = advance(moved)
     matches = [event.ok for event in moved.events if isinstance(event, PartMatched)]
     assert (paused.kind, matches) == ("operator", [False])
-
-
-# -- the walk in docs/stepping.md, which docs/make_walk.py makes anew --------------------------------
-
-
-def begun(folder: Path) -> Stepper:
-    """The run of the walk taken up where its commands begin."""
-    runner = whole_in(folder).runner
-    first = stage_number("insert", runner.setup.plan.program)
-    before = CheckpointStore(folder / CHECKPOINTS).for_stage(runner.setup, first)
-    assert before is not None
-    return Stepper(Runner(before))
-
-
-@pytest.fixture(scope="module")
-def stepper(folder: Path, whole: Whole) -> Stepper:
-    if whole.runner.cell.renderer.method != "opengl":
-        pytest.skip("the walk was made with pictures by OpenGL")
-    return begun(folder)
-
-
-def transcript(stepper: Stepper, said: list[str]) -> Iterator[str]:
-    """What stands on the terminal of somebody who says these commands."""
-    yield as_text(stepper.standing())
-    for command in said:
-        yield f"{SAID}{command}"
-        yield as_text(stepper.do(command), MAX_STEPS_SHOWN)
-
-
-@pytest.mark.render
-def test_the_commands_of_the_walk_are_answered_as_it_shows_and_their_trace_tells_what_it_shows(
-    stepper: Stepper,
-) -> None:
-    shown = commands()
-    said = [line.removeprefix(SAID) for line in shown if line.startswith(SAID)]
-    assert len(said) >= 10
-    heard = "\n".join(transcript(stepper, said))
-    assert as_recorded(heard, "\n".join(shown)).splitlines() == shown
-    told = list(account(stepper.session.runner.events))
-    assert all(stands(piece, told) for piece in pieces(of_command("trace show pump")))

@@ -1,30 +1,30 @@
 """Pages that a reader can follow from a shell: files to write, commands to type, and what these print.
 
 A block `al NAME` or `toml NAME` is a file. A block without a language holds commands behind `$ `, each with what it
-prints; `...` stands for lines left out, and where nothing is shown, all is. Other languages are not looked at.
+prints; `...` stands for lines left out, and where nothing is shown, all is. A command with `--step` begins a session,
+whose commands stand behind `handeye> `, there and in later blocks. Other languages are not looked at.
 """
 
 import re
-import shlex
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from figures import as_recorded
-from stepping_walk import pieces, stands
 
 BLOCK = re.compile(r"^```(\w*)(?: (\S+))?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-COMMAND = re.compile(r"^\$ handeye (.*)\n((?:(?!\$ ).*\n)*)", re.MULTILINE)
+PROMPTS = r"\$ |handeye> "
+TYPED = re.compile(rf"^({PROMPTS})(.*)\n((?:(?!{PROMPTS}).*\n)*)", re.MULTILINE)
 LEFT_OUT = "..."
-Run = Callable[[str], tuple[int, str]]
-"""Carries out the words of a command: exit code and standard output."""
+Answer = Callable[[str], tuple[int, str]]
+"""Carries out a line: exit code, and what is printed."""
 
 
 @dataclass(frozen=True)
 class Typed:
-    """A command of a page."""
+    """A line that the reader types."""
 
-    words: str
+    line: str
     shown: str
     span: tuple[int, int]  # of what is shown, in the page
     code: int
@@ -40,7 +40,7 @@ class Typed:
 
     @property
     def anew(self) -> str:
-        """What is to be shown: all that was printed, or from the line on whose beginning stands behind the dots."""
+        """What is to be shown: all that was printed; behind dots, from the line on that begins as shown."""
         if not self.shown:
             return ""
         first, *rest = self.shown.splitlines()
@@ -51,30 +51,50 @@ class Typed:
         return "".join(f"{line}\n" for line in lines)
 
 
-def walked(page: str, run: Run) -> list[Typed]:
-    """Write the files of a page, and type its commands, in order, in this folder."""
+def walked(page: str, command: Answer, said: Answer | None = None) -> list[Typed]:
+    """Write the files of a page and type its lines, in order, in this folder; `said` answers those of a session.
+
+    Lines for other programs of the shell are left out.
+    """
     found = []
     for block in BLOCK.finditer(page):
         language, name, content = block.groups()
         if language in ("al", "toml") and name:
             Path(name).write_text(content, encoding="utf-8")
-        elif not language:
-            for typed in COMMAND.finditer(content):
-                start = block.start(3)
-                code, printed = run(typed[1])
-                found.append(
-                    Typed(typed[1], typed[2], (start + typed.start(2), start + typed.end(2)), code, printed)
-                )
+        for typed in TYPED.finditer(content) if not language else ():
+            prompt, line, shown = typed.groups()
+            if prompt != "$ ":
+                assert said is not None
+                code, printed = said(line)
+            elif line.startswith("handeye "):
+                code, printed = command(line.removeprefix("handeye "))
+            else:
+                continue
+            start = block.start(3)
+            found.append(Typed(line, shown, (start + typed.start(3), start + typed.end(3)), code, printed))
     return found
 
 
 def with_outputs(page: str, typed: list[Typed]) -> str:
-    """The page with what its commands print."""
+    """The page with what its lines print."""
     for each in reversed(typed):
         page = page[: each.span[0]] + each.anew + page[each.span[1] :]
     return page
 
 
-def words_of(line: str) -> list[str]:
-    """The words of a command, as a shell takes them."""
-    return shlex.split(line, comments=True)
+def pieces(lines: list[str]) -> list[list[str]]:
+    """What stands between the dots for lines left out."""
+    found: list[list[str]] = [[]]
+    for line in lines:
+        if line.strip() == LEFT_OUT:
+            found.append([])
+        else:
+            found[-1].append(line)
+    return [piece for piece in found if piece]
+
+
+def stands(piece: list[str], lines: list[str]) -> bool:
+    """A piece is there somewhere, line after line."""
+    recorded = "\n".join(piece)
+    ways = ["\n".join(lines[start : start + len(piece)]) for start in range(len(lines))]
+    return any(as_recorded(way, recorded) == recorded for way in ways)
