@@ -125,7 +125,9 @@ def test_of_a_run_whose_end_is_damaged_the_state_before_is_exported_as_unfinishe
 def test_a_run_brings_its_own_world(command: Command, ended: tuple[Path, Runner]) -> None:
     code, _, err = command("export", "mjcf", str(ended[0]), "--seed", "3", "-o", "a")
     assert code == 2
-    assert err.endswith("brings its own world; --seed, --level, --without, --set and --scale do not go with it\n")
+    assert err.endswith(
+        "brings its own world; --seed, --level, --without, --set and --scale do not go with it\n"
+    )
 
 
 REFUSED = {
