@@ -26,8 +26,10 @@ from handeye.program.motion_operations import Center, Close, Open
 from handeye.program.operation import Operation
 from handeye.touch.centring import Centring
 from handeye.touch.senses import (
+    EMPTY_GAP,
     FREE_OPENING,
     GAP_ERROR,
+    SKEW,
     SWITCH_FORCE,
     at_least,
     at_most,
@@ -169,19 +171,34 @@ def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
 def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault | None:
     """Check that something is held, by the gap and both switches."""
     gap, touching = run.drive.sensed.gap, all(_touch(run)) or "touch" in run.without
+    unlike = _unlike(run, least, maximum) if all(_touch(run)) else None
+    if unlike is not None:
+        return _gap_wrong(unlike)
     thin = _thick_enough(run, least)
     if thin is not None:
         return thin
     if not touching and at_least(gap, GAP_ERROR):
         return _switches_open(run)
-    held = next(
-        (held for held in run.plan.program.held.items() if run.state.place in held[1].positions), None
-    )
-    if held is not None and held[1].thickness is not None and not thick(gap, held[1].thickness):
-        return _gap_wrong(GapUnlike(gap=round(gap, 6), thickness=held[1].thickness, held=held[0]))
     if maximum is not None and not at_most(gap, maximum):
         return Fault(number=errors.WRONG_THICKNESS, cause=GapTooLarge(gap=round(gap, 6), maximum=maximum))
     return None
+
+
+def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUnlike | None:
+    """Compare the gap with the drawn thickness of what is held here.
+
+    Outside the limits of the program it may be another object, or lie askew, the first time; not when it reads the same
+    again.
+    """
+    state, gap = run.state, run.drive.sensed.gap
+    objects = run.plan.program.held.items()
+    name, held = next((each for each in objects if state.place in each[1].positions), ("", None))
+    if held is None or held.thickness is None or gap <= EMPTY_GAP or thick(gap, held.thickness):
+        return None
+    again = state.unlike is not None and abs(gap - state.unlike) <= SKEW
+    state.unlike = gap
+    within = at_least(gap, least) and (maximum is None or at_most(gap, maximum))
+    return GapUnlike(gap=round(gap, 6), thickness=held.thickness, held=name) if again or within else None
 
 
 def _thick_enough(run: ExecutionContext, least: float) -> Fault | None:

@@ -182,6 +182,7 @@ class ExecutionState(SystemState, kw_only=True):
     travel: float = 0.0  # m, of the last straight motion
     finger_line: Array | None = None  # unit vector, if the last action was a Center
     grasping: bool = False  # the fingers were last closed
+    unlike: float | None = None  # gap of the last hold that was not as thick as drawn, m
     calibration: Calibration | None = None  # of the camera, if the plan takes pictures
     unable: str | None = None  # why calibration failed
     lens: float = FIRST_LENS

@@ -153,6 +153,14 @@ def test_a_gap_that_is_not_that_of_what_is_held_is_told(factor: float, wrong: bo
         assert run.told.endswith(f"in on PIN, which is 1.00 in thick there: {factor:.2f} times as much)")
 
 
+def test_what_is_too_thick_is_another_object_until_it_reads_the_same_again() -> None:
+    pin = Held(positions=("T",), boxes=(), thickness=1.0 * INCH)
+    close = "OPEN 2\nCLOSE .1 1.1\nSKIPN 7\nWHERE\n"
+    run = fake_run(f"MOVE T\n{close}MOVE T\n{close}", held={"PIN": pin})
+    run.cell.hand.thickness = lambda _: 1.3 * INCH
+    assert run.go().errors == [errors.WRONG_THICKNESS, errors.GAP_WRONG]
+
+
 # -- force ----------------------------------------------------------------------------------------------
 
 

@@ -18,7 +18,7 @@ from handeye.execution.undo.way import packed
 
 REMEMBERED: Final = (
     "pending", "checked", "saved", "heights", "counters", "search", "restored", "goal", "place", "travel",
-    "finger_line", "grasping", "general", "world",
+    "finger_line", "grasping", "unlike", "general", "world",
 )  # fmt: skip
 Memory = dict[str, Any]  # by field of the state
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}

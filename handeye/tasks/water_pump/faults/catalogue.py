@@ -10,16 +10,17 @@ from handeye.tasks.water_pump.faults.during import mishap_faults
 from handeye.tasks.water_pump.world.variation import screws
 
 _TRIED: Final = {
-    "finger_switch": ("stuck_closed", "minus_y.stuck_open"),
-    "gap_potentiometer": ("stuck", "off"),
+    "finger_switch": ("stuck_closed", "minus_y.stuck_open", "swapped"),
+    "gap_potentiometer": ("stuck", "off", "factor"),
     "finger_motor": ("dead",),
     "force": ("off_zero.z",),
     "potentiometer": ("1.jump", "3.stuck", "4.drift"),
     "tachometer": ("2.dead",),
     "drive": ("2.weak",),
+    "drives": ("factor",),
     "brake": ("2.slips",),
     "servo": ("late",),
-    "screwdriver": ("motor.dead", "current.dead", "missing"),
+    "screwdriver": ("motor.dead", "current.dead", "current.factor", "missing"),
     "magnet": ("weak",),
     "bit": ("smooth",),
     "lamp": ("dead",),

@@ -209,7 +209,7 @@ def _joints() -> Iterator[DeviceFault]:
             ExpectedDetection(
                 errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True, harmless=_WITHIN_WEIGHTS,
             ),
-            _GAIN,
+            _GAIN, stage=4,
         )  # fmt: skip
         yield _fault(
             f"brake.{number}.slips", f"So much is left of what the brake {joint} holds.", f"brake.{number}", GainEffect,
@@ -220,7 +220,7 @@ def _joints() -> Iterator[DeviceFault]:
     yield _fault(
         "drives.factor", "All drives give so many times the torque that they are told.",
         [f"drive.{number}" for number in range(1, len(JOINT_UNITS) + 1)], GainEffect,
-        ExpectedDetection(errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True, harmless=_WITHIN_WEIGHTS), _GAIN,
+        ExpectedDetection(errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True, harmless=_WITHIN_WEIGHTS), _GAIN, stage=4,
     )  # fmt: skip
     yield _fault(
         "servo.late", "The computer is late: no torque arrives at the drives for so many servo periods.", "servo",
