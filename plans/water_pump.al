@@ -460,8 +460,8 @@ DEFINE SWING GRIP OUT BACK
 
 ; What the last stage looks at. The rotor, over its whole turn and both ways: the hand cannot go all the way round.
 DEFINE ROTATION
-        SWING   CRANK 180 -180
-        SWING   CRANKB -180 180
+        SWING   CRANK 190 -190
+        SWING   CRANKB -190 190
 
 ; The heads, one after the other around the pump: so the driver never goes over the crank.
 DEFINE HEADS

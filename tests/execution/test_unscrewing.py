@@ -82,6 +82,16 @@ def test_the_magnet_is_on_again_when_the_screw_is_left_behind() -> None:
     assert truth.data.ctrl[truth.model.actuator("magnet").id] == 1.0
 
 
+def test_a_screw_that_was_only_tightened_stays_until_the_step_that_drove_it_is_undone() -> None:
+    run = bench(f"{ONE}        TIGHTEN H0 Y1 1\n", lay=stacked(), felt={"LAID": LAID}).to("SEARCH  .05 STEPS")
+    before = len(run.executor.state.done)
+    assert run.go().finished
+    run.executor.undo(ReversalOrder(left=before, halts=True))
+    run.go()
+    assert (run.executor.state.stopped, holes_of(run.cell.truth)[0].screw) == (None, 0)
+    assert in_the_dispenser(undo(run))
+
+
 def turned_out() -> Bench:
     """A screw that is out, and hangs from the bit."""
     run = driven()

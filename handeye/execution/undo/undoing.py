@@ -24,7 +24,7 @@ from handeye.execution.undo.retracing import (
     stands,
     where_the_hand_is,
 )
-from handeye.execution.undo.unscrewing import LOWER, lower, taken_by, unscrew
+from handeye.execution.undo.unscrewing import LOWER, TIGHTENED, descent, lower, taken_by, unscrew
 from handeye.execution.undo.way import RecordedPath, packed, unpacked
 from handeye.planning.motions import Unreachable, directions, move_trajectory
 from handeye.program.diagnosis.causes import (
@@ -241,12 +241,16 @@ def _press(run: ExecutionContext, gap: float) -> None:
 
 
 def _turn_out(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse a step with the driver on: turn out the screw it drove home, which hangs from the bit."""
+    """Reverse a step with the driver on: turn out the screw it drove home, which hangs from the bit.
+
+    One that it found driven, and only tightened, stays.
+    """
     if done.tool < 0:
         return UndoFailure(cause=BackingOut())
-    if done.ended is not GuardKind.TORQUE:
+    way = _way(run, done)
+    if done.ended is not GuardKind.TORQUE or descent(run, way) < TIGHTENED:
         return _retrace(run, done)
-    outcome, screw = unscrew(run, done, _way(run, done))
+    outcome, screw = unscrew(run, done, way)
     turned = outcome.trip is not None and outcome.trip.guard is GuardKind.TORQUE
     if not (turned and screw.out):
         risen = round(screw.risen, 6)

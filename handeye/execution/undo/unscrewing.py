@@ -22,6 +22,8 @@ SPEED: Final = 1.5
 PRESS: Final = 6.0  # N on the screw to keep the bit in its slot, as for driving in
 TURN: Final = 0.00127 * 1.5
 """m: a turn and a half of the thread, by which the rise may be less than the descent: its start is not felt."""
+TIGHTENED: Final = 3 * 0.00127
+"""m: three turns of the thread. A screw that is driven from the mouth of its thread goes five."""
 QUIET: Final = 20  # servo periods without rising that show the end; a thread lifts a screw by 3 mm in as many
 RISING: Final = 2e-4  # m that count as risen
 PATIENCE: Final = 120  # servo periods within which a screw must begin to rise
@@ -71,14 +73,19 @@ class ScrewMonitor:
         return Trip(guard=GuardKind.TORQUE, value=abs(reading.tool_torque), limit=0.0) if over else None
 
 
+def descent(run: ExecutionContext, way: RecordedPath) -> float:
+    """How far the hand went down on a way, m."""
+    begin, end = forward(run.arm, way.q[[0, -1]])[:, 2, 3]
+    return float(begin - end)
+
+
 def unscrew(run: ExecutionContext, done: ExecutedStep, way: RecordedPath) -> tuple[Outcome, ScrewMonitor]:
     """Turn out the screw that a step drove in, until it is out or does not come.
 
     Returns the outcome of the motion, and the monitor of the screw.
     """
     drive = run.drive
-    begin, end = forward(run.arm, way.q[[0, -1]])[:, 2, 3]
-    rise = max(float(begin - end) - TURN, RISING)
+    rise = max(descent(run, way) - TURN, RISING)
     loosened = ScrewMonitor(height=lambda: float(drive.hand()[2, 3]), rise=rise, before=done.risen)
     drive.state.tool, drive.state.current = -SPEED * done.tool, 0.0
     guards = FirstOf(monitors=(Resistance(limit=allowed(done.force)), loosened))

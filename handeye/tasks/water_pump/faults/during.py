@@ -159,7 +159,7 @@ class Mishaps(Mechanism[MishapsState]):
 
     name = "mishaps"
     kind = MishapsState
-    changes = ("light_diffuse", "dof_frictionloss", "jnt_limited", "jnt_range")
+    changes = ("light_diffuse", "dof_frictionloss", "jnt_limited", "jnt_range", "jnt_solref", "jnt_solimp")
 
     def __init__(self, scene: Scene, faults: Sequence[Fault]) -> None:
         self._scene, self.due = scene, due(faults)

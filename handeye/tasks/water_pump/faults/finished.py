@@ -10,6 +10,7 @@ from handeye.cell.physics_stepper import wake
 from handeye.core.errors import FORCE_WRONG, GASKET_WRONG, NOTHING_HELD, SERVO_LAG
 from handeye.core.faults import ExpectedDetection, Size
 from handeye.tasks.water_pump.faults import shared_expectations as detect
+from handeye.tasks.water_pump.faults.before import METAL
 from handeye.tasks.water_pump.faults.declaration import declared
 from handeye.tasks.water_pump.faults.mishap import ON_BASE_M, Mishap, MishapFault, MishapState, Scene, always
 
@@ -64,6 +65,7 @@ def _stop(angle: float) -> Mishap:
         joint = _rotor(scene)[0]
         there = float(scene.data.qpos[scene.model.jnt_qposadr[joint]]) + angle
         scene.model.jnt_limited[joint] = 1
+        scene.model.jnt_solref[joint], scene.model.jnt_solimp[joint] = METAL
         scene.model.jnt_range[joint] = (-_FREE_RAD, there) if angle > 0 else (there, _FREE_RAD)
         return True
 
