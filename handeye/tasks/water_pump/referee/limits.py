@@ -16,7 +16,7 @@ SCREW_GAP: Final = 0.2
 """mm between head and flange. A crossed screw stands 4.4 to 5.7 mm high; assembly study."""
 SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 56 to 250 N
 SCREW_TURNED: Final = 400.0
-"""N with which a head pressed when it was last turned. Pumps that the arm has made have up to 240; the driver's clutch,
+"""N with which a head pressed when it was last turned. Pumps that the arm has made have up to 250; the driver's clutch,
 .32 N m, makes up to 357 where thread and head rub as little as in any world. Twice its torque makes 530 to 560."""
 SCREW_STRAIN: Final = 420.0
 """N under a head. Screws turned home later shift the load: pumps that the arm has made have up to 298."""
