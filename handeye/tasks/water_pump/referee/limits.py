@@ -14,7 +14,7 @@ LAYER_HEIGHT: Final = 0.3
 
 SCREW_GAP: Final = 0.2
 """mm between head and flange. A crossed screw stands 4.4 to 5.7 mm high; assembly study."""
-SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 56 to 250 N
+SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 56 to 298 N
 SCREW_TURNED: Final = 400.0
 """N with which a head pressed when it was last turned. Pumps that the arm has made have up to 250; the driver's clutch,
 .32 N m, makes up to 357 where thread and head rub as little as in any world. Twice its torque makes 530 to 560."""
