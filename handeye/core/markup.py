@@ -45,6 +45,11 @@ def section(name: str, heading: str, *children: Content) -> Markup:
     return element("section", title, *children, id=name, aria_labelledby=f"{name}-heading")
 
 
+def region(*children: Content, label: str, **attributes: str | None) -> Markup:
+    """A piece of a section that scrolls by itself, which a label names."""
+    return element("section", *children, **attributes, aria_label=label, tabindex="0")
+
+
 def note(*children: Content) -> Markup:
     """A paragraph that says how something is to be read."""
     return element("p", *children, class_="note")
@@ -60,17 +65,17 @@ def table(head: Iterable[Markup], rows: Iterable[Iterable[Markup]], *, label: st
     titles = element("tr", *head)
     body = element("tbody", *(element("tr", *row) for row in rows))
     inside = element("table", element("thead", titles), body)
-    return element("div", inside, class_="table", role="region", aria_label=label, tabindex="0")
+    return region(inside, label=f"table: {label}", class_="table")
 
 
-def heads(*titles: str) -> list[Markup]:
-    """Heads of columns of words."""
-    return [element("th", title, scope="col") for title in titles]
+def heads(*titles: str, class_: str | None = None) -> list[Markup]:
+    """Heads of columns of words; over a column without a title there is an empty cell."""
+    return [element("th", title, scope="col", class_=class_) if title else cell() for title in titles]
 
 
 def figure_heads(*titles: str) -> list[Markup]:
     """Heads of columns of numbers."""
-    return [element("th", title, scope="col", class_="number") for title in titles]
+    return heads(*titles, class_="number")
 
 
 def cell(*children: Content) -> Markup:

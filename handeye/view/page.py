@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from handeye.core.markup import Markup, element
+from handeye.core.markup import Markup, element, region
 from handeye.report import player
 from handeye.report.page.document import head, packed, resource
 from handeye.report.page.moments import json_markup
@@ -48,12 +48,12 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
     }
     scripts = [player.script(), _own("live.js"), _own(face.script)]
     style = resource("page.css") + _own("live.css")
-    television = element("div", id="television", role="region", aria_label="television", hidden=True)
+    television = element("section", id="television", aria_label="television", hidden=True)
     aside = element("div", television, face.aside, class_="aside")
     state = element("p", "connecting", id="state", role="status")
     drive = element("button", "Take the drive", id="drive", type="button")
     looking = element("p", element("span", id="looking"), drive)
-    header = element("div", element("h1", face.title), state, looking, class_="title")
+    header = element("header", element("h1", face.title), state, looking, class_="title")
     body = element(
         "body",
         header,
@@ -75,7 +75,7 @@ def buttons(said: Sequence[tuple[str, str]]) -> Iterator[Markup]:
 
 def source_region(label: str, *content: Markup, id: str | None = None) -> Markup:
     """A scrolling region beside the cell, with a script or a taught file in it."""
-    return element("div", *content, id=id, class_="source", tabindex="0", role="region", aria_label=label)
+    return region(*content, label=label, id=id, class_="source")
 
 
 def _viewer(face: Face) -> Markup:
@@ -95,7 +95,8 @@ def _talk(listener: str) -> Markup:
     told = element("pre", id="told", role="log", aria_label=f"what the {listener} tells", tabindex="0")
     label = f"command of the {listener}"
     line = element("input", id="line", type="text", maxlength="1000", aria_label=label, autocomplete="off")
-    return element("div", told, element("form", line, id="form"), class_="talk")
+    say = element("button", "Say", type="submit")
+    return element("div", told, element("form", line, say, id="form"), class_="talk")
 
 
 def _first_tracks(names: tuple[str, ...], poses: Poses) -> bytes:

@@ -33,7 +33,7 @@ def teaching_page(teacher: Teacher, newest: Newest) -> bytes:
     face = Face(
         title=teacher.file.name,
         controls=[_jogging(workplace.run.arm), hand, _naming(workplace.taught.parts)],
-        aside=source_region("taught file", element("h3", teacher.file.name), element("div", id="taught")),
+        aside=source_region("taught file", element("h2", teacher.file.name), element("div", id="taught")),
         listener="teacher",
         script="teaching.js",
     )

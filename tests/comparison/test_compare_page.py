@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from conftest import Command
 from recordings import record
-from report_pages import Node, recorded, renamed, tree
+from report_pages import Node, barriers, recorded, renamed, tree
 
 from handeye.comparison.comparison import comparison
 from handeye.comparison.page import comparison_page
@@ -36,6 +36,10 @@ def heading(page: Node) -> str:
 
 def test_the_heading_says_what_came_of_it(run: RecordedRun) -> None:
     assert heading(tree(page_of(run, run))) == "Both did the same, to the last bit."
+
+
+def test_nothing_keeps_people_who_do_not_see_or_point_from_it(run: RecordedRun) -> None:
+    assert list(barriers(tree(page_of(run, run)))) == []
 
 
 def test_both_views_stand_under_one_slider(run: RecordedRun) -> None:
@@ -117,4 +121,6 @@ def test_without_a_scene_the_page_says_so_and_has_all_else(
     page = tree(Path("page.html").read_text(encoding="utf-8"))
     said = "There is nothing to walk round in: a.mcap is of another scene: here there is no `base`."
     assert said in [node.text for node in page.all("p")]
-    assert [node.attributes["id"] for node in page.all("section")][:2] == ["run", "otherwise"]
+    assert [node.attributes["id"] for node in page.all("section") if "aria-labelledby" in node.attributes][
+        :2
+    ] == ["run", "otherwise"]

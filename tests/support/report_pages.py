@@ -109,3 +109,21 @@ def tree(page: str) -> Node:
     parser.close()
     assert len(parser.open) == 1
     return parser.open[0]
+
+
+def barriers(page: Node) -> Iterator[str]:
+    """What keeps people who do not see or point from using a page, as far as its markup shows."""
+    headings = {node.attributes.get("id"): node.text for node in page}
+    regions = []
+    for node in page:
+        told = node.attributes
+        if node.name in ("nav", "section"):
+            regions.append(told.get("aria-label") or headings.get(told.get("aria-labelledby")) or "")
+        if told.get("role") in ("region", "navigation", "button", "link"):
+            yield f"there is an element for the role {told['role']}"
+        if node.name == "th" and not node.text:
+            yield "a heading of a table is empty"
+        if told.get("role") == "img" and any("href" in each.attributes for each in node):
+            yield f"what is in the picture {told.get('aria-label')} cannot be reached"
+    names = [name.casefold() for name in regions]
+    yield from (f"there are two regions called {name!r}" for name in {n for n in names if names.count(n) > 1})

@@ -6,7 +6,7 @@ from itertools import groupby
 
 import numpy as np
 
-from handeye.core.markup import Markup, element, note, section, to_moment
+from handeye.core.markup import Markup, element, joined, note, section, to_moment
 from handeye.core.plain_text import counted, one_line
 from handeye.program.guards import GuardKind
 from handeye.report.facts.felt import GuardedMotion
@@ -57,13 +57,17 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int) -> Iterat
 def _figure(motion: GuardedMotion) -> Markup:
     """The figure of a motion, which leads to its moment."""
     moment = motion.times[-1] if motion.trip is None else motion.trip.time
-    when = element("span", exact_clock(float(moment)), class_="time")
-    place = element("b", motion.step.place)
-    statement = element("code", one_line(motion.step.text))
-    caption = element("figcaption", when, place, " ", statement, element("span", _said(motion)))
-    figure = element("figure", _drawn(motion), caption)
-    label = f"line {motion.step.place}, {exact_clock(float(moment))}: {_said(motion)}"
-    return to_moment(float(moment), figure, class_="moment", aria_label=label)
+    when, place = exact_clock(float(moment)), motion.step.place
+    statement, said = one_line(motion.step.text), _said(motion)
+    told = [
+        element("span", when, class_="time"),
+        element("b", place),
+        element("code", statement),
+        element("span", said),
+    ]
+    figure = element("figure", _drawn(motion), element("figcaption", joined(told, " ")))
+    # the caption once more: a link does not get its name from a figure in it
+    return to_moment(float(moment), figure, class_="moment", aria_label=f"{when} {place} {statement} {said}")
 
 
 def _said(motion: GuardedMotion) -> str:

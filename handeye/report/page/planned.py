@@ -13,6 +13,7 @@ from handeye.core.markup import (
     heads,
     joined,
     note,
+    region,
     section,
     table,
     to_moment,
@@ -67,9 +68,7 @@ def _ends(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Iterator[Markup
         f"How far from its planned end each of {counted(len(ends), 'motion')} ended, in millimetres, by the arm’s own "
         "sensors. The plan is made before the arm has seen or felt anything; the working phase moves its goals."
     )
-    yield element(
-        "div", _chart(ends, stages), class_="chart", tabindex="0", role="region", aria_label="chart"
-    )
+    yield region(_chart(ends, stages), label="chart", class_="chart")
     counts = {why: sum(end.why is why for end in ends) for why in EndReason}
     yield element("ul", *(_key(why, counts[why]) for why in EndReason if counts[why]), class_="key")
 
@@ -87,7 +86,7 @@ def _chart(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Markup:
     y = _Decades(min(decades), max(decades))
     strokes = [*_grid(decades, y), *_bands(stages, x), *(_dot(each, x, y) for each in ends)]
     label = f"distance of {counted(len(ends), 'motion end')} from the plan, against time"
-    return drawing(*strokes, wide=_WIDE, high=_HIGH, label=label)
+    return drawing(*strokes, wide=_WIDE, high=_HIGH, label=label, role="group")
 
 
 class _Decades:
@@ -172,9 +171,7 @@ def _search(search: Search) -> Markup:
     figure = element("figure", _spiral(search, told), caption)
     if not search.times:
         return figure
-    return to_moment(
-        search.times[-1], figure, class_="moment", aria_label=f"line {search.step.place}: {told}"
-    )
+    return to_moment(search.times[-1], figure, class_="moment", aria_label=f"{search.step.place} {told}")
 
 
 def _spiral(search: Search, told: str) -> Markup:

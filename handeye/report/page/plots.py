@@ -27,9 +27,11 @@ class Scale:
         return self.begin + share * (self.end - self.begin)
 
 
-def drawing(*children: Content, wide: float = WIDE, high: float = HIGH, label: str) -> Markup:
-    """A drawing whose label stands in for it in a screen reader."""
-    return element("svg", *children, viewBox=f"0 0 {wide:g} {high:g}", role="img", aria_label=label)
+def drawing(
+    *children: Content, wide: float = WIDE, high: float = HIGH, label: str, role: str = "img"
+) -> Markup:
+    """A drawing whose label stands in for it in a screen reader; as a `group`, what is in it can be reached."""
+    return element("svg", *children, viewBox=f"0 0 {wide:g} {high:g}", role=role, aria_label=label)
 
 
 def curve(xs: Array, ys: Array, **attributes: str) -> Markup:

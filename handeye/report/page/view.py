@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.core.markup import Markup, element, joined, section, to_moment
+from handeye.core.markup import Markup, element, joined, region, section, to_moment
 from handeye.report.page.figures import clock
 from handeye.report.page.source import listing
 from handeye.report.photographs import Photograph, shown
@@ -40,15 +40,7 @@ def view_section(run: RecordedRun, strip: Sequence[Photograph]) -> Markup:
         element("p", pairs, id="keys", class_="keys", hidden=True),
         class_="viewer",
     )
-    script = element(
-        "div",
-        listing(run.program),
-        id="script",
-        class_="source",
-        tabindex="0",
-        role="region",
-        aria_label="script",
-    )
+    script = region(listing(run.program), label="script", id="script", class_="source")
     return section("run", "The run", element("div", viewer, script, class_="beside"))
 
 
