@@ -17,16 +17,24 @@ from handeye.core.pose import Array, Pose
 
 _STEPS: Final = 8  # each squares the error, where two joints come into line halves it
 _HOPELESS: Final = 1e4  # distance, in terms of `WRITTEN`, that no step mends
+_ASIDE: Final = (0.0, 3e-4, -3e-4)  # of a turn
 _LEAST: Final = 1e-6  # of a step's singular values: smaller ones belong to joints in line
 
 
 def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array | None:
-    """Joint positions within limits that bring the hand to a pose within `WRITTEN`, or None; sought from solutions."""
+    """Joint positions within limits that bring the hand to a pose within `WRITTEN`, or None; sought from solutions.
+
+    Also from a little beside them: where joints are in line, no first step leads to some of the poses around.
+    """
     turn = np.where(constants(arm).prismatic, 0.0, 2 * np.pi)
-    turned = (q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts)
-    found = [_nearest(arm, X_WT, np.clip(q, arm.lower, arm.upper)) for q in turned]
-    apart, q = min(found, key=lambda each: each[0], default=(np.inf, None))
-    return q if apart <= 1.0 else None
+    turned = [q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts]
+    best = (np.inf, arm.middle)
+    for aside in _ASIDE:
+        found = (_nearest(arm, X_WT, np.clip(q + aside * turn, arm.lower, arm.upper)) for q in turned)
+        best = min(best, *found, key=lambda each: each[0]) if turned else best
+        if best[0] < _LEAST or best[0] > _HOPELESS:
+            break
+    return best[1] if best[0] <= 1.0 else None
 
 
 def _nearest(arm: ArmModel, X_WT: Pose, q: Array) -> tuple[float, Array]:
