@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from handeye.core.errors import BadArgument
+from handeye.core.plain_text import counted
 from handeye.core.pose import Array
 from handeye.vision import beam, blob, characteriser
 from handeye.vision.beam import BRIGHTER, DARKER, Edges, Polarity
@@ -57,7 +58,7 @@ def beams(
     lengths = numbers(reach, "the reach of a beam is a number of points")
     if lengths.shape not in ((), (len(ways),)) or (lengths < 0).any():
         raise BadArgument(
-            f"the reach of a beam is a number of points, for all or for each of the {len(ways)} beams"
+            f"the reach of a beam is a number of points, for all or for each of {counted(len(ways), 'beam')}"
         )
     return beam.beams(
         scan, from_where, ways, polarity, float(step), lengths, wide=bool(wide), beyond=float(beyond)
