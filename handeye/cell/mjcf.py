@@ -1,6 +1,7 @@
 """A scene as files that plain MuJoCo opens: XML with every figure in full, meshes as OBJ, textures as PNG."""
 
 import ctypes
+import locale
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -32,7 +33,7 @@ def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[
         spec.add_text(name=name, data=text)
     assets = {**_meshes(spec), **_textures(spec)}
     spec.assets = assets
-    with _in_full():
+    with _in_full(), _decimal_points():
         xml = spec.to_xml()
     return {SCENE: f"<!-- {mark} -->\n{_FIGURE.sub(_short, xml)}".encode(), **assets}
 
@@ -88,6 +89,17 @@ def _in_full() -> Iterator[None]:
         yield
     finally:
         functions._mjPRIVATE__set_xml_precision(before)
+
+
+@contextmanager
+def _decimal_points() -> Iterator[None]:
+    """While MuJoCo reads meshes, by the C locale of this program, which may have decimal commas."""
+    before = locale.setlocale(locale.LC_NUMERIC)
+    locale.setlocale(locale.LC_NUMERIC, "C")
+    try:
+        yield
+    finally:
+        locale.setlocale(locale.LC_NUMERIC, before)
 
 
 def _short(figure: re.Match[str]) -> str:
