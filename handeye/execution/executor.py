@@ -13,7 +13,6 @@ from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.flow_actions import DECISIONS, FLOW_ACTIONS
 from handeye.execution.hand_actions import HAND_ACTIONS
 from handeye.execution.motion_actions import MOTION_ACTIONS
-from handeye.execution.sense_checks import doubted
 from handeye.execution.state import ExecutionState, Fault, ReversalOrder, vector
 from handeye.execution.undo.memory import before, noted
 from handeye.execution.undo.undoing import end, order, undo_last
@@ -81,17 +80,14 @@ class Executor:
             run.emit(StageStarted(time=run.time, stage=run.plan.program.stages[step.stage]))
         found = before(run)
         run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
-        fault = self._checked(step)
-        self.state.at = self._past(self._perform(step)) if fault is None else here
+        self.state.at = self._past(self._perform(step))
         self.state.done.append(noted(run, found, step=here, enters=enters))
         motion, planned = run.plan.motions.get(here), None
         if motion is not None:
             planned = vector(forward(run.arm, np.array(motion.knots[-1]))[:3, 3])
         hand, gap = vector(run.drive.hand()[:3, 3]), round(run.drive.sensed.gap, 6)
         run.emit(StepFinished(time=run.time, step=here, hand=hand, planned=planned, gap=gap))
-        if fault is not None:
-            self._stop(error=fault.number, cause=fault.cause)
-        elif step.operation.calls is not None:
+        if step.operation.calls is not None:
             self._stop(message=step.operation.calls)
         elif self.state.unwound.get(here, 0) < step.operation.undoes:
             self.state.unwound[here] = self.state.unwound.get(here, 0) + 1
@@ -116,7 +112,6 @@ class Executor:
         self.state.at, self.state.idle = going_on[choice], 0
         self.state.stopped = self.state.onward = None
         if choice != "proceed":
-            self.state.checked = None
             end(self.state)
             self.state.unwound.clear()
         run.emit(OperatorAnswered(time=run.time, choice=choice, step=self.state.at))
@@ -139,16 +134,6 @@ class Executor:
         completed = self.state.at is None and self.state.stopped is None
         run.emit(RunFinished(time=run.time, completed=completed))
         return completed
-
-    def _checked(self, step: Step) -> Fault | None:
-        """Check the senses in the first step of a stage; whoever proceeds after the call goes on without."""
-        if self.state.checked == step.stage:
-            return None
-        self.state.checked = step.stage
-        fault = doubted(self.run)
-        if fault is not None:
-            self.run.emit(ErrorRaised(time=self.run.time, number=fault.number, cause=fault.cause))
-        return fault
 
     def _perform(self, step: Step) -> int | None:
         """Carry out the operation; returns the number of the next step."""

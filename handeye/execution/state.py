@@ -168,7 +168,6 @@ class ExecutionState(SystemState, kw_only=True):
     """Everything a working phase remembers from step to step."""
 
     pending: Fault | None = None  # an error that the next step may test
-    checked: Natural | None = None  # the stage at whose beginning the senses were checked last
     idle: int = 0  # steps since time last passed
     clock: float = -1.0  # end of the last step, s
     saved: dict[str, Array] = msgspec.field(default_factory=dict)

@@ -19,7 +19,9 @@ overrides = st.builds(Overrides, without=st.just(("arm",)), set=st.dictionaries(
 arms = st.builds(ArmNames, joints=st.tuples(*[st.builds(JointName)] * 6))
 placed = st.builds(JointLimit, joint=st.integers(0, 5)) | st.builds(HeldJoint, joint=st.integers(0, 5))
 st.register_type_strategy(BeyondArm, st.builds(BeyondArm, arm=arms, reason=placed | st.builds(BelowTable)))
-st.register_type_strategy(WorldSpec, st.builds(WorldSpec, seed=st.integers(0, LARGEST_SEED), overrides=overrides))
+st.register_type_strategy(
+    WorldSpec, st.builds(WorldSpec, seed=st.integers(0, LARGEST_SEED), overrides=overrides)
+)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -17,7 +17,7 @@ from handeye.execution.state import ExecutedStep, ExecutionState, check_fits
 from handeye.execution.undo.way import packed
 
 REMEMBERED: Final = (
-    "pending", "checked", "saved", "heights", "counters", "search", "restored", "goal", "place", "travel",
+    "pending", "saved", "heights", "counters", "search", "restored", "goal", "place", "travel",
     "finger_line", "grasping", "unlike", "general", "world",
 )  # fmt: skip
 Memory = dict[str, Any]  # by field of the state

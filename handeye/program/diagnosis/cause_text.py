@@ -204,15 +204,16 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return f"it read {before} in, and {after} in at once: no finger is so fast"
         case c.GapUnlike():
             gap, thick = _apart(cause.gap, cause.thickness)
-            times = f"{cause.gap / cause.thickness:.2f} times as much"
-            return f"it reads {gap} in on {cause.held}, which is {thick} in thick there: {times}"
+            times = f": {cause.gap / cause.thickness:.2f} times as much" if cause.thickness else ""
+            return f"it reads {gap} in on {cause.held}, which is {thick} in thick there{times}"
         case c.DrivesUnlike():
-            named = zip(cause.joints, cause.factors, strict=True)
+            named = zip(cause.joints, cause.factors, strict=False)
             gives = " and ".join(f"that of the {joint.name} {factor:.2f} times" for joint, factor in named)
             return f"by the weight that it bears a drive gives more or less torque than it is told: {gives}"
         case c.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
-            return f"it shows {told:.1f} oz-in where the motor takes {known:.1f}: {told / known:.1f} times as much"
+            times = f": {told / known:.1f} times as much" if known else ""
+            return f"it shows {told:.1f} oz-in where the motor takes {known:.1f}{times}"
         case c.MotorSlow():
             return (
                 f"the motor had started after {cause.share:.1f} of its time: it turns slower than it is told"
