@@ -173,6 +173,8 @@ DEFINE DRIVER MOST
         RESTORE DRV
         RESTORE DRX
         CENTER  .5
+        SKIPN   2
+        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
         TRAVEL  0 MOST
         SKIPN   8
         WAIT    "THE SCREWDRIVER IS NOT WHERE IT SHOULD BE: ITS RACK HAS MOVED, OR A JOINT READS WRONG"
@@ -182,6 +184,8 @@ DEFINE DRIVER MOST
         RESTORE DRX
         RESTORE DRV
         CLOSE   .9 1.1
+        SKIPN   2
+        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
         CHANGE  [0 0 1] 2
         LOAD    15
 
@@ -312,6 +316,8 @@ DEFINE LIFT
         SKIPE   23              ;no resistance: a finger is in each large hole
         WAIT    "THE GASKET CANNOT BE TAKEN UP AGAIN"
         CLOSE   .7
+        SKIPN   2
+        WAIT    "THE GASKET CANNOT BE TAKEN UP AGAIN"
         CHANGE  [0 0 1] 2
 
 ; Down to the flange of the top on its stand, a finger on each side of its hub.
@@ -629,6 +635,8 @@ HELD:   LOAD    84.6
         OPEN    1.3
         MOVE    P1
         CENTER  .1
+        SKIPN   2
+        WAIT    "PIN 1 IS NOT IN ITS HOLDER: IT IS MISSING, OR THE HOLDER HAS MOVED, OR A JOINT READS WRONG"
         TRAVEL  0 .2
         SKIPN   8
         WAIT    "THE HOLDER OF PIN 1 IS NOT WHERE IT SHOULD BE: IT HAS MOVED, OR A JOINT READS WRONG"
@@ -671,6 +679,8 @@ IN1:    OPEN    .5
         OPEN    1.3
         MOVE    P2
         CENTER  .1
+        SKIPN   2
+        WAIT    "PIN 2 IS NOT IN ITS HOLDER: IT IS MISSING, OR THE HOLDER HAS MOVED, OR A JOINT READS WRONG"
         TRAVEL  0 .2
         SKIPN   8
         WAIT    "THE HOLDER OF PIN 2 IS NOT WHERE IT SHOULD BE: IT HAS MOVED, OR A JOINT READS WRONG"
@@ -749,6 +759,8 @@ GA:     MOVE    GUP
         WAIT    "THE GASKET IS NOT WHERE IT SHOULD BE: ITS HOLES ARE NOT FELT, OR A JOINT READS WRONG"
 BESIDE: AOJ     GA
 INSIDE: CLOSE   .7
+        SKIPN   2
+        WAIT    "THE GASKET IS NOT WHERE IT SHOULD BE: NONE IS BETWEEN THE FINGERS, OR A JOINT READS WRONG"
         CHANGE  [0 0 1] 1
         SKIPN   4               ;it is caught on its stand
         WAIT    "THE GASKET IS NOT WHERE IT SHOULD BE: IT DOES NOT COME UP, OR A JOINT READS WRONG"
@@ -812,7 +824,11 @@ RIGHT:  OPEN    3.4             ;for the top: .6 in beside its hub on each side
         OPEN    3.4
         BESTRIDE
         CENTER  2
+        SKIPN   2
+        WAIT    "NO TOP IS ON ITS STAND"
         CLOSE   2 2.4
+        SKIPN   2
+        WAIT    "NO TOP IS ON ITS STAND"
         LOAD    36
         CHANGE  [0 0 1] 1
         ASSIGN  TRIES 2

@@ -110,8 +110,9 @@ ERRORS: Final[dict[int, str]] = {
     FEATURES_NOT_SEEN: "the holes of the part are not found in the picture",
     GASKET_WRONG: "the gasket is not on properly",
     PART_ASTRAY: "the part does not stand as it stood in the earlier picture",
-    SWITCH_WRONG: "a finger switch does not tell what its finger touches",
-    GAP_WRONG: "the gap is not that of the fingers: its potentiometer fails, or something holds them",
+    SWITCH_WRONG: "a finger switch does not tell what its finger touches, or the fingers press too weakly for it",
+    GAP_WRONG: "the gap is not as the fingers were driven: its potentiometer fails, something holds or forces them, "
+    "or what they hold has slipped",
     FORCE_WRONG: "the hand feels a force in free air: something touches it, the load is not as declared, "
     "or the force sense or a drive fails",
     JOINT_SENSE_WRONG: "the potentiometer and the tachometer of a joint disagree: one of them fails",

@@ -205,13 +205,14 @@ REMEDIES: Final[dict[int, Remedy]] = {
     ),
     errors.SWITCH_WRONG: Remedy(
         "A switch that is closed while its finger stands off everything is stuck; so is one that stays open while the "
-        "fingers press on something. Nothing counts that is felt by it: leave the error untested, or put it into "
-        "words for the operator.",
+        "fingers press on something, or their motor is weak. Nothing counts that is felt by it: leave the error "
+        "untested, or put it into words for the operator.",
         'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
     ),
     errors.GAP_WRONG: Remedy(
         "Where there is room for the fingers, the gap's potentiometer is broken: leave the error untested. Where they "
-        "may meet something as they open, open them less.",
+        "may meet something as they open, open them less. What is held and slips, or is pushed, changes the gap at "
+        "once.",
         "OPEN 1.8\nSKIPN 51 ;the fingers came to where they should\nOPEN 1.5\nMOVE P",
     ),
     errors.FORCE_WRONG: Remedy(

@@ -18,7 +18,7 @@ from handeye.execution.undo.memory import before, noted
 from handeye.execution.undo.undoing import end, order, undo_last
 from handeye.execution.vision_actions import VISION_ACTIONS
 from handeye.ports.workcell import Workcell
-from handeye.program.diagnosis.causes import Cause, GapJumped, Looping
+from handeye.program.diagnosis.causes import Cause, Looping
 from handeye.program.events import (
     Choice,
     ErrorRaised,
@@ -149,10 +149,7 @@ class Executor:
         if self.state.drive.cut:  # whatever the action made of it
             fault = Fault(number=errors.WATCHDOG)
         elif self.state.drive.leapt is not None:
-            before, after = self.state.drive.leapt
-            fault = Fault(
-                number=errors.GAP_WRONG, cause=GapJumped(gap=round(after, 6), before=round(before, 6))
-            )
+            fault = Fault(number=errors.GAP_WRONG, cause=self.state.drive.leapt)
         self.state.drive.leapt = None
         self.state.pending = fault
         if fault is not None:

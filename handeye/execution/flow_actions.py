@@ -115,7 +115,8 @@ def load(run: ExecutionContext, operation: Load) -> None:
 
 def tool(run: ExecutionContext, operation: Tool) -> None:
     """Run the screwdriver."""
-    run.drive.state.tool, run.drive.state.current, run.drive.state.starting = operation.speed, 0.0, []
+    drive = run.drive.state
+    drive.tool, drive.current, drive.starting, drive.lately = operation.speed, 0.0, [], []
 
 
 def nothing(_: ExecutionContext, __: Operation) -> None:

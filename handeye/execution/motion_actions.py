@@ -25,6 +25,7 @@ from handeye.planning.motions import (
     turn_samples,
 )
 from handeye.program.diagnosis.causes import (
+    CurrentShort,
     CurrentSilent,
     CurrentUnlike,
     GuardsUnmet,
@@ -34,11 +35,18 @@ from handeye.program.diagnosis.causes import (
     TravelOutside,
 )
 from handeye.program.events import Adjusted, GuardFaint, GuardTripped, Restored
-from handeye.program.guards import GuardKind, Guards, unmet
+from handeye.program.guards import GuardKind, Guards, Torque, unmet
 from handeye.program.motion_operations import Change, Height, Move, Travel, Turn
 from handeye.program.operation import Operation
 from handeye.touch.guards import monitor
-from handeye.touch.senses import CURRENT_NOISE, STALLED_TORQUE, STARTING_PERIODS, STARTING_TORQUE
+from handeye.touch.senses import (
+    CURRENT_NOISE,
+    HELD_FAST,
+    PLATEAU,
+    STALLED_TORQUE,
+    STARTING_PERIODS,
+    STARTING_TORQUE,
+)
 
 PLAN_TOLERANCE: Final = 1e-4  # a goal or start within this (m, rad) of its planned value is run as planned
 
@@ -106,7 +114,11 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
         outcome = run.drive.comply(_course(run, operation), guard)
     run.state.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
     run.drive.state.in_air = False
-    return _finish(run, outcome, guards)
+    failed = _finish(run, outcome, guards)
+    stood = distance - run.state.travel > run.arm.servo.short
+    if failed is not None and failed.number == errors.NO_TORQUE and stood:
+        return _held_fast(run, guards) or failed
+    return failed
 
 
 def _course(run: ExecutionContext, operation: Change) -> Course:
@@ -196,6 +208,19 @@ def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow |
     if first >= least:
         return MotorSlow(share=round(mean / STARTING_TORQUE, 3))
     return CurrentUnlike(torque=round(mean, 6), known=STARTING_TORQUE)
+
+
+def _held_fast(run: ExecutionContext, guards: Guards) -> Fault | None:
+    """The error of a motor that something held fast, by the torque of the last second, below the torque asked for.
+
+    No thread and no bit that slips takes so much for so long; a motor held fast takes what its clutch lets through.
+    """
+    lately, asked = run.drive.state.lately, min(each.torque for each in guards if isinstance(each, Torque))
+    enough = len(lately) >= round(PLATEAU / run.drive.period) and asked <= STALLED_TORQUE
+    if not enough or min(lately) < HELD_FAST * asked:
+        return None
+    shown = round(sum(lately) / len(lately), 6)
+    return Fault(number=errors.CURRENT_WRONG, cause=CurrentShort(torque=shown, asked=asked))
 
 
 def travel(run: ExecutionContext, operation: Travel) -> Fault | None:

@@ -22,8 +22,9 @@ from handeye.core.pose import Array, Pose
 from handeye.execution.state import DriveState
 from handeye.execution.undo.way import Track
 from handeye.ports.workcell import Sensed, Workcell
+from handeye.program.diagnosis.causes import GapJumped
 from handeye.touch.guards import ActiveGuard, Reading
-from handeye.touch.senses import STARTING_PERIODS, leapt
+from handeye.touch.senses import PLATEAU, STARTING_PERIODS, kept_apart, leapt
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -185,9 +186,14 @@ class Servo:
             self.state.current = max(self.state.current, abs(sensed.tool_torque))
             if len(self.state.starting) < STARTING_PERIODS:
                 self.state.starting = [*self.state.starting, abs(sensed.tool_torque)]
+            self.state.lately = [*self.state.lately, abs(sensed.tool_torque)][-round(PLATEAU / self.period) :]
         reach = self.arm.hand.gap_speed * periods * self.period
         if self.state.leapt is None and leapt(sensed.gap - before.gap, reach):
-            self.state.leapt = before.gap, sensed.gap
+            self.state.leapt = GapJumped(
+                gap=round(sensed.gap, 6),
+                before=round(before.gap, 6),
+                held=any(before.touch) or any(sensed.touch) or kept_apart(before.gap, self.state.gap),
+            )
         if feel is not None and not halted:
             feel(sensed)
         unfelt = feel is None or taring or halted or sensed.braked  # no drive tells what brakes bear

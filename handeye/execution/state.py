@@ -18,7 +18,7 @@ from handeye.core.record import Record
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
 from handeye.ports.workcell import Sensed
-from handeye.program.diagnosis.causes import Cause
+from handeye.program.diagnosis.causes import Cause, GapJumped
 from handeye.program.events import AskedBy
 from handeye.program.guards import GuardKind
 from handeye.program.system_state import Natural, SystemState
@@ -135,8 +135,9 @@ class DriveState(MutableRecord, kw_only=True):
     current: float = 0.0  # its greatest torque since that speed was set, N m
     starting: list[float] = msgspec.field(default_factory=list)
     """Its torques in the first servo periods since then, N m."""
-    leapt: tuple[float, float] | None = None
-    """Gaps (m) before and after a servo period in which the gap changed more than fingers can move."""
+    lately: list[float] = msgspec.field(default_factory=list)
+    """Those of the last second since then, N m."""
+    leapt: GapJumped | None = None  # the first servo period since the last step in which the gap did
     magnet: bool = True  # the magnet of its bit is on
     lamp: bool = False
     cut: bool = False  # the watchdog has cut the drives and set the brakes

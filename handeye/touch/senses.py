@@ -42,6 +42,14 @@ STALLED_TORQUE: Final = 0.37  # N m, at most: that of the clutch, and of the spi
 STARTING_PERIODS: Final = (
     4  # servo periods that a motor takes to start at the speed of driving; measured: 4.2
 )
+PLATEAU: Final = 1.0
+"""s that a torque must last to be that of a motor held fast: at the speed of driving, three turns. Chosen."""
+HELD_FAST: Final = 0.3
+"""Share of the torque asked for that shows a motor held fast, while the hand does not get on.
+
+Of 42 ounce-inches it is .09 N m. A screw that turns takes .02, a bit that slips under 22 ounces at most .025 (all of
+that force as friction, at the edge of a head), and five times the noise of the current are .04 more.
+"""
 CURRENT_NOISE: Final = 0.008  # N m, of a reading: twice the stated noise of the current
 
 
@@ -64,6 +72,11 @@ def thick(gap: float, thickness: float) -> bool:
     """True if a gap can be that of fingers that hold an object of known thickness (m), between grips full and light,
     straight or askew."""
     return abs(gap - thickness) <= GAP_OFFSET + GAP_SCALE * thickness + SKEW
+
+
+def kept_apart(gap: float, goal: float) -> bool:
+    """True if something keeps the fingers at a gap (m) that are driven together: a light grip closes no switch."""
+    return gap > EMPTY_GAP and gap - goal > GAP_ERROR
 
 
 def stood_still(change: float, driven: float) -> bool:

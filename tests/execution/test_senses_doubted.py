@@ -109,7 +109,10 @@ def test_a_switch_that_takes_far_too_much_force_is_told_when_the_fingers_press_l
     # closed while the fingers go on closing, and open when they only press with what is left
     hand.read = lambda: replace(right(), touch=(right().touch[0], hand.goal < hand.gap - 2e-4))  # type: ignore[method-assign]
     assert run.go().errors == [errors.SWITCH_WRONG]
-    assert "the switch of the -y finger is open although the fingers press with 10 oz" in run.told
+    assert (
+        "the switch of the -y finger is open although the fingers are driven together with 10 oz: it is numb, or"
+        in run.told
+    )
 
 
 def test_fingers_that_close_on_nothing_are_no_matter_of_the_switches() -> None:
@@ -141,6 +144,26 @@ def test_a_gap_that_changes_faster_than_fingers_move_is_told() -> None:
     run.executor.run.drive.hold(1)  # a step of its own sees the one before and after
     run.cell.hand.read = lambda: replace(right(), gap=1.3 * right().gap)  # type: ignore[method-assign]
     assert run.go().errors == [errors.GAP_WRONG]
+
+
+@pytest.mark.parametrize("touching", [True, False])  # a weak grip closes no switch
+@pytest.mark.parametrize(
+    ("to", "why"), [(0.8, "what is held has slipped"), (1.3, "what is held has been pushed")]
+)
+def test_a_gap_that_jumps_while_something_is_held_may_be_that_of_the_fingers(
+    to: float, why: str, touching: bool
+) -> None:
+    run = fake_run("OPEN 2\nCLOSE .1\nMOVE T")
+    run.cell.hand.thickness = lambda _: 1.0 * INCH
+    run.executor.step()
+    run.executor.step()
+    right, clock = run.cell.hand.read, run.cell.clock
+    begun = clock.now
+    run.cell.hand.read = lambda: replace(  # type: ignore[method-assign]
+        right(), gap=(to if clock.now > begun else 1.0) * INCH, touch=(touching, touching)
+    )
+    assert run.go().errors == [errors.GAP_WRONG]
+    assert f"it read 1.00 in, and {to:.2f} in at once: {why}" in run.told
 
 
 @pytest.mark.parametrize(("factor", "wrong"), [(0.85, True), (0.98, False), (1.05, False), (1.15, True)])
@@ -284,6 +307,26 @@ def test_a_current_that_is_not_that_of_a_known_torque_is_told(torques: list[floa
     driver.torque = torque  # type: ignore[method-assign]
     assert run.go().errors == [errors.CURRENT_WRONG]
     assert told in run.told
+
+
+@pytest.mark.parametrize(
+    ("shown", "stands", "error"),
+    [
+        (30.0, True, errors.CURRENT_WRONG),  # the current ends there
+        (10.0, True, errors.NO_TORQUE),  # a bit may slip
+        (30.0, False, errors.NO_TORQUE),  # a thread that is hard to turn: the hand gets on
+    ],
+)
+def test_a_current_that_ends_below_the_torque_stop_is_told_of_a_motor_that_is_held_fast(
+    shown: float, stands: bool, error: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("handeye.execution.servo_loop.PRESS_TIME", 1.0)
+    run = fake_run("MOVE T\nTOOL 190\nTORQUE 42\nFORCE [0 0 -22]\nCHANGE [0 0 -1] .5")
+    run.cell.screwdriver.load = shown * OUNCE_INCH
+    run.cell.arm.walls = [Wall(point=(0.0, 0.0, (5.8 if stands else 0) * INCH))]
+    assert run.go().errors == [error]
+    if error == errors.CURRENT_WRONG:
+        assert "it shows 30.0 oz-in, short of the 42.0 asked for" in run.told
 
 
 # -- the camera -----------------------------------------------------------------------------------------

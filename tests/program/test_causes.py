@@ -55,7 +55,8 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.SwitchesOpen(fingers=(True, True), gap=0.3 * INCH),
-        "the switches of both fingers are open although something 0.30 in thick holds the fingers apart",
+        "the switches of both fingers are open although something 0.30 in thick holds the fingers apart: they are "
+        "numb, or the fingers' motor is weak",
     ),
     (
         c.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
@@ -64,11 +65,26 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.SwitchesHard(fingers=(True, True), force=10 * OUNCE_FORCE),
-        "the switches of both fingers are open although the fingers press with 10 oz",
+        "the switches of both fingers are open although the fingers are driven together with 10 oz: they are numb, or "
+        "the fingers' motor is weak",
     ),
     (
-        c.GapJumped(gap=2.3 * INCH, before=2.0 * INCH),
+        c.GapJumped(gap=2.3 * INCH, before=2.0 * INCH, held=False),
         "it read 2.00 in, and 2.30 in at once: no finger is so fast",
+    ),
+    (
+        c.GapJumped(gap=1.29 * INCH, before=1.39 * INCH, held=True),
+        "it read 1.39 in, and 1.29 in at once: what is held has slipped, or the gap's potentiometer fails",
+    ),
+    (
+        c.GapJumped(gap=1.32 * INCH, before=1.0 * INCH, held=True),
+        "it read 1.00 in, and 1.32 in at once: what is held has been pushed, and the fingers apart, or the gap's "
+        "potentiometer fails",
+    ),
+    (
+        c.CurrentShort(torque=30 * OUNCE_INCH, asked=42 * OUNCE_INCH),
+        "it shows 30.0 oz-in, short of the 42.0 asked for, while the motor is held fast: its reading ends there, or "
+        "the motor is weak",
     ),
     (
         c.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),

@@ -60,7 +60,7 @@ def cause_sentence(cause: Cause) -> str:
         case (
             c.SwitchesClosed() | c.SwitchesOpen() | c.SwitchesCrossed() | c.SwitchesHard() | c.GapAstray()
             | c.GapStill() | c.GapJumped() | c.GapUnlike() | c.CurrentUnlike() | c.MotorSlow() | c.ForceInAir()
-            | c.DrivesUnlike()
+            | c.DrivesUnlike() | c.CurrentShort()
             | c.JointSensesApart() | c.JointAlone() | c.CurrentSilent() | c.PictureRepeated() | c.PictureBlank()
         ):  # fmt: skip
             return doubt_sentence(cause)
@@ -190,7 +190,7 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return f"{_switches(cause.fingers)} closed although the fingers are open"
         case c.SwitchesOpen():
             held = f"something {_inches(cause.gap)} thick holds the fingers apart"
-            return f"{_switches(cause.fingers)} open although {held}"
+            return f"{_switches(cause.fingers)} open although {held}: {_numb(cause.fingers)}"
         case c.SwitchesCrossed():
             still = f"still closed after the hand went {_inches(cause.moved)} to that side"
             return (
@@ -198,10 +198,11 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             )
         case c.SwitchesHard():
             force = f"{cause.force / OUNCE_FORCE:.0f} oz"
-            return f"{_switches(cause.fingers)} open although the fingers press with {force}"
+            driven = f"the fingers are driven together with {force}"
+            return f"{_switches(cause.fingers)} open although {driven}: {_numb(cause.fingers)}"
         case c.GapJumped():
             before, after = _apart(cause.before, cause.gap)
-            return f"it read {before} in, and {after} in at once: no finger is so fast"
+            return f"it read {before} in, and {after} in at once: {_jump(cause)}"
         case c.GapUnlike():
             gap, thick = _apart(cause.gap, cause.thickness)
             times = f": {cause.gap / cause.thickness:.2f} times as much" if cause.thickness else ""
@@ -214,6 +215,10 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
             times = f": {told / known:.1f} times as much" if known else ""
             return f"it shows {told:.1f} oz-in where the motor takes {known:.1f}{times}"
+        case c.CurrentShort():
+            shown, asked = (torque / OUNCE_INCH for torque in (cause.torque, cause.asked))
+            short = f"it shows {shown:.1f} oz-in, short of the {asked:.1f} asked for, while the motor is held fast"
+            return f"{short}: its reading ends there, or the motor is weak"
         case c.MotorSlow():
             return (
                 f"the motor had started after {cause.share:.1f} of its time: it turns slower than it is told"
@@ -240,6 +245,14 @@ def doubt_sentence(cause: c.SenseCause) -> str:
     assert_never(cause)
 
 
+def _jump(cause: c.GapJumped) -> str:
+    """What can make a gap jump. Nothing but its potentiometer does where the fingers touch nothing."""
+    if not cause.held:
+        return "no finger is so fast"
+    moved = "slipped" if cause.gap < cause.before else "been pushed, and the fingers apart"
+    return f"what is held has {moved}, or the gap's potentiometer fails"
+
+
 def touching_fingers(fingers: tuple[bool, bool]) -> str:
     """Fingers, with the verb `touch`."""
     named = _named(fingers)
@@ -251,6 +264,10 @@ def _switches(fingers: tuple[bool, bool]) -> str:
     if len(named) == 1:
         return f"the switch of the {named[0]} finger is"
     return "the switches of both fingers are"
+
+
+def _numb(fingers: tuple[bool, bool]) -> str:
+    return f"{'they are' if all(fingers) else 'it is'} numb, or the fingers' motor is weak"
 
 
 def _named(fingers: tuple[bool, bool]) -> list[str]:

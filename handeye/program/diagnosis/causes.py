@@ -144,17 +144,19 @@ class SwitchesCrossed(CauseRecord, frozen=True, kw_only=True):
 
 
 class SwitchesHard(CauseRecord, frozen=True, kw_only=True):
-    """Switches of `fingers` are open although they press with `force` (N)."""
+    """Switches of `fingers` are open although the fingers are driven together with `force` (N)."""
 
     fingers: tuple[bool, bool]
     force: float
 
 
 class GapJumped(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) has changed faster than the fingers can move."""
+    """The gap (m) has changed faster than the fingers can move; `held`: they touched something, or something kept them
+    apart."""
 
     gap: float
     before: float
+    held: bool = False
 
 
 class GapUnlike(CauseRecord, frozen=True, kw_only=True):
@@ -217,6 +219,13 @@ class CurrentUnlike(CauseRecord, frozen=True, kw_only=True):
 
     torque: float
     known: float
+
+
+class CurrentShort(CauseRecord, frozen=True, kw_only=True):
+    """The motor was held fast and showed this torque (N m) for a second, less than that asked for."""
+
+    torque: float
+    asked: float
 
 
 class MotorSlow(CauseRecord, frozen=True, kw_only=True):
@@ -380,8 +389,8 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
 SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part
 SenseCause = (
     SwitchesClosed | SwitchesOpen | SwitchesCrossed | SwitchesHard | GapAstray | GapStill | GapJumped | GapUnlike
-    | CurrentUnlike | MotorSlow | DrivesUnlike | ForceInAir | JointSensesApart | JointAlone | CurrentSilent
-    | PictureRepeated | PictureBlank
+    | CurrentUnlike | CurrentShort | MotorSlow | DrivesUnlike | ForceInAir | JointSensesApart | JointAlone
+    | CurrentSilent | PictureRepeated | PictureBlank
 )  # fmt: skip
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
 InspectionCause = NoGasket | GasketWrong

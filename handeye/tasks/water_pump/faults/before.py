@@ -102,7 +102,7 @@ def _gasket() -> Iterator[PartFault]:
     wrong = ExpectedDetection(errors=(WRONG_HEIGHT,), calls=(detect.THICKNESS,))
     yield _fault(
         "gasket.missing", "No gasket lies on its stand.", partial(_missing, part),
-        ExpectedDetection(errors=(NOTHING_HELD,), stages=(detect.PUT_ON_GASKET,)),
+        ExpectedDetection(errors=(NOTHING_HELD,), calls=(detect.GASKET_OFF,), stages=(detect.PUT_ON_GASKET,)),
     )  # fmt: skip
     yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0), wrong)
     yield _fault(
@@ -137,7 +137,7 @@ def _gasket() -> Iterator[PartFault]:
 def _top() -> Iterator[PartFault]:
     yield _fault(
         "top.missing", "No top lies on its stand.", partial(_missing, "top"),
-        ExpectedDetection(calls=("NO TOP IS ON ITS STAND", detect.TOP_LOST), stages=(detect.PUT_ON_TOP,)),
+        ExpectedDetection(calls=(detect.NO_TOP, detect.TOP_LOST), stages=(detect.PUT_ON_TOP,)),
     )  # fmt: skip
     off = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED,),
@@ -236,7 +236,7 @@ def _holes(count: int) -> Iterator[PartFault]:
 def _screwdriver_and_light() -> Iterator[PartFault]:
     yield _fault(
         "screwdriver.missing", "The screwdriver is not in its rack.", partial(_missing, "driver"),
-        ExpectedDetection(errors=(NOTHING_HELD,), stages=(detect.DRIVE_FIRST,)),
+        ExpectedDetection(errors=(NOTHING_HELD,), calls=(detect.NO_DRIVER,), stages=(detect.DRIVE_FIRST,)),
     )  # fmt: skip
     yield _fault(
         _SMOOTH, "The bit does not rub on what it turns, and no thread takes it.", partial(_slippery, "bit"),

@@ -146,7 +146,8 @@ def _hand() -> Iterator[DeviceFault]:
     yield _fault("finger_motor.dead", "The fingers press with nothing.", "finger_motor", DEAD, expected)
     yield _fault(
         "finger_motor.weak", "So much is left of the force with which the fingers press.", "finger_motor", GainEffect,
-        expected, Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
+        ExpectedDetection(errors=(SWITCH_WRONG, GAP_WRONG, FORCE_WRONG)),
+        Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
     )  # fmt: skip
 
 

@@ -131,7 +131,7 @@ def _base() -> Iterator[MishapFault]:
 def _losses() -> Iterator[MishapFault]:
     gasket = ExpectedDetection(
         errors=(NOTHING_HELD, WRONG_HEIGHT),
-        calls=(detect.GASKET_LOST, detect.THICKNESS),
+        calls=(detect.GASKET_LOST, detect.THICKNESS, detect.NOT_LIFTED),
         stages=(detect.PUT_ON_GASKET,),
     )
     top = ExpectedDetection(
