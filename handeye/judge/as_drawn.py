@@ -13,6 +13,7 @@ _COUNTS: Final = {
     "body": "nbody", "jnt": "njnt", "dof": "nv", "geom": "ngeom", "site": "nsite", "eq": "neq", "actuator": "nu",
 }  # fmt: skip
 _LOOKS: Final = ("group", "matid", "rgba", "castshadow", "user", "sameframe")
+_SHARED: Final = ("bvh", "mesh", "tendon", "wrap")  # figures that belong to no one body
 _KINDS: Final = {
     "place": ("body_pos", "body_quat"),
     "mass": ("body_ipos", "body_iquat", "body_mass", "body_inertia", "body_gravcomp"),
@@ -21,7 +22,7 @@ _KINDS: Final = {
 }
 _WORDS: Final = {
     "body": "joining", "jnt": "joint", "dof": "joint", "geom": "shape", "site": "hole", "eq": "bond",
-    "actuator": "drive",
+    "actuator": "drive", "bvh": "shape", "mesh": "shape",
 }  # fmt: skip
 _PHYSICS: Final = (
     "gravity", "wind", "magnetic", "density", "viscosity", "impratio", "cone", "o_margin", "o_friction", "o_solref",
@@ -56,6 +57,9 @@ def _differences(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> I
     for number in np.flatnonzero(_meshes(model, drawn)):
         for geom in np.flatnonzero((drawn.geom_dataid == number) & parts[drawn.geom_bodyid]):
             yield _owner(drawn, "geom", int(geom), int(drawn.geom_bodyid[geom])), "shape"
+    for field in _shared(drawn):
+        if not np.array_equal(getattr(model, field), getattr(drawn, field)):
+            yield "the cell", _kind(field)
     if any(np.any(getattr(model.opt, name) != getattr(drawn.opt, name)) for name in _PHYSICS):
         yield "the cell", "physics"
 
@@ -77,6 +81,14 @@ def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
             yield field, bodies[kind]
     joint = np.searchsorted(drawn.jnt_qposadr, np.arange(drawn.nq), side="right") - 1
     yield from (("qpos0", drawn.jnt_bodyid[joint]), ("qpos_spring", drawn.jnt_bodyid[joint]))
+
+
+def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
+    """Names of the figures that count and belong to no one body; corners of meshes are told by their shapes."""
+    for field in dir(drawn):
+        kind, _, what = field.partition("_")
+        if what and kind in _SHARED and what not in _LOOKS and field != "mesh_vert":
+            yield field
 
 
 def _bonded(drawn: mujoco.MjModel) -> NDArray[np.int32]:

@@ -17,6 +17,7 @@ from handeye.judge.measured import SettledState
 from handeye.runs.exported_state import ExportedState
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, standard
 from handeye.tasks.water_pump.cell import build_cell
+from handeye.tasks.water_pump.clamping import Clamping, ClampingState
 from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
@@ -107,8 +108,10 @@ def rested(seed: int | None = None) -> Truth:
 
 
 def _copied(truth: Truth) -> Truth:
+    """A copy in which no welds hold the layers, so that they can be moved."""
     model, data = truth.copy()
-    return replace(truth, model=model, data=data)
+    states = {**truth.states, Clamping.name: ClampingState(clamped=False)}
+    return replace(truth, model=model, data=data, states=states)
 
 
 def exhibit(truth: Truth) -> ExportedState:

@@ -9,7 +9,7 @@ from dataclasses import replace
 import msgspec
 import mujoco
 import numpy as np
-from finished import put
+from finished import finished_cell, put
 
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
@@ -18,7 +18,7 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Pose, hand, inverse, planar, pose, rotation, rotation_x, translated
 from handeye.core.units import DEGREE
 from handeye.tasks.stanford_cell.dimensions import PARK, dimensions, screw_holes, standard
-from handeye.tasks.water_pump.clamping import ClampingState
+from handeye.tasks.water_pump.clamping import WELDS, Clamping, ClampingState, lands_of
 
 MM = 1e-3
 PUMP = ("base", "gasket", "top")
@@ -248,11 +248,6 @@ def pushed(body: str, force: float) -> Planting:
     return change
 
 
-def switched_on(truth: Truth) -> Truth:
-    driver = msgspec.structs.replace(truth.states["screwdriver"], command=20.0)
-    return replace(truth, states={**truth.states, "screwdriver": driver})
-
-
 def weightless(truth: Truth) -> Truth:
     truth.model.opt.gravity[:] = 0.0
     return truth
@@ -262,6 +257,98 @@ def glued(truth: Truth) -> Truth:
     truth = replace(truth, states={**truth.states, "clamping": ClampingState(clamped=False)})
     truth.data.eq_active[truth.model.equality("merge_top").id] = 1
     return truth
+
+
+def clamped(truth: Truth) -> Truth:
+    """Its layers held by welds, as the cell has left them."""
+    live, lands = finished_cell().truth, lands_of(truth.drawn)
+    for field, rows in (("eq_data", merges(truth)), ("geom_contype", lands), ("geom_conaffinity", lands)):
+        getattr(truth.model, field)[rows] = getattr(live.model, field)[rows]
+    truth.data.eq_active[merges(truth)] = 1
+    return replace(truth, states={**truth.states, Clamping.name: ClampingState(clamped=True)})
+
+
+def in_touch(truth: Truth) -> Truth:
+    lands = lands_of(truth.drawn)
+    truth.model.geom_contype[lands] = truth.drawn.geom_contype[lands]
+    return truth
+
+
+def merges(truth: Truth) -> list[int]:
+    return [truth.model.equality(name).id for name in WELDS]
+
+
+def weld(number: int, **fields: object) -> Planting:
+    """Clamped, with one weld open, or somewhere else: moved in its layer or in the base (m), or turned (rad)."""
+
+    def change(truth: Truth) -> Truth:
+        truth = clamped(truth)
+        row = merges(truth)[number]
+        figures = truth.model.eq_data[row]
+        figures[:3] += fields.get("anchor", 0.0)
+        figures[3:6] += fields.get("by", 0.0)
+        turn = np.array([1.0, 0.0, 0.0, 0.0])
+        mujoco.mju_axisAngle2Quat(turn, np.array([0.0, 0.0, 1.0]), fields.get("turn", 0.0))
+        mujoco.mju_mulQuat(figures[6:10], figures[6:10].copy(), turn)
+        truth.data.eq_active[row] = not fields.get("open", False)
+        return truth
+
+    return change
+
+
+def state(device: str, **changed: object) -> Planting:
+    """The state of a device, other than it was left."""
+
+    def change(truth: Truth) -> Truth:
+        other = msgspec.structs.replace(truth.states[device], **changed)
+        return replace(truth, states={**truth.states, device: other})
+
+    return change
+
+
+def put_out(motor: str, value: float, gain: float | None = None) -> Planting:
+    """A control that a motor has been left with, and a gain."""
+
+    def change(truth: Truth) -> Truth:
+        number = truth.model.actuator(motor).id
+        truth.data.ctrl[number] = value
+        if gain is not None:
+            truth.model.actuator_gainprm[number, 0] = gain
+            truth.model.actuator_biasprm[number, 2] = -gain
+        return truth
+
+    return change
+
+
+def pushed_joint(joint: str, force: float) -> Planting:
+    def change(truth: Truth) -> Truth:
+        truth.data.qfrc_applied[truth.model.joint(joint).dofadr[0]] = force
+        return truth
+
+    return change
+
+
+def number(field: str, value: float, at: int = 0) -> Planting:
+    """A number of the simulator's state, nothing worked out from it."""
+
+    def change(truth: Truth) -> Truth:
+        if field == "time":
+            truth.data.time = value
+        else:
+            getattr(truth.data, field)[at] = value
+        return truth
+
+    return change
+
+
+def entry(field: str, row: int, value: float) -> Planting:
+    """A figure of the scene that belongs to no one body."""
+
+    def change(truth: Truth) -> Truth:
+        getattr(truth.model, field)[row] = value
+        return truth
+
+    return change
 
 
 def reaching(x: float, y: float, z: float) -> Planting:
@@ -442,7 +529,6 @@ def _parts() -> Iterator[tuple[str, str, Planting]]:
     yield "tapped hole without thread", "as_drawn", figure("eq_active0", "thread3", 0)
     yield "coarse thread", "as_drawn", figure("eq_data", "thread3", 2e-4, 0)
     yield "thread without friction", "screws_hold", figure("dof_frictionloss", "thread_turn2", 0.0)
-    yield "thread that rubs half as much", "as_drawn", figure("dof_frictionloss", "thread_turn2", 0.05)
     yield "screw turned home with 1 N m", "screws_turned", thread(2, clamp=856.0)
     half = (dimensions()("screw.length") - dimensions()("screw.point_length")) / 2
     for what, longer in (("5 mm short", -5 * MM), ("4 mm long", 4 * MM)):
@@ -474,6 +560,30 @@ def _parts() -> Iterator[tuple[str, str, Planting]]:
     yield "top glued", "bonds", glued
     yield "thread torn out of the base", "bonds", open_bond
     yield "top pressed down by an unseen hand", "held", pushed("top", -30.0)
+    yield "link of the arm pushed", "held", pushed("stanford/link6", 10.0)
+    yield "finger pushed", "held", pushed_joint("stanford/finger_a", 5.0)
+    for layer, name in enumerate(("gasket", "top")):
+        yield f"clamped {name} let go", "bonds", weld(layer, open=True)
+        yield f"weld of the {name} 5 mm aside", "bonds", weld(layer, by=(5 * MM, 0.0, 0.0))
+        yield f"weld of the {name} 2 mm up", "bonds", weld(layer, by=(0.0, 0.0, 2 * MM))
+        yield f"weld of the {name} elsewhere in it", "bonds", weld(layer, anchor=(0.0, 0.2 * MM, 0.0))
+        yield f"weld of the {name} 3 degrees aside", "bonds", weld(layer, turn=3 * DEGREE)
+    yield "layers clamped and their lands in touch", "as_drawn", both(clamped, in_touch)
+    for field, at, value in (
+        ("qpos", 0, np.nan),
+        ("ctrl", 0, np.inf),
+        ("time", 0, np.nan),
+        ("qvel", -1, np.nan),
+    ):
+        yield f"{field} {value}", "numbers", number(field, value, at)
+    yield "force of a clamp that is no number", "numbers", thread(5, clamp=np.nan)
+    yield (
+        "friction of a thread that is no number",
+        "numbers",
+        figure("dof_frictionloss", "thread_turn5", np.nan),
+    )
+    yield "box around a shape shrunk", "as_drawn", entry("bvh_aabb", 3, 0.0)
+    yield "corner of a face elsewhere", "as_drawn", entry("mesh_face", 7, 0)
     for part, other in (("screw2", "dispenser"), ("screw2", "base")):
         yield f"screw both in its thread and at the {other}", "tray", beside(part, other, (0.0, 0.0, 0.1))
     yield "magnet of the bit dead", "as_drawn", figure("actuator_gainprm", "magnet", 0.0)
@@ -494,7 +604,17 @@ def _going() -> Iterator[tuple[str, str, Planting]]:
     yield "boom running out", "arm_still", going("stanford/j3", 0.05)
     yield "rotor spinning", "still", going("rotor", 3.0)
     yield "spindle spinning", "still", going("spindle", 2.0)
-    yield "screwdriver switched on", "motor", switched_on
+    yield "screwdriver switched on", "motor", state("screwdriver", command=20.0)
+    yield "screwdriver coupled to a screw", "motor", put_out("drive", 0.0, 0.032)
+    yield "screwdriver with a control left", "motor", put_out("drive", 5.0)
+    yield "spindle with a control left", "motor", put_out("spindle", -1.0)
+    yield "hand about to open", "motor", state("stanford/hand", command=(0.12, 20.0))
+    yield "hand opening by itself", "motor", put_out("stanford/grip", 1e-3)
+    yield "arm about to be driven", "motor", state("stanford", command=(0.0, 0.0, 0.0, 0.0, 5.0, 0.0))
+    yield "arm driven against its brakes", "motor", put_out("stanford/j2", 20.0)
+    about = state("stanford", braked=False, command=(5.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    free = figure("dof_frictionloss", "stanford/j1", 0.4)
+    yield "arm that holds itself, about to be driven", "motor", both(free, about)
     yield "screw turning out", "still", going("thread_turn3", 1.0)
     yield "pump sliding", "still", going("base", 0.02)
     yield "pump turning", "still", going("base", 0.2, 5)
@@ -524,6 +644,12 @@ def right() -> Iterator[tuple[str, int | None, Planting]]:
     yield "rotor loose", None, rotor(friction=0.0)
     yield "base off its blocks", None, shifted(*PUMP, by=(1.0 * MM, -1.0 * MM, 0.0))
     yield "thread scarred, its screw backed out and driven home", None, thread(1, scarred=True)
+    yield "thread that runs hard", None, moved_on("dof_frictionloss", "thread_turn2", 0.24)
+    yield "layers clamped, as the arm leaves them", None, clamped
+    shut = state("stanford/hand", gap=0.0, set_point=0.0, command=(0.0, 80.0))
+    yield "hand closed", None, shut
+    beside = state("stanford/hand", gap=0.006, set_point=0.0006, command=(0.0, 80.0))
+    yield "hand closed, its potentiometer 6 mm off", None, beside
     yield "pins changed about", None, _pins_changed
     yield "screws changed about", None, both(thread(1, screw=4), thread(4, screw=1))
     yield "driver askew in its guides", None, turned("driver", by=planar(0, 0, 0, 1 * DEGREE)[:3, :3])

@@ -2,21 +2,24 @@
 
 import copy
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final
 
+import msgspec
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.cell.hand import ScrewdriverState, SimulatedScrewdriver
+from handeye.cell.mechanism import Mechanism
 from handeye.cell.threads import Thread, Threads, holes_of
 from handeye.cell.truth import Truth
+from handeye.core.errors import InvalidInput
 from handeye.judge.as_drawn import altered, told
 from handeye.judge.finding import Finding, Findings, at_least, at_most
 from handeye.judge.measured import SettledState, deg, mm, tilt
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.water_pump.clamping import WELDS, Clamping, ClampingState, lands_of
 from handeye.tasks.water_pump.referee import limits
+from handeye.tasks.water_pump.referee.commands import commanded
 from handeye.tasks.water_pump.referee.measure import deepest
 
 PINS: Final = ("pin0", "pin1")
@@ -62,20 +65,21 @@ def resting(left: SettledState, settled: SettledState, holes: tuple[Thread, ...]
 
 
 def made(left: SettledState, truth: Truth) -> Findings:
-    """Findings on what does not change as a cell settles: how parts are made, and what acts on them from outside."""
-    driver = truth.states[SimulatedScrewdriver.name]
-    assert isinstance(driver, ScrewdriverState)
-    model, data, parts = left.model, left.data, _parts(left)
-    forces = np.abs(data.xfrc_applied[parts]).max(), np.abs(data.qfrc_applied[parts[model.dof_bodyid]]).max()
-    differing = _altered(truth)
+    """Findings on what does not change as a cell settles: how parts are made, and what acts on them."""
+    forces = np.abs(left.data.xfrc_applied).max(), np.abs(left.data.qfrc_applied).max()
+    differing, driven = _altered(truth), commanded(truth)
     return {
         "as_drawn": at_most(
             len(differing), limits.ALTERED, "parts",
             "parts that are not as drawn" + (f": {told(differing)}" if differing else ""),
         ),
-        "bonds": at_most(_bonds(truth), 0, "bonds", "bonds that are open or closed and should not be"),
-        "held": at_most(max(forces), limits.FORCE, "N", "greatest force from outside on a part"),
-        "motor": at_most(abs(driver.command), 0.0, "rad/s", "speed that the screwdriver is set to"),
+        "bonds": at_most(_bonds(left, truth), 0, "bonds", "bonds that are open, closed or strained and should not be"),
+        "held": at_most(max(forces), limits.FORCE, "N", "greatest force from outside on a part or the arm"),
+        "motor": at_most(
+            len(driven), 0, "motors",
+            "motors with a command left" + (f": {', '.join(driven)}" if driven else ""),
+        ),
+        "numbers": at_most(_not_finite(truth), 0, "numbers", "numbers of the state that are not finite"),
     }  # fmt: skip
 
 
@@ -103,8 +107,7 @@ def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
     threads.write(holes, scene)
     for hole, thread in enumerate(holes):
         carrier, turn = model.body(f"carrier{hole}").id, model.joint(f"thread_turn{hole}").dofadr[0]
-        if thread.screw is None or thread.crossed:  # an empty one rubs as when its last screw left it
-            scene.dof_frictionloss[turn] = model.dof_frictionloss[turn]
+        scene.dof_frictionloss[turn] = model.dof_frictionloss[turn]  # `screws_clamp`, `_strain` and `_hold`
         if thread.screw is not None:  # `screws_place` and `screws_lean`
             scene.body_pos[carrier], scene.body_quat[carrier] = (
                 model.body_pos[carrier],
@@ -116,20 +119,50 @@ def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
     drive = model.actuator("drive").id  # it turns now this screw, now that
     for figures in ("actuator_trnid", "actuator_gainprm", "actuator_biasprm"):
         getattr(scene, figures)[drive] = getattr(model, figures)[drive]
-    welds = [model.equality(name).id for name in WELDS]  # where they have found the layers
-    scene.eq_data[welds] = model.eq_data[welds]
-    lands = lands_of(scene)
-    if _clamped(truth) and not model.geom_contype[lands].any():  # the welds hold, and the lands meet nothing
+    welds = [model.equality(name).id for name in WELDS]  # where they have found the layers: `bonds`
+    scene.eq_data[welds, :10] = model.eq_data[welds, :10]
+    if _clamped(truth):  # the welds hold, and the lands meet nothing
+        lands = lands_of(scene)
         scene.geom_contype[lands] = scene.geom_conaffinity[lands] = 0
     return scene
 
 
-def _bonds(truth: Truth) -> int:
-    """How many of the scene's bonds are open or closed and should not be; a copy of a cell may have its welds open."""
+def _bonds(left: SettledState, truth: Truth) -> int:
+    """How many of the scene's bonds are open, closed or strained and should not be."""
     right, active = truth.drawn.eq_active0 != 0, truth.data.eq_active != 0
     welds = [truth.drawn.equality(name).id for name in WELDS]
-    right[welds] = active[welds] & _clamped(truth)
-    return int((active != right).sum())
+    right[welds] = _clamped(truth)
+    strained = (_strained(left, weld) for weld in welds if active[weld])
+    return int((active != right).sum()) + sum(strained)
+
+
+def _strained(left: SettledState, weld: int) -> bool:
+    """A weld holds its layer elsewhere than it lies."""
+    model, figures, R = left.model, left.model.eq_data[weld], np.zeros(9)
+    X_BP = left.relative(model.body(model.eq_obj2id[weld]).name, model.body(model.eq_obj1id[weld]).name)
+    mujoco.mju_quat2Mat(R, figures[6:10])
+    away = np.linalg.norm(X_BP[:3, :3] @ figures[:3] + X_BP[:3, 3] - figures[3:6])
+    turn = np.linalg.norm(X_BP[:3, :3] - R.reshape(3, 3)) / np.sqrt(2)  # rad, where it is small
+    return not (1e3 * away <= limits.MERGED and np.degrees(turn) <= limits.MERGED_TURN)
+
+
+def _not_finite(truth: Truth) -> int:
+    """How many numbers of the cell's state are not finite; a mechanism in a state that cannot be counts as one."""
+    model, kind = truth.model, mujoco.mjtState.mjSTATE_INTEGRATION
+    physics = np.empty(mujoco.mj_stateSize(model, kind))
+    mujoco.mj_getState(model, truth.data, physics, kind)
+    changed = {field for part in truth.mechanisms for field in part.changes}
+    numbers = [physics, *(np.ravel(getattr(model, field)) for field in changed)]
+    unsound = sum(not _sound(part, truth.states[part.name]) for part in truth.mechanisms)
+    return unsound + int((~np.isfinite(np.concatenate(numbers))).sum())
+
+
+def _sound(part: Mechanism[Any], state: msgspec.Struct) -> bool:
+    try:
+        part.check(state)
+    except (InvalidInput, ValueError):
+        return False
+    return True
 
 
 def _clamped(truth: Truth) -> bool:

@@ -73,7 +73,11 @@ SETTLE: Final = 0.2  # s: forces come up to date, and what hangs in the air fall
 TRAY: Final = 3.0
 """mm from its place on the tray under the floor, where the body of a screw lies that a thread stands for: one that is
 elsewhere would be there twice."""
-FORCE: Final = 0.0  # N and N m from outside on a part: nothing is held by an unseen hand
+FORCE: Final = 0.0  # N and N m from outside on a part or the arm: nothing is held by an unseen hand
+MERGED: Final = 0.1
+"""mm that a layer may lie off the weld that holds it while it is clamped. Screws turned home later press it off that:
+by up to .030 in pumps that the arm has made."""
+MERGED_TURN: Final = 0.1  # deg, the same: up to .017
 ALTERED: Final = 0  # parts: a scene is made the same to the byte whenever it is made
 FLOOR: Final = -5.0  # mm: nothing may be lower than this under the table top
 PENETRATION: Final = 0.15  # mm of parts pressed on each other: contacts are soft; six screws make it .06 mm
