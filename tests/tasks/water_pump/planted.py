@@ -270,7 +270,8 @@ def clamped(truth: Truth) -> Truth:
 
 def in_touch(truth: Truth) -> Truth:
     lands = lands_of(truth.drawn)
-    truth.model.geom_contype[lands] = truth.drawn.geom_contype[lands]
+    for field in ("geom_contype", "geom_conaffinity"):
+        getattr(truth.model, field)[lands] = getattr(truth.drawn, field)[lands]
     return truth
 
 
