@@ -38,7 +38,7 @@ OPEN 1
 SCREWS = stage("drive the first two screws")
 NEXT = "MOVE H5\nRESTORE Y1\nRESTORE X2\nRESTORE HS LEVEL\nSAVE NOTHING"
 """The way to the hole after those of the first two screws."""
-TWO = CENTRED + SCREWS[: SCREWS.index("        RACK")] + NEXT
+TWO = CENTRED + SCREWS[: SCREWS.rindex("        RACK")] + NEXT
 AND_PINS = CENTRED + stage("drive the first two screws", "take out the aligning pins")
 
 
