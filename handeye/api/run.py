@@ -125,11 +125,10 @@ class Run:
                 raise Refused(f"stage {self._runner.listing.stages[stage]} has not begun yet")
             position = beginnings(self._runner)[stage]
         else:
-            position = self._runner.position - given_count(steps, "steps")
+            count = given_count(steps, "steps")
+            position = self._runner.position - count
             if position < 0:
-                raise Refused(
-                    f"{counted(steps, 'step')} cannot be undone: {counted(self._runner.position, 'step')} done"
-                )
+                raise _too_many(count, self._runner.position, "done")
         self._session.back_to(position)
         return self._stand("gone back")
 
@@ -158,11 +157,10 @@ class Run:
             stage = stage_number(steps, self._runner.listing)
             left = stage_began(executed, self._runner.listing, stage)
         else:
-            left = len(executed) - given_count(steps, "steps")
+            count = given_count(steps, "steps")
+            left = len(executed) - count
             if left < 0:
-                raise Refused(
-                    f"{counted(steps, 'step')} cannot be undone: {counted(len(executed), 'step')} executed"
-                )
+                raise _too_many(count, len(executed), "executed")
         return self._stand(reason(self._session.have_undone(left)))
 
     def dismantle(self) -> State:
@@ -420,6 +418,12 @@ class Run:
         name = last_picture(self._runner)
         webp = None if name is None else annotated_webp(self._runner.system, name)
         return run_page(self.result, self.state, name, webp)
+
+
+def _too_many(steps: int, done: int, how: str) -> Refused:
+    """The refusal to undo more steps than were done, or executed."""
+    left = f"only {done} {'has' if done == 1 else 'have'}" if done else "none has"
+    return Refused(f"{counted(steps, 'step')} cannot be undone: {left} been {how}")
 
 
 def reason(pause: Pause) -> str:

@@ -67,6 +67,7 @@ class RunFolder(Observer):
         self.kept = CheckpointStore(path / CHECKPOINTS)
         self._made = made
         self._closed = False
+        self.lost = 0  # events of a resumed run that its trace had lost, with the motions between them
         self._first: Path | None = None  # the checkpoint that the run begins with, once it is written
         self._runner: Runner | None = None
         self._journal: Journal | None = None
@@ -85,14 +86,10 @@ class RunFolder(Observer):
         if not again:
             self.begin(start)
         self._recorder = self._recording(start.events)
-        if again:
+        if again:  # else what came before the first event was never in this folder
+            self.lost = self._recorder.lost
             self._journal.undone(len(start.events), runner.time, "resumed")
         return self
-
-    @property
-    def lost(self) -> int:
-        """Number of events of a resumed run that its trace had lost, with the motions between them."""
-        return 0 if self._recorder is None else self._recorder.lost
 
     @property
     def journal_lost(self) -> bool:

@@ -120,7 +120,7 @@ def test_the_arm_undoes_steps_and_stages_and_that_is_part_of_the_run(run: handey
     state = run.undo("open")
     assert (state.text, state.stage, state.position) == ("OPEN 1", "open up", 8)
     assert state.gap < opened / 2
-    with pytest.raises(InvalidInput, match=r"^1 steps cannot be undone; 0 were executed$"):
+    with pytest.raises(InvalidInput, match=r"^1 step cannot be undone: none has been executed$"):
         run.undo()
     assert run.step().text == "OPEN 2"
     assert not run.dismantle().step
@@ -157,7 +157,9 @@ def test_the_stepper_is_spoken_to(run: handeye.Run) -> None:
         (lambda run: run.until("L1") and run.until("open up"), r"^the run never comes to open up from here$"),
         (lambda run: run.until(3.5), r"^a place is a text or the number of a line, not 3\.5$"),
         (lambda run: run.say(3), r"^a command of the stepper is a text, not 3$"),
-        (lambda run: run.back(), r"^1 steps cannot be undone; 0 are done$"),
+        (lambda run: run.back(), r"^1 step cannot be undone: none has been done$"),
+        (lambda run: run.step() and run.back(2), r"^2 steps cannot be undone: only 1 has been done$"),
+        (lambda run: run.until() and run.undo(99), r"^99 steps cannot be undone: only 4 have been executed$"),
         (lambda run: run.back("shut"), r"^stage shut the hand has not begun yet$"),
         (lambda run: run.checkpoint(), r"^this run has no folder for checkpoints; name a file$"),
         (lambda run: run.trace, r"^the run has no folder, and so no trace; begin it with out=\.\.\.$"),

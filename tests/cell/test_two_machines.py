@@ -87,7 +87,7 @@ def test_its_channels_are_in_csv_and_report(hour: Path, tmp_path: Path, command:
     code, _, err = command("trace", "export", "csv", str(hour / TRACE), "-o", str(tmp_path / "tables"))
     assert code == 0, err
     head = (tmp_path / "tables" / "channels.csv").read_text(encoding="utf-8").splitlines()[0]
-    assert head == "time,stage,step,line,gripper.pad,gripper.ever,pusher.range"
+    assert head == "time,stage,step,file,line,gripper.pad,gripper.ever,pusher.range"
     code, _, err = command("report", str(hour), "-o", str(tmp_path / "page.html"))
     assert code == 0, err
     page = (tmp_path / "page.html").read_text(encoding="utf-8")

@@ -113,6 +113,16 @@ def test_a_file_that_is_lost_keeps_nobody_from_going_on(whole: Path, copy: Path,
     assert history(gone_on(copy).events) == (whole / "events.jsonl").read_bytes()
 
 
+def test_a_trace_is_lost_only_where_the_run_was_traced_before(copy: Path, tmp_path: Path) -> None:
+    (copy / "trace.mcap.part").unlink()
+    folder, start, _ = open_again(copy)
+    Runner(start, observers=lambda runner: [folder.watch(runner, start, again=True)])
+    folder.close()
+    _, elsewhere = recorded(tmp_path / "elsewhere", start)
+    elsewhere.close()
+    assert (folder.lost > 0, elsewhere.lost) == (True, 0)
+
+
 def test_a_damaged_checkpoint_is_left_out_for_the_one_before(whole: Path, copy: Path) -> None:
     newest = copy / "checkpoints" / "0002-take-the-pin.checkpoint"
     newest.write_bytes(newest.read_bytes()[:-9])
