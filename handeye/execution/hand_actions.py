@@ -111,6 +111,10 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
     if not centring.error:
         drive.state.gap = drive.sensed.gap - grasp.lag(SWITCH_FORCE, drive.state.grip)
     drive.hold(grasp.settle // 2 - 1)
+    for _ in range(0 if centring.error or "touch" in run.without else grasp.settle // 4):
+        if all(_touch(run)):  # a jerk of the arm may open one for a period
+            break
+        drive.hold(1)
     run.state.travel = abs(float((X_WT[:3, 3] - begun) @ line))
     still = _still(run, start, driven)
     if still is not None:

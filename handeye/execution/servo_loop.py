@@ -155,6 +155,7 @@ class ServoLoop(Servo):
 
         A hand that something stops is off its set-point there, and one on which a force acts is off it all the way.
         """
+        held = not self.state.in_air and off_zero(self.state.wrench[:3])  # it comes from what it pressed on
         self.state.in_air = False
         drag = JointDrag(arm=self.arm)
         balance = TorqueBalance(arm=self.built, friction=self.state.friction)
@@ -164,7 +165,7 @@ class ServoLoop(Servo):
             return self._force_in_air()
         if outcome == REACHED and self.state.load <= LIGHT:
             outcome = self._dragging(drag) or REACHED
-        if outcome == REACHED and len(samples) and self.state.links is not None:
+        if outcome == REACHED and len(samples) and self.state.links is not None and not held:
             outcome = self._off_balance(balance) or REACHED
         self.state.in_air = outcome == REACHED
         return outcome

@@ -12,9 +12,10 @@ from handeye.core.errors import NOTHING_HELD, SWITCH_WRONG
 from handeye.touch.senses import least_gap
 
 OVERDRIVE: Final = 0.005  # m driven beyond the opening before the fingers count as stalled; placeholder
-SLOWER: Final = 0.25
-"""Share of their speed at which the fingers close while one touches. Chosen: an object between both is pressed on, so
-that the switch which takes more force fires, too."""
+SLOWER: Final = 0.5
+"""Share of their speed at which the fingers close as one touches, which falls to 0 while it does. Chosen: an object
+between both is pressed on, so that the switch which takes more force fires, too. Slower from the beginning, a finger
+comes off at once, and pushes a loose object a little each time it meets it again."""
 EASING: Final = 0.0015
 """m that the hand goes towards a finger, at most, until that no longer touches: the arm gives as much to 18 N."""
 
@@ -53,7 +54,7 @@ class Centring:
             return CentringStep()
         close = self.speed * period
         side = touch[0] - touch[1]
+        gap = close * SLOWER * (1 - min(self.eased / EASING, 1.0)) if side else close
         self.eased = self.eased + close / 2 if side else 0.0
-        gap = close * SLOWER if side else close
         self._left = left - gap
         return CentringStep(gap=-gap, hand=side * close / 2)

@@ -76,6 +76,21 @@ def test_a_rotor_meets_its_stop_on_one_side_and_from_a_state_that_was_kept() -> 
     assert turned(cell, -PUSH_NM) < -180.0
 
 
+def rubs(cell: SimulatedCell) -> float:
+    """Friction of the rotor, N m."""
+    model = cell.truth.model
+    return float(model.dof_frictionloss[model.joint("rotor").dofadr[0]])
+
+
+def test_a_jammed_rotor_rubs_from_its_stage_on_and_not_before() -> None:
+    fault = WATER_PUMP.faults(WorldSpec(seed=3)).kind("rotor.jammed").usual(2)
+    cell = build_cell(PumpWorld.draw(WorldSpec(seed=3, faults=(fault,))), camera="ray")
+    cell.begin_stage(1)
+    cell.advance(0.1)
+    assert rubs(cell) < PUSH_NM
+    assert rubs(cell_with("rotor.jammed")) == 20.0
+
+
 def test_a_jammed_rotor_turns_neither_way() -> None:
     assert np.abs([turned(cell_with("rotor.jammed"), torque) for torque in (PUSH_NM, -PUSH_NM)]).max() < 3.0
 
