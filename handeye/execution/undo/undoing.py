@@ -288,7 +288,9 @@ def _go(
 ) -> UndoFailure | None:
     """Retrace a path under guards; on failure the rest of it stays to be reversed."""
     drive = run.drive
-    back = retracing(run.arm, drive.state.q, drive.state.gap, way, slowly=done.force > 0)
+    back = retracing(
+        run.arm, drive.state.q, drive.state.gap, way, slowly=done.force > 0, feeling=meeting is not None
+    )
     reached = -1
 
     def beside(number: int) -> None:
