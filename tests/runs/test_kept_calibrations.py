@@ -44,7 +44,7 @@ ELSEWHERE: dict[str, Any] = {
 @pytest.fixture(scope="module")
 def prepared() -> Preparation:
     runner = Runner(begin("OPEN 1"))
-    return preparation_of(runner.context, runner.cell, 3.3)
+    return preparation_of(runner.context, runner.cell, 162.0, 3.3)
 
 
 @pytest.fixture
