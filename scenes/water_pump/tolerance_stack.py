@@ -121,7 +121,7 @@ def stack(sizes: Sizes, layer: str, worlds: int, seed: int = 1973) -> Stack:
 
 def _drawn(name: str, worlds: int, rng: np.random.Generator) -> Array:
     """Values of a normal quantity in many worlds at once, clipped as its distribution clips them, SI."""
-    quantity = variation(0).quantities[name]
+    quantity = variation().quantities[name]
     sigma = quantity.distribution.spread * quantity.measure.size
     return np.asarray(sigma * np.clip(rng.standard_normal(worlds), -2.0, 2.0))
 
@@ -155,7 +155,7 @@ def _arm(worlds: int, rng: np.random.Generator) -> ArmErrors:
         return np.stack([_drawn(f"arm.{name}.{k}", worlds, rng) for k in range(1, 7)], -1)
 
     wave, step = (
-        np.array([variation(0).quantities[f"arm.{name}.{k}"].distribution.spread for k in range(1, 7)]) * size
+        np.array([variation().quantities[f"arm.{name}.{k}"].distribution.spread for k in range(1, 7)]) * size
         for name in ("wave", "pot_step")
     )
     return replace(

@@ -27,7 +27,7 @@ pytestmark = pytest.mark.slow
 
 HALF_OUT = 30
 """Servo periods that a screw is turned out, or left behind, until something hinders the arm."""
-ONE = f"{MACROS}        DRIVER\n        SCREW   S1 H0 Y1 1\n"
+ONE = f"{MACROS}        DRIVER  .25\n        SCREW   S1 H0 Y1 1\n"
 
 
 @cache

@@ -120,9 +120,10 @@ def test_row_58_the_times_of_the_stages_and_of_the_lens_add_up(whole: Whole) -> 
 
 @pytest.mark.row(58)
 def test_row_58_vision_is_a_tiny_share_and_the_lens_a_large_one(whole: Whole) -> None:
-    timing = whole.result.timing
+    """Of the eleven stages of the paper: its table has no inspection."""
+    timing, eleven = whole.result.timing, sum(stage.arm_s for stage in whole.result.stages[:11])
     assert timing.vision_cpu_s < 0.02 * timing.working_s
-    assert 0.15 < timing.lens_s / timing.working_s < 0.4
+    assert 0.15 < timing.lens_s / (eleven + timing.lens_s) < 0.4
 
 
 def test_the_referee_agrees_with_the_program(whole: Whole) -> None:

@@ -43,7 +43,7 @@ def test_no_lie_is_worse_than_the_worst() -> None:
 
 def test_many_worlds_at_once_are_drawn_as_one_is() -> None:
     rng = np.random.default_rng(0)
-    quantity = variation(0).quantities["holes.top.1.x"]
+    quantity = variation().quantities["holes.top.1.x"]
     one = [quantity.distribution.draw(rng, 0.0) * quantity.measure.size for _ in range(WORLDS)]
     many = STACK._drawn("holes.top.1.x", WORLDS, rng)
     assert many.std() == pytest.approx(np.std(one), rel=0.05)
