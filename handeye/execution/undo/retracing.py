@@ -93,8 +93,8 @@ def retracing(
 ) -> ReturnPath:
     """The path back from where the arm and its fingers are; `slowly`: at the speed of guarded motions at most.
 
-    `feeling`: the fingers go at the speed of centring at most. Faster, they kick a loose object on, and their switches
-    are open at most readings.
+    `feeling`: the fingers close at the speed of centring at most. Faster, they kick a loose object on, and their
+    switches are open at most readings.
     """
     rows = np.column_stack([way.q, way.gap])[::-1]
     here = np.append(q, gap)
@@ -109,7 +109,7 @@ def retracing(
         went = np.linalg.norm(np.diff(forward(arm, path[:, :-1])[:, :3, 3], axis=0), axis=1)
         periods = np.maximum(1.0, went / (GUARDED_SPEED * period))
     if feeling:
-        periods = np.maximum(periods, np.abs(np.diff(path[:, -1])) / (arm.hand.grasp.centring * period))
+        periods = np.maximum(periods, -np.diff(path[:, -1]) / (arm.hand.grasp.centring * period))
     whole, rise = float(periods.sum()), (np.arange(RAMP) + 1) / (RAMP + 1)
     gone = np.cumsum(np.concatenate([rise, np.ones(int(np.ceil(whole))), rise[::-1]]))
     clock = np.append(0.0, gone * (whole / gone[-1]))  # elapsed time, in periods, with smooth start and end
