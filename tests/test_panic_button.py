@@ -53,4 +53,4 @@ def test_told_to_end_while_the_arm_moves_it_asks_for_nothing_more() -> None:
         signal.raise_signal(signal.SIGTERM)
         assert panic()
         with pytest.raises(ToldToEnd), panic.aside():
-            raise AssertionError("somebody was asked")
+            raise AssertionError("a question was asked")

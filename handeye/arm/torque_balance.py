@@ -1,4 +1,4 @@
-"""Torques that bear the arm against its weight, from motion to motion: a drive that gives not what it is told.
+"""Torques that bear the arm against its weight, from motion to motion: a drive that does not give its commanded torque.
 
 On a motion through free air from rest to rest, a joint takes its weight on the mean, and the friction that was
 measured. What is left shows masses, mass centres and drives that are not as modelled. These do not change: each motion
@@ -26,13 +26,13 @@ LOAD: Final = 0.06  # of a declared load: twice the spread of parts, and half ag
 DAMPING: Final = 0.6  # of viscous friction
 COULOMB: Final = 0.02  # of measured friction, beside a quarter of a step of the converter
 BEARS: Final = 4.0  # times its friction: the least weight that a joint must bear to be looked at; chosen
-LIMIT: Final = 5.0  # times what is not known of a joint; sound joints of three worlds came to 1.7
-OFF: Final = 0.4  # of LIMIT: from there on other joints are told of with the worst
+LIMIT: Final = 5.0  # times what is not known of a joint; sound joints of three worlds reached 1.7
+OFF: Final = 0.4  # of LIMIT: from there on other joints are reported beside the worst
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unbalanced:
-    """Joints that are off balance, and how many times the torque it is told the drive of each gives, if that is why."""
+    """Joints that are off balance; `factors`: torque of each drive as a multiple of the commanded one, if that is why."""
 
     joints: tuple[int, ...]
     factors: tuple[float, ...]

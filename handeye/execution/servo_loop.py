@@ -44,7 +44,7 @@ _FRESH = 0.25  # weight of the last servo period in the mean over the last few; 
 _AT_ONCE = 15
 """Servo periods, at most, for which an arm that the brakes hold is left alone: the panic button waits .25 s."""
 LIGHT = 5.0
-"""Heaviest load (N) with which the drag of the joints is told: a heavier one that is lost is felt as much. Chosen."""
+"""Heaviest load (N) with which the drag of the joints is judged: a heavier one that is lost is felt as much. Chosen."""
 PRESS_TIME = 10.0
 """s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
 

@@ -84,7 +84,7 @@ def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
 
 
 def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
-    """Names of the figures that count and belong to no one body; corners of meshes are told by their shapes."""
+    """Names of the figures that count and belong to no one body; corners of meshes are judged by their shapes."""
     for field in dir(drawn):
         kind, _, what = field.partition("_")
         if what and kind in _SHARED and what not in _LOOKS and field != "mesh_vert":

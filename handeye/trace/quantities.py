@@ -61,7 +61,7 @@ def differing(
 
 
 def has_quantities(message: RawMessage) -> bool:
-    """True if the values of a message are told by name."""
+    """True if the values of a message go by name."""
     return message.topic in _TELLERS
 
 

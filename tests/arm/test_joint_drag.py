@@ -1,4 +1,4 @@
-"""What a joint takes beyond its friction is told of it, and what a force at the hand takes is not."""
+"""What a joint takes beyond its friction is reported of it, and what a force at the hand takes is not."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ SLIDES = np.full(6, 0.2)
 
 
 def dragged(out: Array, back: Array) -> Stiffness | None:
-    """What is told of torques on the way out and back, shape (n,)."""
+    """What is concluded from torques on the way out and back, shape (n,)."""
     drag = JointDrag(arm=STANFORD)
     for spare, rate in ((out, SLIDES), (back, -SLIDES)):
         for _ in range(30):

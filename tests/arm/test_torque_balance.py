@@ -24,7 +24,7 @@ OUT = np.array([0.5, -0.3, 0.35, 0.4, 0.2, 0.0])  # over the table, the boom far
 def motion(
     belief: Array | None, gain: Array, share: float, way: Array = OUT
 ) -> tuple[Array, Unbalanced | None]:
-    """A slow motion outwards from where the arm is parked, by drives that give so many times their torque."""
+    """A slow motion outwards from where the arm is parked, by drives that give a multiple of their torque."""
     balance, rate = TorqueBalance(arm=KNOWN, friction=FRICTION), 8 * rate_step(STANFORD)
     for ahead in np.linspace(share - 0.5, share, 12):
         q = PARK + ahead * way

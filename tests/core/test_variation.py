@@ -199,7 +199,7 @@ def test_a_level_that_there_is_none_of_is_refused() -> None:
 
 GUESSED = Variation(
     *TABLE.quantities.values(),
-    Quantity(name="guess", unit="in", distribution=Normal(1.0), source="a test", unsourced="nobody knows"),
+    Quantity(name="guess", unit="in", distribution=Normal(1.0), source="a test", unsourced="unknown"),
 )
 
 

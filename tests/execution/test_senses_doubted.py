@@ -291,7 +291,7 @@ STARTS = [0.05] * 4 + [0.0] * 20
             [2 * each for each in STARTS] + [0.74] * 999,
             "it shows 104.8 oz-in where the motor takes 52.4: 2.0 times",
         ),
-        ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "it turns slower than it is told"),
+        ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "it turns slower than commanded"),
     ],
 )
 def test_a_current_that_is_not_that_of_a_known_torque_is_told(torques: list[float], told: str) -> None:

@@ -96,9 +96,9 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
-        "by the weight that it bears a drive gives more or less torque than it is told: that of the wrist 1.30 times",
+        "by the weight that it bears a drive gives more or less torque than commanded: that of the wrist 1.30 times",
     ),
-    (c.MotorSlow(share=0.4), "the motor had started after 0.4 of its time: it turns slower than it is told"),
+    (c.MotorSlow(share=0.4), "the motor had started after 0.4 of its time: it turns slower than commanded"),
     (
         c.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
         "the gap reads 0.50 in; the fingers were driven to 1.80 in",

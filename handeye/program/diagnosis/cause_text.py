@@ -210,7 +210,7 @@ def doubt_sentence(cause: c.SenseCause) -> str:
         case c.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)
             gives = " and ".join(f"that of the {joint.name} {factor:.2f} times" for joint, factor in named)
-            return f"by the weight that it bears a drive gives more or less torque than it is told: {gives}"
+            return f"by the weight that it bears a drive gives more or less torque than commanded: {gives}"
         case c.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
             times = f": {told / known:.1f} times as much" if known else ""
@@ -221,7 +221,7 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return f"{short}: its reading ends there, or the motor is weak"
         case c.MotorSlow():
             return (
-                f"the motor had started after {cause.share:.1f} of its time: it turns slower than it is told"
+                f"the motor had started after {cause.share:.1f} of its time: it turns slower than commanded"
             )
         case c.GapAstray():
             return f"the gap reads {_inches(cause.gap)}; the fingers were driven to {_inches(cause.goal)}"

@@ -208,7 +208,7 @@ class JointAlone(CauseRecord, frozen=True, kw_only=True):
 
 
 class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The drives of these joints give so many times the torque that they are told, or something bears on the hand."""
+    """The drives of these joints give these multiples of the commanded torque, or something bears on the hand."""
 
     joints: tuple[JointName, ...]
     factors: tuple[float, ...]

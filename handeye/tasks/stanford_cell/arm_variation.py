@@ -83,15 +83,15 @@ def arm() -> Iterator[Quantity]:
         group("arm.wave_phase", phases, "deg", "Where the waviness of the reading begins."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
             "Reading-to-reading noise of the potentiometers, before the converter.",
-            unsourced="far inside a step of the converter, .05 to .08 deg and .009 in, behind which nobody could have "
-            "seen it. Bound: output smoothness of .1 % of the travel (Bourns 6639), four steps."),
+            unsourced="far inside a step of the converter, .05 to .08 deg and .009 in, too fine for the converter to "
+            "show. Bound: output smoothness of .1 % of the travel (Bourns 6639), four steps."),
         group("arm.pot_step", numbered(Step, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
             f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of "
             "1974."),
         group("arm.tachometer_noise", numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5), _RATES,
             "Noise of the tachometers, before the converter.",
             unsourced="no sheet of the arm's tachometers is known. Bound: a step of the converter, 37 to 146 times as "
-            "large, within which nobody could have seen it."),
+            "large, too large for it to show."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
             f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both directions. "
             "Data sheet of 1974; that it reaches just the greatest speed is inferred."),
@@ -124,7 +124,7 @@ def arm() -> Iterator[Quantity]:
 
 
 def _friction() -> Iterator[Quantity]:
-    """Coulomb friction of the joints; that of joint 1, which bears no weight, is told by nothing."""
+    """Coulomb friction of the joints; that of joint 1, which bears no weight, is checked by nothing."""
     means = STANFORD.compliance.friction
     what = "Coulomb friction of the joints, varied by a quarter. Switched off, it is the mean; set to 0, there is none."
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
@@ -149,7 +149,7 @@ def hand() -> Iterator[Quantity]:
             "conductive plastic, 1 to 2 %: sheets of Bourns 3400 to 3590 and 6537 to 6639."),
         group("hand", {"gap_noise": Noise(0.0003)}, "in",
             "Noise of the gap as read, before the converter.",
-            unsourced="a third of a step of the converter, behind which nobody could have seen it. Bound: output "
+            unsourced="a third of a step of the converter, too fine for the converter to show. Bound: output "
             "smoothness of .1 % of the travel (Bourns 6639), four steps."),
         group("hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
             f"One step of the converter of the gap: {SENSE_BITS} bits over the opening. Data sheet of 1974."),

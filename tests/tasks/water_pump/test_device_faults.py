@@ -87,7 +87,7 @@ def test_no_fault_has_more_than_three_names() -> None:
         assert len(names(kind.expected)) <= 3, kind.name
 
 
-def test_something_is_in_the_way_only_where_somebody_pushes_the_hand_or_turns_the_crank_into_it() -> None:
+def test_something_is_in_the_way_only_where_the_hand_is_pushed_or_the_crank_turned_into_it() -> None:
     found = [
         kind.name
         for kind in WATER_PUMP.faults(WorldSpec(seed=0)).kinds.values()

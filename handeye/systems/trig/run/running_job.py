@@ -351,5 +351,5 @@ class RunningJob(RunningSystem):
 def plan_of(setup: Setup) -> TaughtPlan:
     """The plan of a taught job; raises Refused for other systems."""
     if not isinstance(setup.plan, TaughtPlan):
-        raise Refused(f"this is a run of the system {setup.system}, which nobody has taught")
+        raise Refused(f"this is a run of the system {setup.system}, not of a taught job")
     return setup.plan

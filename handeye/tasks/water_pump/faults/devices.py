@@ -121,7 +121,7 @@ def _switches() -> Iterator[DeviceFault]:
         replace(expected, harmless="CENTER alone goes by which finger touches; both may touch at once."),
     )  # fmt: skip
     yield _fault(
-        "finger_switch.hard", "The switches of both fingers take so many times their force.",
+        "finger_switch.hard", "The switches of both fingers take a multiple of their force.",
         ("switch_force.plus_y", "switch_force.minus_y"), GainEffect,
         replace(expected, harmless="Up to five times its force a switch tells of fingers that press with ten ounces; "
                 "CENTER alone goes by a lighter touch."),
@@ -137,7 +137,7 @@ def _hand() -> Iterator[DeviceFault]:
         Size(unit="in", usual=0.5, limits=(-4.0, 4.0)),
     )  # fmt: skip
     yield _fault(
-        f"{gap}.factor", "The gap reads so many times what it is.", gap, GainEffect,
+        f"{gap}.factor", "The gap reads a multiple of its true value.", gap, GainEffect,
         replace(expected, harmless="Parts are felt between fingers: a gap that is wrong by less than a tenth holds "
                 "them as well."),
         Size(unit="", usual=1.15, limits=(0.1, 5.0)),
@@ -179,11 +179,11 @@ def _joints() -> Iterator[DeviceFault]:
             wrong, _DRIFT[unit],
         )  # fmt: skip
         yield _fault(
-            f"{pot}.factor", f"The position {joint} reads so many times what it is.", pot, GainEffect,
+            f"{pot}.factor", f"The position {joint} reads a multiple of its true value.", pot, GainEffect,
             replace(wrong, harmless=_WITHIN_AGREEMENT), _FACTOR,
         )  # fmt: skip
         yield _fault(
-            f"{tachometer}.factor", f"The rate {joint} reads so many times what it is.", tachometer, GainEffect,
+            f"{tachometer}.factor", f"The rate {joint} reads a multiple of its true value.", tachometer, GainEffect,
             replace(wrong, harmless=_WITHIN_AGREEMENT), replace(_FACTOR, usual=1.3),
         )  # fmt: skip
         yield declared(
@@ -195,7 +195,7 @@ def _joints() -> Iterator[DeviceFault]:
             ), _SLIP[unit], stage=8,
         )  # fmt: skip
         yield _fault(
-            f"joint.{number}.stiff", f"The friction {joint} is so many times what it was.", f"friction.{number}",
+            f"joint.{number}.stiff", f"The friction {joint} is a multiple of what it was.", f"friction.{number}",
             GainEffect, ExpectedDetection(errors=(JOINT_STIFF,), at_setup=True, harmless=_WITHIN_DRIVES),
             Size(unit="", usual=5.0, limits=(0.0, 20.0)), stage=3,
         )  # fmt: skip
@@ -206,7 +206,7 @@ def _joints() -> Iterator[DeviceFault]:
             Size(unit="%", usual=50.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
         yield _fault(
-            f"{drive}.factor", f"The drive {joint} gives so many times the torque that it is told.", drive, GainEffect,
+            f"{drive}.factor", f"The drive {joint} gives a multiple of the commanded torque.", drive, GainEffect,
             ExpectedDetection(
                 errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True, harmless=_WITHIN_WEIGHTS,
             ),
@@ -219,7 +219,7 @@ def _joints() -> Iterator[DeviceFault]:
             Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
     yield _fault(
-        "drives.factor", "All drives give so many times the torque that they are told.",
+        "drives.factor", "All drives give a multiple of the commanded torque.",
         [f"drive.{number}" for number in range(1, len(JOINT_UNITS) + 1)], GainEffect,
         ExpectedDetection(errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True, harmless=_WITHIN_WEIGHTS), _GAIN, stage=4,
     )  # fmt: skip
@@ -246,15 +246,15 @@ def _screwdriver() -> Iterator[DeviceFault]:
     )  # fmt: skip
     within = "A factor of 1.1 is within the noise of the current as the screw comes home, and .7 as the motor starts."
     yield _fault(
-        f"{current}.factor", "The current of the screwdriver's motor reads so many times its torque.", current,
+        f"{current}.factor", "The current of the screwdriver's motor reads a multiple of its torque.", current,
         GainEffect,
         ExpectedDetection(errors=(CURRENT_WRONG,), harmless=within), Size(unit="", usual=0.5, limits=(0.0, 10.0)),
     )  # fmt: skip
     yield _fault(
-        f"{motor}.slow", "The screwdriver's motor turns at so many times the speed that it is told.", motor, GainEffect,
+        f"{motor}.slow", "The screwdriver's motor turns at a multiple of the commanded speed.", motor, GainEffect,
         ExpectedDetection(
             errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
-            harmless="A screw that turns slower goes home as well; half the speed is told by a shorter start.",
+            harmless="A screw that turns slower goes home as well; half the speed shows in a shorter start.",
         ),
         Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip

@@ -103,7 +103,7 @@ def _screws() -> Iterator[MishapFault]:
             calls=(detect.untight_screw(number), detect.shifted_head(number)),
             harmless="Each screw is driven again, to the torque stop, before the pump is called finished.",
         )
-        meaning = f"Screw {number} works loose by so many turns, behind the driver."
+        meaning = f"Screw {number} works loose by this number of turns, behind the driver."
         yield declared(
             f"screw.{number}.loose", meaning, _with_turns(number - 1), expected, size, stage=LAST_STAGE
         )
