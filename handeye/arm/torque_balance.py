@@ -32,7 +32,7 @@ OFF: Final = 0.4  # of LIMIT: from there on other joints are reported beside the
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unbalanced:
-    """Joints that are off balance; `factors`: torque of each drive as a multiple of the commanded one, if that is why."""
+    """Joints that are off balance; `factors`: the torque of each drive as a multiple of what was commanded."""
 
     joints: tuple[int, ...]
     factors: tuple[float, ...]

@@ -55,7 +55,7 @@ class ArmMachine:
 
     def scene(self) -> mujoco.MjSpec:
         """The scene with the arm, and nothing for it to work on."""
-        import mujoco  # here, so that names and limits of machines are read without the simulator
+        import mujoco  # here: names and limits of machines are read without a simulator
 
         return mujoco.MjSpec.from_file(str(scenes() / self.scene_file))
 
