@@ -1,0 +1,150 @@
+"""What the five bytes of a command mean, by whom an answer comes, and which number each microcomputer has."""
+
+from collections.abc import Sequence
+from enum import IntEnum
+from typing import Final
+
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadArgument, NoSuchName
+from handeye.ports.microbus import Command
+
+STEP_MM: Final = 0.0375  # travel of one step
+STEPS_PER_TURN: Final = 400
+FORCE_STEP_N: Final = 0.01  # of forces and thresholds on the bus
+STANDARD: Final = 0xFFFF  # a threshold that restores the standard one
+LONGEST_MOVE: Final = 0xFFFF  # steps of one command
+SLOW_STEP_MM: Final = 2  # mm/s, the speed that each unit of a speed code stands for: 2 to 254 mm/s
+
+_NAMES: Final = ("X1", "Y1", "Z1", "FORCE1", "HAND1", "X2", "Y2", "Z2", "FORCE2", "HAND2")
+NUMBERS: Final = {name: number for number, name in enumerate(_NAMES)}
+"""Microcomputers of SUPERSIGMA: one status page an arm."""
+AXES: Final = ("X1", "Y1", "Z1", "X2", "Y2", "Z2")
+COMPONENTS: Final = ("X", "Y", "Z")  # of a wrist, in the order that byte 3 counts
+DEVICES: Final = {
+    "HAND": 0,
+    "DRIVER": 1,
+    "LAMP": 2,
+    "BELL": 3,
+}  # of a hand microcomputer, as byte 3 names them
+
+
+class Op(IntEnum):
+    """Operations, byte 2 of a command."""
+
+    MOVE = 0x01  # steps, profile by length
+    MOVE_SLOW = 0x02  # steps at constant speed
+    LIMIT_SPEED = 0x03
+    ORIGIN = 0x04
+    POSITION = 0x05  # asks
+    ABORT_POSITION = 0x06  # asks
+    SET_POSITION = 0x07
+    FORCE = 0x21  # asks
+    THRESHOLD = 0x22
+    ACTUATE = 0x31
+    BEAM = 0x32  # asks
+    SELF_TEST = 0x7F  # asks
+
+
+ANSWERS: Final[dict[Op, int]] = {
+    Op.POSITION: 2,
+    Op.ABORT_POSITION: 2,
+    Op.FORCE: 2,
+    Op.BEAM: 1,
+    Op.SELF_TEST: 1,
+}
+"""Bytes of each answer."""
+
+
+def number_of(name: str | int) -> int:
+    """The number of a microcomputer; raises NoSuchName."""
+    if isinstance(name, int):
+        if not 0 <= name <= 0xFF:
+            raise BadArgument(f"microcomputers have numbers from 0 to 255, not {name}")
+        return name
+    if name.upper() not in NUMBERS:
+        raise NoSuchName(f"no microcomputer is called {quoted(name)}; there are {', '.join(NUMBERS)}")
+    return NUMBERS[name.upper()]
+
+
+def name_of(number: int) -> str:
+    """The name of a microcomputer; its number, where it has none."""
+    return {number: name for name, number in NUMBERS.items()}.get(number, str(number))
+
+
+def move(axis: str | int, steps: int, curve: int = 0) -> Command:
+    """Move by signed steps along the profile that fits their number."""
+    return Command(
+        number=number_of(axis),
+        op=Op.MOVE,
+        detail=(steps < 0) | within(curve, 0, 7, "a curve") << 1,
+        value=within(abs(steps), 1, LONGEST_MOVE, "a move in steps"),
+    )
+
+
+def move_slow(axis: str | int, steps: int, speed: float) -> Command:
+    """Move by signed steps at a constant speed, mm/s, rounded to an even number from 2 to 254."""
+    code = within(max(1, round(speed / SLOW_STEP_MM)), 1, 127, "the code of a speed")
+    value = within(abs(steps), 1, LONGEST_MOVE, "a move in steps")
+    return Command(number=number_of(axis), op=Op.MOVE_SLOW, detail=(steps < 0) | code << 1, value=value)
+
+
+def limit_speed(axis: str | int, speed: int) -> Command:
+    """Never move faster than a speed, steps/s; 0: as fast as the curve says."""
+    return Command(
+        number=number_of(axis), op=Op.LIMIT_SPEED, value=within(speed, 0, 0xFFFF, "a limit in steps/s")
+    )
+
+
+def origin(axis: str | int) -> Command:
+    """Search the end of the rail, and count from there."""
+    return Command(number=number_of(axis), op=Op.ORIGIN)
+
+
+def position(axis: str | int, *, at_abort: bool = False) -> Command:
+    """Ask for the count, now or when the last command was aborted."""
+    return Command(number=number_of(axis), op=Op.ABORT_POSITION if at_abort else Op.POSITION)
+
+
+def set_position(axis: str | int, count: int) -> Command:
+    """Set the count."""
+    return Command(number=number_of(axis), op=Op.SET_POSITION, value=count & 0xFFFF)
+
+
+def force(arm: int, component: str) -> Command:
+    """Ask for a component of the force on a wrist."""
+    return Command(number=number_of(f"FORCE{arm}"), op=Op.FORCE, detail=COMPONENTS.index(component))
+
+
+def threshold(arm: int, component: str, newtons: float | None) -> Command:
+    """Set the force above which a motor is stopped; None: the standard one."""
+    value = STANDARD if newtons is None else within(round(newtons / FORCE_STEP_N), 0, STANDARD - 1, "a limit")
+    return Command(
+        number=number_of(f"FORCE{arm}"), op=Op.THRESHOLD, detail=COMPONENTS.index(component), value=value
+    )
+
+
+def actuate(arm: int, device: str, value: int) -> Command:
+    """Set a device of a hand microcomputer."""
+    return Command(number=number_of(f"HAND{arm}"), op=Op.ACTUATE, detail=DEVICES[device], value=value)
+
+
+def beam(arm: int) -> Command:
+    """Ask whether the light beam between the fingers is cut."""
+    return Command(number=number_of(f"HAND{arm}"), op=Op.BEAM)
+
+
+def self_test(name: str | int) -> Command:
+    """Ask a microcomputer to test itself: 0 is well."""
+    return Command(number=number_of(name), op=Op.SELF_TEST)
+
+
+def signed(answer: Sequence[int]) -> int:
+    """The number in two bytes of an answer, high byte first."""
+    return int.from_bytes(bytes(answer), "big", signed=True)
+
+
+def within(value: int, least: int, most: int, what: str) -> int:
+    """A number that fits its field; raises BadArgument."""
+    if not least <= value <= most:
+        raise BadArgument(f"{what} is from {least} to {most}, not {value}")
+    return value
