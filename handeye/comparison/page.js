@@ -37,7 +37,7 @@
     sides.forEach((name, side) => {
       const at = moment(leg, side, now);
       byId(`clock-${name}`).textContent = told(at);
-      byId(`line-${name}`).textContent = legs[leg][3 + side] || "it waits";
+      byId(`line-${name}`).textContent = legs[leg][3 + side] || "waits";
       players[side]?.at(at);
     });
     slider.setAttribute("aria-valuetext", sides.map((name) => byId(`clock-${name}`).textContent).join(", "));
@@ -140,6 +140,6 @@
     show(time);
     byId("run").scrollIntoView();
   });
-  show(addressed() ?? 0);
+  show(addressed() ?? Number(slider.getAttribute("value")));
   draw();
 })();

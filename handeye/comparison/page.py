@@ -8,13 +8,14 @@ from handeye.comparison.comparison import Comparison
 from handeye.comparison.findings import Correction, Search, Stop
 from handeye.comparison.pairing import Course, Place, TwoRuns, course
 from handeye.comparison.text import (
+    COURSE,
     THINNED,
     correction_words,
     first_words,
+    heading_words,
     moment_words,
     place_words,
     run_words,
-    same_words,
     search_words,
     stop_words,
     turning_words,
@@ -52,8 +53,12 @@ def comparison_page(a: RecordedRun, b: RecordedRun, found: Comparison, animated:
     scripts = [*([player.script()] if views else []), _own("page.js")]
     body = element(
         "body",
-        _header(found),
-        element("main", section("run", "Side by side", *view(way, lacking)), *sections(found, way)),
+        _header(found, way),
+        element(
+            "main",
+            section("run", "Side by side", *view(way, lacking, _opening(found, way))),
+            *sections(found, way),
+        ),
         moments(way),
         *(
             packed(f"{name}-{side}", data)
@@ -67,21 +72,39 @@ def comparison_page(a: RecordedRun, b: RecordedRun, found: Comparison, animated:
     return (_MARK + element("html", head(name, style, scripts), body, lang="en") + "\n").encode()
 
 
-def _header(found: Comparison) -> Markup:
+def _header(found: Comparison, way: Course) -> Markup:
     runs = (
         element("p", element("b", letter), " ", run_words(run), class_="name")
         for (letter, _), run in zip(SIDES, (found.a, found.b), strict=True)
     )
     thinned = [element("p", THINNED, class_="name")] if found.thinned else []
-    return element("header", element("div", element("h1", _title(found)), *runs, *thinned), class_="compared")
+    return element(
+        "header",
+        element("div", element("h1", heading_words(found)), *_turn(found, way), *runs, *thinned),
+        class_="compared",
+    )
 
 
-def _title(found: Comparison) -> str:
-    if found.same:
-        return same_words(found).capitalize()
+def _turn(found: Comparison, way: Course) -> Iterator[Markup]:
+    """The divergence: a link to its step, and what each run did next."""
     if found.parted is None:
-        return "Both went the same way."
-    return f"Their ways part: {place_words(found.parted.place)}."
+        return
+    turnings = found.parted.a, found.parted.b
+    here, there = (None if turning is None else turning.place for turning in turnings)
+    yield element("p", "They diverge at ", _link(way, here, there, place_words(found.parted.place)), ".")
+    for letter, turning in zip(_BOTH, turnings, strict=True):
+        yield element("p", element("b", letter), " ", turning_words(turning))
+
+
+def _opening(found: Comparison, way: Course) -> float:
+    """The moment at which the page opens, s of the course: just after the divergence; 0 if there is none."""
+    if found.parted is None:
+        return 0.0
+    turnings = found.parted.a, found.parted.b
+    here = [way.at(turning.place, side) for side, turning in enumerate(turnings) if turning and turning.place]
+    begins = [*(leg.begin for leg in way.legs), way.end]
+    after = next((n for n, begin in enumerate(begins) if begin > max(here, default=0.0)), len(begins) - 1)
+    return (begins[after] + begins[min(after + 1, len(begins) - 1)]) / 2
 
 
 def _own(name: str) -> str:
@@ -94,17 +117,18 @@ _SPEEDS: Final = (1, 4, 16, 64)
 _USUAL: Final = 4
 
 
-def view(way: Course, lacking: str) -> Iterator[Markup]:
+def view(way: Course, lacking: str, opening: float = 0.0) -> Iterator[Markup]:
     """Both views, and the controls of both; or a note on what is `lacking`."""
     if lacking:
-        yield element("p", f"There is nothing to walk round in: {lacking}", class_="missing")
+        yield element("p", f"There is no 3D view: {lacking}", class_="missing")
     yield element("div", *(_side(letter, name) for letter, name in SIDES), class_="sides")
     yield element("p", id="instead", class_="missing", hidden=True)
     play = element(
         "button", "Play", id="play", type="button", aria_keyshortcuts="Space", title="play, pause: space"
     )
     slider = element(
-        "input", id="time", type="range", min="0", max=f"{way.end:.2f}", step="0.01", value="0",
+        "input", id="time", type="range", min="0", max=f"{way.end:.2f}", step="0.01",
+        value=f"{opening:.2f}",
         aria_label="time of both runs", aria_keyshortcuts="ArrowLeft ArrowRight",
     )  # fmt: skip
     options = (element("option", f"{speed} ×", value=speed, selected=speed == _USUAL) for speed in _SPEEDS)
@@ -112,12 +136,13 @@ def view(way: Course, lacking: str) -> Iterator[Markup]:
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     yield element("div", play, slider, speed, views, id="controls", class_="controls", hidden=True)
     yield note(
-        "Step stands beside step: where a run took longer over one, or did one that the other did not, the other waits."
+        "The runs are aligned step by step. Where one took longer over a step, or did a step that the other did not, "
+        "the other waits."
     )
 
 
 def _side(letter: str, name: str) -> Markup:
-    told = f"the cell of run {letter} at this moment; arrows walk round it, plus and minus come nearer and go farther"
+    told = f"the cell of run {letter} at this moment; arrows turn the view, plus and minus zoom"
     canvas = element("canvas", id=f"view-{name}", hidden=True, tabindex="0", role="img", aria_label=told)
     clock = element("output", id=f"clock-{name}", for_="time")
     line = element("span", id=f"line-{name}")
@@ -144,8 +169,8 @@ Found = TypeVar("Found", Search, Stop, Correction)
 
 
 def sections(found: Comparison, way: Course) -> Iterator[Markup]:
-    """All sections; whatever happened at a step is a link to it."""
-    yield section("otherwise", "What went otherwise", *_otherwise(found, way))
+    """All sections; each finding links to its step."""
+    yield section("differences", "First difference", *_differences(found, way))
     searches = [_row(way, each.a, each.b, search_words, alike=each.alike) for each in found.searches]
     stops = [_row(way, each.a, each.b, stop_words, alike=each.alike) for each in found.stops]
     corrections = [
@@ -165,26 +190,18 @@ def sections(found: Comparison, way: Course) -> Iterator[Markup]:
     yield section("seconds", "Seconds by stage", _seconds(found))
 
 
-def _otherwise(found: Comparison, way: Course) -> Iterator[Markup]:
-    """Conditions that differ, the first difference, and where the courses part."""
+def _differences(found: Comparison, way: Course) -> Iterator[Markup]:
+    """Conditions that differ, and the first difference."""
+    if found.first is None:
+        yield element("p", "There is none.")
+    else:
+        yield element("p", _link(way, found.first.a, found.first.b, moment_words(found.first)))
+        yield from (element("p", line) for line in first_words(found.first, found.measures))
+    if found.first is not None and found.parted is None:
+        yield element("p", COURSE)
     rows = [[element("th", each.what, scope="row"), cell(each.a), cell(each.b)] for each in found.conditions]
     if rows:
-        yield table(heads("depends on", *_BOTH), rows, label="what the runs depended on")
-    if found.first is None:
-        yield element("p", "Nothing was recorded otherwise.")
-        return
-    yield element("h3", "RecordedRun otherwise first")
-    yield element("p", _link(way, found.first.a, found.first.b, moment_words(found.first)))
-    yield from (element("p", line) for line in first_words(found.first, found.measures))
-    if found.parted is None:
-        yield element("p", "Both went the same way: the same steps, stops, errors and answers.")
-        return
-    turnings = found.parted.a, found.parted.b
-    here, there = (None if turning is None else turning.place for turning in turnings)
-    yield element("h3", "Their ways part")
-    yield element("p", _link(way, here, there, place_words(found.parted.place)))
-    for letter, turning in zip(_BOTH, turnings, strict=True):
-        yield element("p", element("b", letter), " ", turning_words(turning))
+        yield table(heads("conditions that differ", *_BOTH), rows, label="conditions that differ")
 
 
 def _row(

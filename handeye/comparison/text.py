@@ -18,15 +18,16 @@ from handeye.trace.quantities import quantity_text, values_text
 from handeye.trace.sentences import inches, sentence
 
 _CAME_TO: Final[dict[Kind, str]] = {
-    "right": "it ended, and the work is right",
-    "wrong": "it ended, and the work is not right",
-    "ended": "it came to its end",
-    "stopped": "it stopped and called the operator",
-    "panic": "the panic button was hit",
-    "paused": "it stands before its end",
-    "broken off": "its trace was cut short",
+    "right": "finished with the work right",
+    "wrong": "finished with the work wrong",
+    "ended": "finished",
+    "stopped": "stopped and called the operator",
+    "panic": "was stopped by the panic button",
+    "paused": "has not finished",
+    "broken off": "was not recorded to its end",
 }
-THINNED: Final = "A trace is thinned: what happened is compared, not what was sensed in between."
+THINNED: Final = "One trace is thinned: events are compared, but not the sensor readings between them."
+COURSE: Final = "Both runs took the same course: the same steps, stops, errors and answers."
 _UNITS: Final[Mapping[GuardKind, str]] = {
     GuardKind.FORCE: "oz",
     GuardKind.AGAINST: "oz",
@@ -36,8 +37,24 @@ _UNITS: Final[Mapping[GuardKind, str]] = {
 
 
 def same_words(found: Comparison) -> str:
-    """A sentence that two runs did the same, and how exactly."""
-    return "both did the same." if found.thinned else "both did the same, to the last bit."
+    """A sentence that two runs are the same, and how exactly."""
+    return (
+        "Both runs recorded the same events."
+        if found.thinned
+        else "Both runs are identical, to the last bit."
+    )
+
+
+def heading_words(found: Comparison) -> str:
+    """The result of a comparison in one sentence."""
+    if found.same:
+        return same_words(found)
+    if found.parted is None:
+        return "Both runs took the same course."
+    if found.a.came_to != found.b.came_to:
+        return f"A {_CAME_TO[found.a.came_to]}; B {_CAME_TO[found.b.came_to]}."
+    place = found.parted.place
+    return f"A and B diverge {'before the first step' if place is None else f'in the stage “{place.stage}”'}."
 
 
 def run_words(run: ComparedRun) -> str:
@@ -66,9 +83,9 @@ def _next(event: AnyEvent | None) -> str:
 def turning_words(turning: DecidingEvent | None) -> str:
     """A run's next deciding event, in words."""
     if turning is None:
-        return "it has ended"
+        return "has finished"
     if isinstance(turning.event, StepStarted):
-        return f"it goes on at line {turning.event.place}: {one_line(turning.event.text)}"
+        return f"continues at line {turning.event.place}: {one_line(turning.event.text)}"
     return sentence(turning.event)
 
 
@@ -87,10 +104,10 @@ def search_words(search: Search) -> str:
 def stop_words(stop: Stop) -> str:
     """The end of a guarded motion, in words."""
     if stop.guard is None or stop.value is None:
-        return "was not stopped"
+        return "not stopped"
     unit = _UNITS.get(stop.guard)
     told = "" if unit is None else f" at {stop.value / UNITS[unit].size:.1f} {unit}"
-    return f"was stopped by {stop.guard.value}{told}"
+    return f"stopped by {stop.guard.value}{told}"
 
 
 def correction_words(found: Correction) -> str:
@@ -107,12 +124,12 @@ def comparison_text(found: Comparison) -> list[str]:
     runs = [f"{letter}  {run_words(run)}" for letter, run in zip(_BOTH, (found.a, found.b), strict=True)]
     lines = [*runs, *_conditions(found.conditions), *([THINNED] if found.thinned else [])]
     if found.first is None:
-        return [*lines, "", f"Nothing was recorded otherwise: {same_words(found)}"]
+        return [*lines, "", same_words(found)]
     sections = (
         _first(found.first, found.measures),
         _parted(found.parted),
-        _unlike("Searches", "with as many places", found.searches, search_words),
-        _unlike("Guarded motions", "ended alike", found.stops, stop_words),
+        _unlike("Searches", "tried the same number of places", found.searches, search_words),
+        _unlike("Guarded motions", "ended in the same way", found.stops, stop_words),
         _corrected(found.corrections),
         _took(found),
     )
@@ -123,24 +140,24 @@ def _conditions(differing: Sequence[Condition]) -> Iterator[str]:
     """Conditions that differ; the runs are compared as far as they go."""
     for each in differing:
         if each.what == "plan":
-            yield "They are of different plans, compared as far as these go; `handeye diff` compares plans."
+            yield "The plans differ: the runs are compared where they do the same steps. `handeye diff` compares plans."
         else:
             yield f"{each.what}: {each.a} in A, {each.b} in B"
 
 
-# -- what went otherwise ---------------------------------------------------------------------------------------
+# -- the first difference --------------------------------------------------------------------------------------
 
 
 def _first(first: First, measures: Measures) -> Iterator[str]:
-    yield f"Recorded otherwise first: {moment_words(first)}"
+    yield f"First difference: {moment_words(first)}"
     yield from (f"  {line}" for line in first_words(first, measures))
 
 
 def _parted(parted: Divergence | None) -> Iterator[str]:
     if parted is None:
-        yield "Both went the same way: the same steps, stops, errors and answers."
+        yield COURSE
         return
-    yield f"Their ways part: {place_words(parted.place)}"
+    yield f"The runs diverge: {place_words(parted.place)}"
     yield f"  A: {turning_words(parted.a)}"
     yield f"  B: {turning_words(parted.b)}"
 

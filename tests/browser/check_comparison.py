@@ -111,7 +111,7 @@ def test_a_step_that_one_run_did_alone_finds_the_other_waiting(way: Course, page
     alone = next(leg for leg in way.legs if leg.places[1] is None and leg.places[0] is not None)
     sought(page, alone.begin + 0.1)
     lines = page.evaluate("['line-a', 'line-b'].map(name => document.getElementById(name).textContent)")
-    assert lines == ["take the pin, line 6: CENTER .1", "it waits"]
+    assert lines == ["take the pin, line 6: CENTER .1", "waits"]
 
 
 def test_a_link_leads_to_its_step(way: Course, page: Page) -> None:

@@ -52,7 +52,7 @@ def test_a_run_is_the_same_as_itself(command: Command, tmp_path: Path) -> None:
     assert (told["same"], told["first"], told["parted"], told["conditions"]) == (True, None, None, [])
     assert [stage["name"] for stage in told["stages"]] == ["open", "close", "again"]
     said = command("compare", "a.mcap", "a.mcap")[1]
-    assert said.endswith("\n\nNothing was recorded otherwise: both did the same, to the last bit.\n")
+    assert said.endswith("\n\nBoth runs are identical, to the last bit.\n")
 
 
 def test_programs_are_told_step_line_quantity_and_both_values(command: Command, tmp_path: Path) -> None:
@@ -177,12 +177,12 @@ def missed(tmp_path_factory: pytest.TempPathFactory) -> Comparison:
 
 
 @pytest.mark.slow
-def test_people_are_told_what_differed_first_and_where_the_ways_part(missed: Comparison) -> None:
+def test_the_text_names_the_first_difference_and_the_divergence(missed: Comparison) -> None:
     text = "\n".join(comparison_text(missed))
-    assert "block.x: as drawn in A, 0.05m in B\n\nRecorded otherwise first: reach, line 3: OPEN 2.4\n" in text
+    assert "block.x: as drawn in A, 0.05m in B\n\nFirst difference: reach, line 3: OPEN 2.4\n" in text
     assert (
-        "\nTheir ways part: grasp, line 10: CLOSE .8\n"
-        "  A: it goes on at line 11: CHANGE [0 0 1] .2\n"
+        "\nThe runs diverge: grasp, line 10: CLOSE .8\n"
+        "  A: continues at line 11: CHANGE [0 0 1] .2\n"
         "  B: error 2: the fingers closed beyond the minimum gap: "
     ) in text
 

@@ -3,14 +3,17 @@
 import json
 from pathlib import Path
 
+import msgspec
 import pytest
 from conftest import Command
 from recordings import record
-from report_pages import Node, barriers, recorded, renamed, tree
+from report_pages import Node, barriers, changed, recorded, renamed, tree
 
 from handeye.comparison.comparison import comparison
 from handeye.comparison.page import comparison_page
 from handeye.core.errors import InvalidInput
+from handeye.program.events import AnyEvent, GuardTripped
+from handeye.program.guards import GuardKind
 from handeye.report import animation
 from handeye.report.animation import Animation
 from handeye.report.recorded import RecordedRun
@@ -35,7 +38,26 @@ def heading(page: Node) -> str:
 
 
 def test_the_heading_says_what_came_of_it(run: RecordedRun) -> None:
-    assert heading(tree(page_of(run, run))) == "Both did the same, to the last bit."
+    assert heading(tree(page_of(run, run))) == "Both runs are identical, to the last bit."
+
+
+def test_the_page_of_diverging_runs_says_so_in_its_head_and_opens_just_after(run: RecordedRun) -> None:
+    def stopped(event: AnyEvent) -> AnyEvent:
+        return (
+            msgspec.structs.replace(event, guard=GuardKind.MOMENT)
+            if isinstance(event, GuardTripped)
+            else event
+        )
+
+    page = tree(page_of(run, changed(run, stopped)))
+    assert heading(page) == "A and B diverge in the stage “open”."
+    (head,) = page.all("header")
+    ((step, words),) = [(node.attributes["href"], node.text) for node in head.all("a")]
+    legs = json.loads(page.one("moments").text)
+    at = next(n for n, leg in enumerate(legs) if leg[3] == words)
+    assert step == f"#t={legs[at][0]:.2f}"
+    assert legs[at + 1][0] < float(page.one("time").attributes["value"]) < legs[at + 2][0]
+    assert page_of(run, run).count('value="0.00"') == 1
 
 
 def test_nothing_keeps_people_who_do_not_see_or_point_from_it(run: RecordedRun) -> None:
@@ -86,7 +108,7 @@ def test_both_commands_write_the_page(command: Command, word: str) -> None:
     code, _, err = command(word, "a.mcap", "b.mcap", "-o", "page.html")
     assert (code, err) == (0, "its page: page.html\n" if word == "compare" else "")
     page = tree(Path("page.html").read_text(encoding="utf-8"))
-    assert heading(page) == "Both did the same, to the last bit."
+    assert heading(page) == "Both runs are identical, to the last bit."
     assert not [node for node in page.all("p") if node.attributes.get("class") == "missing" and node.text]
 
 
@@ -119,8 +141,8 @@ def test_without_a_scene_the_page_says_so_and_has_all_else(
     monkeypatch.setattr("handeye.report.recorded.check_scene", lacking)
     assert command("compare", "a.mcap", "b.mcap", "-o", "page.html")[0] == 0
     page = tree(Path("page.html").read_text(encoding="utf-8"))
-    said = "There is nothing to walk round in: a.mcap is of another scene: here there is no `base`."
+    said = "There is no 3D view: a.mcap is of another scene: here there is no `base`."
     assert said in [node.text for node in page.all("p")]
     assert [node.attributes["id"] for node in page.all("section") if "aria-labelledby" in node.attributes][
         :2
-    ] == ["run", "otherwise"]
+    ] == ["run", "differences"]

@@ -86,7 +86,7 @@ def test_steps_of_a_changed_script_stand_beside_those_they_come_from() -> None:
     assert (found.b.place.line, found.b.place.step) == (found.a.place.line + 1, found.a.place.step + 1)
 
 
-# -- where ways part -------------------------------------------------------------------------------------------
+# -- divergence -----------------------------------------------------------------------------------------------
 
 
 def test_ways_part_where_one_run_is_stopped_and_the_other_is_not() -> None:
