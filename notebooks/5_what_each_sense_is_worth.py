@@ -122,7 +122,7 @@ print("\n".join(tried))
 # $ handeye trials compare whole without-touch
 # ```
 #
-# An evening's work for two processors. [What came of it](../docs/trials.md#what-each-sense-is-worth) is drawn here: pumps
+# An evening's work for two processors. [What came of it](../docs/trials.md#what-they-are-worth) is drawn here: pumps
 # assembled of 60 worlds, and of 20 in which errors are twice as large, for the senses that are not missed before.
 
 # %%
