@@ -22,6 +22,7 @@ settings.load_profile("handeye")
 os.environ["HANDEYE_CACHE"] = (
     ""  # calibrations of the user's runs are not for tests, nor those of tests for the user
 )
+os.environ["HANDEYE_RUNS"] = ""  # no test leaves a run that it has not named
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # hundreds of processes would each compile the package anew
 
 Command = Callable[..., tuple[int, str, str]]

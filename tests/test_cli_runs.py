@@ -359,7 +359,9 @@ def test_a_run_kept_in_a_folder_says_where_and_how_to_go_on(command: Command, pl
     assert command("run", plan, "--out", "my run", "--until", "2")[2].splitlines()[-1] == (
         "resume with: handeye resume 'my run'"
     )
-    assert command("resume", "my run", "--no-judge")[2].splitlines()[-1] == "saved in my run"
+    said = command("resume", "my run", "--no-judge")[2].splitlines()[-3:]
+    assert said[0].startswith("kept in my run (")
+    assert said[1:] == ["see it:     handeye report 'my run'", "all tables: handeye show 'my run'"]
 
 
 def test_back_in_a_run_that_begins_at_a_stage_uses_the_checkpoints_of_the_folder(

@@ -1,5 +1,6 @@
 """Parts that the commands share: consoles, options, scripts and their diagnostics."""
 
+import os
 import re
 import sys
 from collections.abc import Iterable, Sequence
@@ -91,6 +92,20 @@ Out = Annotated[
     Path | None,
     Parameter(help="Folder for plan, events, trace, checkpoints, pictures and result."),
 ]
+
+
+Details = Annotated[
+    bool, Parameter(help="End with all tables: stages, times, and each finding of the referee.")
+]
+NoKeep = Annotated[
+    bool,
+    Parameter(
+        name="--no-keep",
+        help="Keep no record of the run. By default it goes into a new folder in `runs`, where the newest ten stay.",
+    ),
+]
+CALLED: Final = os.environ.get("HANDEYE_CALLED", "handeye")
+"""How handeye was called, for sentences that say what to type next; run.py sets it."""
 
 
 class _Screen(Console):

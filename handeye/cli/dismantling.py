@@ -5,9 +5,10 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, Out, TaskWords, note
+from handeye.cli.common import Details, Json, Out, TaskWords, note
 from handeye.cli.programs import check_task, made_known
 from handeye.cli.runs import Overwrite
+from handeye.cli.trace_files import RunOrCheckpoint, run_or_newest
 from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.core.plain_text import counted
 
@@ -18,7 +19,7 @@ COUNT: Final = 20
 
 
 def dismantle(
-    path: Path,
+    run: RunOrCheckpoint = None,
     /,
     *,
     task: TaskWords = None,
@@ -26,6 +27,7 @@ def dismantle(
         str | None, Parameter(help="Go back to the beginning of this stage, and no farther.")
     ] = None,
     json: Json = False,
+    details: Details = False,
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
@@ -37,11 +39,6 @@ def dismantle(
 
     Exit code 0: everything is back where the run found it, or undone as far as was asked for; 1: a guard
     stopped it; 3: it is undone, and the referee disagrees; 2: bad input; 130: interrupted.
-
-    Parameters
-    ----------
-    path
-        The folder of a run, or a checkpoint of it.
     """
     from handeye.cli.job import Job, work
     from handeye.debugger.breakpoints import stage_number
@@ -49,15 +46,26 @@ def dismantle(
     from handeye.runs.systems import listing_of
     from handeye.runs.undo_orders import to_be_undone
 
-    run = path.parent.parent if path.parent.name == CHECKPOINTS else path
-    if out is not None and run.is_dir() and run.resolve() in (out.resolve(), *out.resolve().parents):
+    path = run_or_newest(run)
+    whole = path.parent.parent if path.parent.name == CHECKPOINTS else path
+    if out is not None and whole.is_dir() and whole.resolve() in (out.resolve(), *out.resolve().parents):
         raise CannotWrite(f"--out {out}: {path} stays as it is; keep its dismantling in another folder")
     wanted = made_known(task)
     kept = _newest(path)
     check_task(wanted, kept.setup.task, path)
     stage = None if to is None else stage_number(to, listing_of(kept.setup))
     start = to_be_undone(kept, str(path), stage)
-    return work(Job(start=start, out=out, overwrite=overwrite, json=json, referee=True, on_stop="abort"))
+    return work(
+        Job(
+            start=start,
+            out=out,
+            overwrite=overwrite,
+            json=json,
+            details=details,
+            referee=True,
+            on_stop="abort",
+        )
+    )
 
 
 def _newest(path: Path) -> "Checkpoint":

@@ -8,7 +8,7 @@ from cyclopts import Parameter
 from handeye.cli.common import Json, answer, note, say
 from handeye.cli.programs import check_task, made_known
 from handeye.cli.reports import read_recorded
-from handeye.cli.trace_files import TraceFile, trace_file
+from handeye.cli.trace_files import RunOrTrace, run_or_newest, trace_file
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, CannotWrite
@@ -22,13 +22,17 @@ if TYPE_CHECKING:
     from handeye.trace.tables import Format
     from handeye.trace.trace import Trace
 
-Run = Annotated[
-    Path, Parameter(help="The folder of a run, or a checkpoint; without one, a world as it is drawn.")
+State = Annotated[
+    Path | None,
+    Parameter(
+        name="RUN",
+        help="The folder of a run, or a checkpoint; by default a world as it is drawn from --seed.",
+    ),
 ]
 
 
 def mjcf(
-    run: Run | None = None,
+    run: State = None,
     /,
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write.")],
@@ -46,7 +50,7 @@ def mjcf(
 
 
 def glb(
-    run: Run | None = None,
+    run: State = None,
     /,
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The file, .glb.")],
@@ -93,7 +97,7 @@ Overwrite = Annotated[bool, Parameter(help="Replace the tables that are in the f
 
 
 def plot(
-    run: TraceFile,
+    run: RunOrTrace = None,
     /,
     *,
     output: Annotated[
@@ -116,26 +120,26 @@ def plot(
             f"a plot is a file whose name ends in {', '.join(KINDS)}; {quoted(output.name)} does not"
         )
     check_place(output, kind)
-    recorded = read_recorded(run)
+    recorded = read_recorded(run_or_newest(run))
     write_over(output, drawn(plot_of(recorded.trace, stage), output.suffix.lower()), kind)
     say(str(output))
     return _cut(recorded)
 
 
-def csv(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) -> int:
+def csv(run: RunOrTrace = None, /, *, output: Folder, overwrite: Overwrite = False) -> int:
     """Write tables of a run as CSV, with a README that tells their columns.
 
     Exit code 0: they are written; 1: so they are, of a trace that was cut short; 2: bad input.
     """
-    return _exported(run, output, "csv", overwrite=overwrite)
+    return _exported(run_or_newest(run), output, "csv", overwrite=overwrite)
 
 
-def parquet(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) -> int:
+def parquet(run: RunOrTrace = None, /, *, output: Folder, overwrite: Overwrite = False) -> int:
     """Write tables of a run as Parquet, with a README that tells their columns; it needs the extra `export`, pyarrow.
 
     Exit code 0: they are written; 1: so they are, of a trace that was cut short; 2: bad input.
     """
-    return _exported(run, output, "parquet", overwrite=overwrite)
+    return _exported(run_or_newest(run), output, "parquet", overwrite=overwrite)
 
 
 def _exported(run: Path, output: Path, kind: "Format", *, overwrite: bool) -> int:
@@ -163,7 +167,7 @@ def _cut(recorded: "RecordedRun") -> int:
 
 
 def thin(
-    file: TraceFile,
+    run: RunOrTrace = None,
     /,
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The thinned trace, .mcap.")],
@@ -177,7 +181,7 @@ def thin(
     from handeye.trace.reading import TRACE, read_trace
     from handeye.trace.thinning import write_thinned
 
-    whole = trace_file(file)
+    whole = trace_file(run_or_newest(run))
     trace = read_trace(whole)
     check_place(output, TRACE)
     if output.exists() and output.samefile(whole):

@@ -3,30 +3,33 @@
 import shlex
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal
 
-from handeye.cli.common import note, notes, put, put_line, say, screen
+from handeye.cli.common import CALLED, note, notes, put, put_line, say, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import PipedLines, typed_already, typed_lines
 from handeye.cli.reports import write_report
+from handeye.core.entries import entry_named
 from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
+from handeye.core.plain_text import size
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.command_table import commands_of
 from handeye.debugger.formatting import MAX_STEPS_SHOWN
 from handeye.debugger.live import Live
 from handeye.debugger.stepper import Stepper, interact
-from handeye.execution.servo import Halted
+from handeye.execution.servo import Halted, ServoPeriod
 from handeye.judge.finding import all_right
+from handeye.program.events import AnyEvent
 from handeye.results.cautions import cautions, losses
-from handeye.results.finishing import finished
+from handeye.results.finishing import finished, keep_outcome
 from handeye.results.judging import findings
-from handeye.results.page import page
+from handeye.results.page import page, short_page
 from handeye.results.progress import Progress
 from handeye.results.result import to_json
 from handeye.runs.advance import AnyStop, Pause
@@ -39,6 +42,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import listing_of
+from handeye.runs.unnamed_runs import UnnamedRun, bytes_of, held, runs_folder
 from handeye.tasks import option
 
 if TYPE_CHECKING:
@@ -58,6 +62,7 @@ class Job:
     start: Checkpoint
     folder: RunFolder | None = None  # Folder of a run that is resumed
     out: Path | None = None
+    keep: bool = False  # In the folder of runs, where no other folder is named
     overwrite: bool = False
     calibrate: bool = False
     checkpoints: Path | None = None  # Another folder for checkpoints at the beginning of stages
@@ -69,6 +74,7 @@ class Job:
     server: "Server | None" = None  # Serves the page in which it is stepped, instead of the terminal
     on_stop: str | None = None
     json: bool = False
+    details: bool = False
     report: bool = False
     referee: bool = False
     then: Sequence[Then] = ()
@@ -92,6 +98,29 @@ class _StageKeeper(Observer):
             self._kept.save(checkpoint)
 
 
+class _Forgiving(Observer):
+    """Keeps an unnamed run. Where the disk takes no more of it, the run goes on without."""
+
+    def __init__(self, work: "_Work") -> None:
+        self._work = work
+
+    def event(self, event: AnyEvent) -> None:
+        with self._work.keeping() as folder:
+            folder.event(event)
+
+    def tick(self, period: ServoPeriod) -> None:
+        with self._work.keeping() as folder:
+            folder.tick(period)
+
+    def undone(self, events: int) -> None:
+        with self._work.keeping() as folder:
+            folder.undone(events)
+
+    def checkpoint(self, checkpoint: Checkpoint) -> None:
+        with self._work.keeping() as folder:
+            folder.checkpoint(checkpoint)
+
+
 class _Work:
     """One job under way."""
 
@@ -106,6 +135,9 @@ class _Work:
         self.folder = job.folder
         if self.folder is None and job.out is not None:
             self.folder = open_new(job.out, job.start, overwrite=job.overwrite)
+        self.unnamed = self._unnamed() if self.folder is None and job.keep else None
+        if self.unnamed is not None:
+            self.folder = self.unnamed.folder
         self.meter = Meter(
             timer=HostTimer.of_command(),
             planning_cpu_s=job.planning_cpu_s,
@@ -117,6 +149,36 @@ class _Work:
         self.left: Path | None = None
         """The checkpoint that was saved last, outside the folder of the run."""
 
+    def _unnamed(self) -> UnnamedRun | None:
+        """A folder for an unnamed run; where there cannot be one, the run goes on without."""
+        home = runs_folder()
+        if home is None:
+            return None
+        try:
+            return UnnamedRun(home, self.job.start)
+        except InvalidInput as fault:
+            note(f"the run is not kept: {fault}")
+        return None
+
+    @contextmanager
+    def keeping(self) -> Iterator[Observer]:
+        """The folder of the run. That of an unnamed run is given up where it cannot be written any more."""
+        try:
+            yield Observer() if self.folder is None else self.folder
+        except (InvalidInput, OSError) as fault:
+            if self.unnamed is None or self.folder is None:
+                raise
+            note(f"the run is kept no further: {fault}")
+            self.folder = None
+
+    def close(self) -> None:
+        """Let go of the files."""
+        if self.unnamed is not None:
+            with suppress(InvalidInput):
+                self.unnamed.close()
+        elif self.folder is not None:
+            self.folder.close()
+
     def do(self) -> int:
         """Carry out the job; return the exit code."""
         runner = self._built()
@@ -126,8 +188,8 @@ class _Work:
             pause = self._stepped(runner) if self.job.step else self._parts(runner)
         except KeyboardInterrupt:
             pause = PANIC
-            if self.folder is not None:
-                self.folder.checkpoint(runner.checkpoint())
+            with self.keeping() as folder:
+                folder.checkpoint(runner.checkpoint())
         if pause.kind == "panic":
             return self._interrupted(runner)
         with self.panic.released():
@@ -146,9 +208,14 @@ class _Work:
                     calibrate=self.job.calibrate,
                 )
         except Halted:
+            if self.unnamed is not None:
+                self.unnamed.discard()
+                self.unnamed = self.folder = None
             return None
         except BaseException:
-            if self.folder is not None and self.job.folder is None:
+            if self.unnamed is not None:
+                self.unnamed.discard()
+            elif self.folder is not None and self.job.folder is None:
                 self.folder.discard()
             raise
         for sentence in cautions(runner, judged=self.job.referee):
@@ -165,9 +232,11 @@ class _Work:
         looking: list[Observer] = [] if self.job.step else [self.progress]
         if self.job.start.stage is not None:
             self.progress.goes_on(self.job.start.stage)
-        if self.folder is not None:
-            again = self.job.folder is not None
-            looking.append(self.folder.watch(runner, self.job.start, again=again, meter=self.meter))
+        with self.keeping() as folder:
+            if isinstance(folder, RunFolder):
+                again = self.job.folder is not None
+                folder.watch(runner, self.job.start, again=again, meter=self.meter)
+                looking.append(folder if self.unnamed is None else _Forgiving(self))
         if self.job.checkpoints is not None:
             looking.append(_StageKeeper(self.job.checkpoints, self.job.start.setup))
         if self.job.server is not None:
@@ -288,7 +357,7 @@ class _Work:
         kept = self.left if self.folder is None else self.folder.path
         if kept is not None:
             words = [str(kept), *option(self.job.start.setup.task)]
-            say(f"resume with: handeye resume {shlex.join(words)}", notes, whole=True)
+            say(f"resume with: {CALLED} resume {shlex.join(words)}", notes, whole=True)
         elif runner is not None and runner.position > max(0, self.job.start.position):
             note(NOT_KEPT)
 
@@ -296,17 +365,35 @@ class _Work:
         job = self.job
         if pause.kind == "break" and job.halfway and self.folder is None:
             self._keep(runner.checkpoint())
-        result = finished(runner, pause, self.meter, judged=job.referee, folder=self.folder)
+        if self.unnamed is None:
+            result = finished(runner, pause, self.meter, judged=job.referee, folder=self.folder)
+        else:
+            result = finished(runner, pause, self.meter, judged=job.referee)
+            with self.keeping() as folder:
+                if isinstance(folder, RunFolder):
+                    keep_outcome(folder, runner, pause, result, photographs=job.referee)
         if self.job.json:
             put(to_json(result, line=self.job.step))
         else:
-            screen.print(page(result))
+            screen.print(page(result) if job.details else short_page(result))
+            note("")
         self._report()
+        if self.folder is not None:
+            note(f"kept in {self.folder.path} ({size(bytes_of(self.folder.path))})")
+        if self.folder is not None and pause.kind != "break" and not job.json:
+            self._tell_what_next()
         if pause.kind in ("break", "operator"):
             self._tell_how_to_go_on(runner)
-        elif self.folder is not None:
-            note(f"saved in {self.folder.path}")
         return result.exit_code
+
+    def _tell_what_next(self) -> None:
+        """Name the commands that show more of a run that was kept."""
+        assert self.folder is not None
+        named = () if self.unnamed is not None else (str(self.folder.path),)
+        if not self.job.report and "plans" in entry_named(self.job.start.setup.system).can:
+            say(f"see it:     {CALLED} {shlex.join(('report', *named))}", notes, whole=True)
+        if not self.job.details:
+            say(f"all tables: {CALLED} {shlex.join(('show', *named))}", notes, whole=True)
 
     def _report(self) -> None:
         """Leave a page of the run in its folder, if that is wanted; the run is what it is, whatever comes of that."""
@@ -324,7 +411,8 @@ class _Work:
 def work(job: Job) -> int:
     """Do a job; returns the exit code. Raises InvalidInput if a file cannot be used or written."""
     with PanicButton() as panic, ExitStack() as closing:
+        if job.folder is not None:
+            closing.enter_context(held(job.folder.path))
         under_way = _Work(job, panic)
-        if under_way.folder is not None:
-            closing.callback(under_way.folder.close)
+        closing.callback(under_way.close)
         return under_way.do()

@@ -9,7 +9,14 @@ from cyclopts import Parameter
 
 from handeye.cli.common import Json, TaskWords, answer, note, say, screen
 from handeye.cli.programs import made_known
-from handeye.cli.trace_files import TraceFile, check_no_batch, motion_file
+from handeye.cli.trace_files import (
+    Run,
+    RunOrTrace,
+    check_no_batch,
+    motion_file,
+    run_or_newest,
+    two_runs,
+)
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, InvalidInput
 
@@ -24,7 +31,7 @@ DEMO: Final = "demo.html"
 
 
 def report(
-    run: TraceFile | None = None,
+    run: RunOrTrace = None,
     other: Annotated[
         Path | None, Parameter(help="A second run: the page compares the two, as `compare -o` does.")
     ] = None,
@@ -52,18 +59,19 @@ def report(
     from handeye.runs.folder import REPORT
 
     made_known(task)
-    if (run is None) != demo or (demo and other is not None):
-        raise BadArgument("a report is of one run: give its folder or its trace, or --demo")
-    if run is None:
+    if demo and run is not None:
+        raise BadArgument("--demo brings its own run; give a run or --demo")
+    if demo:
         place = output or Path(DEMO)
         write_report(resources.demo(), place, overwrite=overwrite)
         note(f"open {place} in a browser")
-    elif other is not None:
+    elif run is not None and other is not None:
         if output is None:
             raise BadArgument("a page of two runs belongs to neither; say with -o where it is to be written")
         place = output
         write_comparison(run, other, place, overwrite=overwrite)
     else:
+        run = run_or_newest(run)
         place = output or (run / REPORT if run.is_dir() else run.with_name(REPORT))
         write_report(run, place, overwrite=overwrite)
     say(str(place))
@@ -110,8 +118,15 @@ def read_recorded(run: Path) -> "RecordedRun":
 
 
 def compare(
-    a: TraceFile,
-    b: TraceFile,
+    a: Annotated[
+        Path | None,
+        Parameter(
+            name="A", help="The folder of a run, or its trace.mcap; by default the newest but one in `runs`."
+        ),
+    ] = None,
+    b: Annotated[
+        Path | None, Parameter(name="B", help="Another run; by default the newest in `runs`.")
+    ] = None,
     /,
     *,
     task: TaskWords = None,
@@ -132,10 +147,11 @@ def compare(
     from handeye.comparison.text import comparison_text
 
     made_known(task)
+    one, other = two_runs(a, b)
     if output is None:
-        found = comparison(read_recorded(a), read_recorded(b))
+        found = comparison(read_recorded(one), read_recorded(other))
     else:
-        found = write_comparison(a, b, output, overwrite=overwrite)
+        found = write_comparison(one, other, output, overwrite=overwrite)
         note(f"its page: {output}")
     return answer(as_json(found), comparison_text(found), json=json)
 
@@ -173,14 +189,12 @@ def _animations(a: "RecordedRun", b: "RecordedRun") -> "Animations | str":
     return one, other
 
 
-Folder = Annotated[Path, Parameter(help="The folder of a run.")]
-
-
-def show(folder: Folder, /, *, json: Json = False) -> int:
+def show(run: Run = None, /, *, json: Json = False) -> int:
     """Show the result of a run, or how far it has got; its folder is not changed.
 
     Exit code 0: it is shown, whatever the result of the run; 2: there is no run that could be shown.
     """
+    folder = run_or_newest(run)
     kept = shown(folder, json=json)
     if not (kept.left and kept.result.completed):
         note(_way_on(folder, kept.result))
@@ -204,10 +218,10 @@ def _way_on(folder: Path, result: "Result") -> str:
     )
 
 
-def shown(folder: Path, *, json: bool) -> "KeptRun":
+def shown(folder: Path, *, json: bool, details: bool = True) -> "KeptRun":
     """Print the result or progress of the run in a folder; raises InvalidInput if there is none to show."""
     from handeye.results.kept_run import kept_run
-    from handeye.results.page import page
+    from handeye.results.page import page, short_page
     from handeye.results.result import to_json
 
     check_no_batch(folder)
@@ -218,5 +232,5 @@ def shown(folder: Path, *, json: bool) -> "KeptRun":
         sys.stdout.buffer.write(to_json(kept.result))
         sys.stdout.flush()
     else:
-        screen.print(page(kept.result))
+        screen.print(page(kept.result) if details else short_page(kept.result))
     return kept

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Calibrate, Camera, Json, Out, PlanFile, TaskWords, note
+from handeye.cli.common import Calibrate, Camera, Details, Json, NoKeep, Out, PlanFile, TaskWords, note
 from handeye.cli.programs import check_task, is_program, made_known, plan_at, plan_or_own
+from handeye.cli.trace_files import RunOrCheckpoint, run_or_newest
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.errors import BadArgument, CannotWrite
 from handeye.core.plain_text import counted
@@ -54,8 +55,10 @@ def assemble(
     world: WorldOptions = ANY_WORLD,
     fault: Faults = None,
     json: Json = False,
+    details: Details = False,
     out: Out = None,
     overwrite: Overwrite = False,
+    no_keep: NoKeep = False,
     camera: Camera = "auto",
     report: Annotated[bool, Parameter(help="Leave a page of the run in the folder, report.html.")] = False,
     calibrate: Calibrate = False,
@@ -80,8 +83,9 @@ def assemble(
 
     if any(part != ("dismantle", "assemble")[n % 2] for n, part in enumerate(then or ())):
         raise BadArgument("--then dismantle and --then assemble go in turn: what stands is dismantled first")
-    if report and out is None:
-        raise BadArgument("--report needs --out, the folder that the page is left in")
+    _check_kept(no_keep, out)
+    if report and no_keep:
+        raise BadArgument("--report leaves a page in the folder of the run; --no-keep leaves none")
     started = time.process_time()
     plan = plan_or_own(None, world.task)
     planning = time.process_time() - started
@@ -94,10 +98,12 @@ def assemble(
         Job(
             start=Checkpoint(setup=setup),
             out=out,
+            keep=not no_keep,
             overwrite=overwrite,
             calibrate=calibrate,
             on_stop=on_stop,
             json=json,
+            details=details,
             report=report,
             referee=True,
             then=then or (),
@@ -127,8 +133,10 @@ def run(
         ),
     ] = None,
     json: Json = False,
+    details: Details = False,
     out: Out = None,
     overwrite: Overwrite = False,
+    no_keep: NoKeep = False,
     camera: Camera = "auto",
     calibrate: Calibrate = False,
     first: Annotated[str | None, Parameter(name="--from", help="Begin with this stage.")] = None,
@@ -161,6 +169,7 @@ def run(
     from handeye.runs.snapshot import Checkpoint
 
     _check_live(live, step)
+    _check_kept(no_keep, out)
     plan, judge = plan_at(file, world.task), is_program(file) if judge is None else judge
     wanted = world
     world, spared = world.of(plan.task).apart(plan.program.calls)
@@ -187,6 +196,7 @@ def run(
         Job(
             start=start,
             out=out,
+            keep=not (no_keep or step or checkpoints),
             overwrite=overwrite,
             calibrate=calibrate,
             checkpoints=None if checkpoints is None else kept,
@@ -197,13 +207,14 @@ def run(
             live=live,
             on_stop=on_stop,
             json=json,
+            details=details,
             referee=judge,
         )
     )
 
 
 def resume(
-    path: Path,
+    run: RunOrCheckpoint = None,
     /,
     *,
     task: TaskWords = None,
@@ -215,6 +226,7 @@ def resume(
         ),
     ] = None,
     json: Json = False,
+    details: Details = False,
     out: Annotated[Path | None, Parameter(help="Folder to save the run in, for a checkpoint file.")] = None,
     overwrite: Overwrite = False,
     to: To = None,
@@ -228,12 +240,7 @@ def resume(
 
     Of a run that has ended the result is shown, and nothing is changed; with `--step` it can go back.
 
-    Exit codes are those of `run`.
-
-    Parameters
-    ----------
-    path
-        A checkpoint, or the folder of a run, which resumes from its newest sound checkpoint.
+    The folder of a run resumes from its newest sound checkpoint. Exit codes are those of `run`.
     """
     from handeye.cli.job import Job, work
     from handeye.cli.reports import shown
@@ -244,6 +251,7 @@ def resume(
 
     _check_live(live, step)
     folder, wanted_task = None, made_known(task)
+    path = run_or_newest(run)
     if path.name == CHECKPOINTS and (path.parent / PLAN).is_file():
         path = path.parent
     if path.is_dir():
@@ -263,7 +271,7 @@ def resume(
     wanted = start.setup.judged if judge is None else judge
     if folder is not None and not step and has_ended(folder.path, start, judged=wanted):
         note(f"the run in {folder.path} has ended: there is nothing to be resumed")
-        return shown(folder.path, json=json).result.exit_code
+        return shown(folder.path, json=json, details=details).result.exit_code
     done = "no steps" if start.position < 1 else counted(start.position, "step")
     stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
     note(f"resuming after {done}: {stage}")
@@ -280,9 +288,16 @@ def resume(
             live=live,
             on_stop=on_stop,
             json=json,
+            details=details,
             referee=wanted,
         )
     )
+
+
+def _check_kept(no_keep: bool, out: Path | None) -> None:
+    """Raises InvalidInput if a run is to be kept and not to be kept."""
+    if no_keep and out is not None:
+        raise BadArgument("--no-keep and --out do not go together")
 
 
 def _check_live(live: bool, step: bool) -> None:

@@ -1,15 +1,49 @@
 """The file that a run's trace, or what there is of it, is read from."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 from cyclopts import Parameter
 
 from handeye.cli.common import note
 from handeye.core.errors import BadFile, Refused
 
-File = Annotated[Path, Parameter(help="A trace.mcap, an events.jsonl, or the folder of a run.")]
-TraceFile = Annotated[Path, Parameter(help="A trace.mcap, or the folder of a run.")]
+_NEWEST: Final = "by default the newest in `runs`."
+Run = Annotated[Path | None, Parameter(name="RUN", help=f"The folder of a run; {_NEWEST}")]
+RunOrCheckpoint = Annotated[
+    Path | None, Parameter(name="RUN", help=f"The folder of a run, or a checkpoint; {_NEWEST}")
+]
+RunOrTrace = Annotated[
+    Path | None, Parameter(name="RUN", help=f"The folder of a run, or its trace.mcap; {_NEWEST}")
+]
+RunOrEvents = Annotated[
+    Path | None,
+    Parameter(name="RUN", help=f"The folder of a run, its trace.mcap or its events.jsonl; {_NEWEST}"),
+]
+
+
+def run_or_newest(given: Path | None) -> Path:
+    """The run that was named, else the newest one, which is noted; raises InvalidInput if there is none."""
+    if given is not None:
+        return given
+    from handeye.runs.unnamed_runs import newest_runs
+
+    (newest,) = newest_runs(1)
+    note(f"taking the newest run, {newest}")
+    return newest
+
+
+def two_runs(a: Path | None, b: Path | None) -> tuple[Path, Path]:
+    """Two runs to compare: those that were named; the newest one in the place of the second, or the newest two."""
+    from handeye.runs.unnamed_runs import newest_runs
+
+    if a is not None and b is not None:
+        return a, b
+    if a is None:
+        newer, older = newest_runs(2)
+        note(f"taking the newest two runs, {older} and {newer}")
+        return older, newer
+    return a, run_or_newest(None)
 
 
 def trace_file(path: Path) -> Path:

@@ -21,7 +21,7 @@ from handeye.cli.common import (
     screen,
 )
 from handeye.cli.programs import check_task, made_known
-from handeye.cli.trace_files import File, TraceFile, trace_file
+from handeye.cli.trace_files import RunOrEvents, RunOrTrace, run_or_newest, trace_file
 from handeye.cli.worlds import PLAIN, FineOptions
 from handeye.core.errors import Refused
 from handeye.core.files import check_place, write_over
@@ -32,12 +32,14 @@ if TYPE_CHECKING:
     from handeye.trace.reading import Trace
 
 
-def show(file: File, /, *, json: Annotated[bool, Parameter(help="Events as JSON lines.")] = False) -> int:
+def show(
+    run: RunOrEvents = None, /, *, json: Annotated[bool, Parameter(help="Events as JSON lines.")] = False
+) -> int:
     """Show what happened in a run, and why."""
     from handeye.program.events import to_line
     from handeye.trace.account import account
 
-    _, events = _read(file)
+    _, events = _read(run_or_newest(run))
     if json:
         put(b"".join(map(to_line, events)))
         return 0
@@ -46,11 +48,11 @@ def show(file: File, /, *, json: Annotated[bool, Parameter(help="Events as JSON 
     return 0
 
 
-def stats(file: File, /, *, json: Json = False) -> int:
+def stats(run: RunOrEvents = None, /, *, json: Json = False) -> int:
     """Count and time what happened in a run, stage by stage."""
     from handeye.trace.stats import statistics, statistics_table
 
-    trace, events = _read(file)
+    trace, events = _read(run_or_newest(run))
     figures = statistics(events, {} if trace is None else trace.counts)
     if json:
         put_json(figures)
@@ -60,7 +62,7 @@ def stats(file: File, /, *, json: Json = False) -> int:
 
 
 def photograph(
-    file: TraceFile,
+    run: RunOrTrace = None,
     /,
     *,
     at: Annotated[float, Parameter(help="Seconds since the run began, as `show` prints them.")],
@@ -77,6 +79,7 @@ def photograph(
 
     wanted = made_known(task)
     check_place(output, PNG)
+    file = run_or_newest(run)
     trace, _ = _read(file)
     if trace is None:
         raise Refused(f"{file} is an event list, which does not hold where things were; use the trace.mcap")
@@ -89,7 +92,7 @@ def photograph(
     return 0
 
 
-def verify(file: TraceFile, /, *, task: TaskWords = None) -> int:
+def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
     """Carry out a recorded run again and compare.
 
     It repeats what operators and experimenters did, and compares an interrupted run up to its last whole
@@ -104,7 +107,7 @@ def verify(file: TraceFile, /, *, task: TaskWords = None) -> int:
     from handeye.core.versions import versions
     from handeye.runs.verify import repetition, settled
 
-    wanted = made_known(task)
+    wanted, file = made_known(task), run_or_newest(run)
     trace, events = _read(file)
     if trace is None:
         raise Refused(f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too")

@@ -10,7 +10,7 @@ from cyclopts import Parameter
 
 from handeye.cli.common import TaskWords, note, notes, say
 from handeye.cli.programs import check_task, made_known
-from handeye.cli.trace_files import TraceFile, motion_file
+from handeye.cli.trace_files import RunOrTrace, motion_file, run_or_newest
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument
 from handeye.core.plain_text import counted
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def video(
-    run: TraceFile,
+    run: RunOrTrace = None,
     /,
     *,
     task: TaskWords = None,
@@ -80,6 +80,7 @@ def video(
         camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
         captions=captions,
     )  # fmt: skip
+    run = run_or_newest(run)
     place = output or (run / VIDEO if run.is_dir() else run.with_name(VIDEO))
     trace = _trace(run)
     check_task(wanted_task, trace.head.task, run)

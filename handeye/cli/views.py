@@ -14,6 +14,7 @@ from handeye.cli.runs import Overwrite
 from handeye.cli.teaching import CellOptions, left_unsaved, teacher_of
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.errors import BadArgument
+from handeye.runs.unnamed_runs import newest_run
 
 DEMO: Final = ("pace 1x", "continue")
 _RECORDED: Final = (".mcap", ".part", ".jsonl")
@@ -23,8 +24,9 @@ def view(
     file: Annotated[
         Path | None,
         Parameter(
-            help="A plan made by `handeye plan` (.plan.json), by default that of the pump; or the folder or trace of a "
-            "run, which is shown as its report."
+            help="A plan made by `handeye plan` (.plan.json), or the name of a program; or the folder or trace of a "
+            "run, which is shown as its report. By default the newest run in `runs`; where there is none, or a world "
+            "or --out is given, the plan of the pump."
         ),
     ] = None,
     /,
@@ -74,6 +76,10 @@ def view(
                 f"{file} is a run that was carried out; of the options, only --port goes with it"
             )
         return _play(file, port)
+    untold = not (demo or world.chosen or world.task or fault or camera != "auto" or out is not None)
+    if file is None and untold and (newest := newest_run()) is not None:
+        note(f"showing the newest run, {newest}; `handeye view water_pump` steps a new one")
+        return _play(newest, port)
     link = Link()
     with Server(link, port) as server:
         plan = compiled(resources.demo() / "live.al") if demo else plan_or_own(file, world.task)

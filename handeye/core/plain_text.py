@@ -36,6 +36,17 @@ def counted(number: int, noun: str) -> str:
     return f"{number} {noun}{'es' if noun.endswith(('s', 'x', 'ch', 'sh')) else 's'}"
 
 
+def size(number: int) -> str:
+    """A number of bytes as people say it.
+
+    >>> size(812), size(47_300), size(2_340_000)
+    ('812 bytes', '47 kB', '2.3 MB')
+    """
+    if number < 1000:
+        return counted(number, "byte")
+    return f"{number / 1e3:.0f} kB" if number < 1_000_000 else f"{number / 1e6:.1f} MB"
+
+
 def distinct_digits(numbers: Sequence[float], decimals: int) -> list[str]:
     """Numbers with at least `decimals` digits, as many more as show that different ones differ."""
     for places in range(decimals, decimals + _EXTRA_DECIMALS):

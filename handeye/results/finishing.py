@@ -47,9 +47,16 @@ def finished(
         runner.finish()
     result = outcome(runner, pause, meter, judged=judged, referee=referee)
     if folder is not None:
-        folder.close()
-        keep_pictures(folder.path / PICTURES, runner)
-        for name, data in runner.kind.files(runner, pause, result).items():
-            write_whole(folder.path / name, data)
-        write_whole(folder.path / RESULT, to_json(result))
+        keep_outcome(folder, runner, pause, result)
     return result
+
+
+def keep_outcome(
+    folder: RunFolder, runner: Runner, pause: Pause, result: Result, *, photographs: bool = True
+) -> None:
+    """Close the folder of a run with its pictures and its result; raises InvalidInput if they cannot be written."""
+    folder.close()
+    keep_pictures(folder.path / PICTURES, runner, photographs=photographs)
+    for name, data in runner.kind.files(runner, pause, result).items():
+        write_whole(folder.path / name, data)
+    write_whole(folder.path / RESULT, to_json(result))

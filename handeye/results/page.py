@@ -37,12 +37,48 @@ def page(result: Result) -> RenderableType:
         parts += [Text(), camera(result)]
     if result.checks:
         parts += [Text(), referee(result)]
-    parts += [Text(f"broken: {told}", "yellow") for told in told_faults(result)]
-    limits = (result.limits or {}).items()
-    parts += [Text(f"limit of {name} set by the caller: {limit:g}", "yellow") for name, limit in limits]
-    parts += [Text(sentence, "yellow") for sentence in result.warnings]
-    parts += [Text(f"by a person: {sentence}", "yellow") for sentence in result.interventions]
-    return Group(*parts, Text(), verdict(result))
+    return Group(*parts, *_remarks(result), Text(), verdict(result))
+
+
+def short_page(result: Result) -> RenderableType:
+    """The verdict, and a line each on stages, time, referee and computer."""
+    result = printable(result)
+    table = Table(box=None, show_header=False, pad_edge=False)
+    table.add_column("", style="dim")
+    table.add_column("")
+    for name, told in _short_rows(result):
+        table.add_row(name, told)
+    return Group(verdict(result), Text(), table, *_remarks(result))
+
+
+def _short_rows(result: Result) -> Iterator[tuple[str, str]]:
+    done = sum(stage.status == "done" for stage in result.stages)
+    undone = sum(stage.status == "undone" for stage in result.stages)
+    yield "stages", f"{done or undone} of {len(result.stages)} {'undone' if undone and not done else 'done'}"
+    t, then = result.timing, period(result)
+    if result.paused:
+        return
+    worked = f"worked for {clock(t.working_s)}"
+    if then is not None:
+        worked += f"; in {then.year}, {clock(then.times['manipulation'] + then.times['lens'])}"
+    yield "arm", worked
+    if result.checks:
+        right = sum(check.ok for check in result.checks)
+        yield "referee", f"{right} of {len(result.checks)} findings within their limits"
+    if t.real_time_factor >= 0.05:
+        yield "computer", f"simulated it in {clock(t.run_wall_s)}, {t.real_time_factor:.1f}x real time"
+
+
+def _remarks(result: Result) -> Iterator[RenderableType]:
+    """Sentences on what was broken, set or doubtful, and on what people did."""
+    for told in told_faults(result):
+        yield Text(f"broken: {told}", "yellow")
+    for name, limit in (result.limits or {}).items():
+        yield Text(f"limit of {name} set by the caller: {limit:g}", "yellow")
+    for sentence in result.warnings:
+        yield Text(sentence, "yellow")
+    for sentence in result.interventions:
+        yield Text(f"by a person: {sentence}", "yellow")
 
 
 def told_faults(result: Result) -> Iterator[str]:

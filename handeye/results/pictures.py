@@ -45,7 +45,7 @@ def _annotated(system: RunningSystem, name: str) -> NDArray[np.uint8]:
         raise BadFile(f"the findings in picture {name} cannot be drawn") from None
 
 
-def keep_pictures(folder: Path, runner: Runner) -> None:
+def keep_pictures(folder: Path, runner: Runner, *, photographs: bool = True) -> None:
     """Write the program's pictures, and where OpenGL can take them photographs of the cell; raises InvalidInput."""
     try:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
@@ -53,7 +53,7 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
         raise CannotWrite(f"{folder} cannot be made: {error.strerror}") from None
     for name in runner.system.shots:
         write_whole(folder / f"{name.lower()}.png", annotated_png(runner.system, name))
-    if runner.system.cell is None:
+    if runner.system.cell is None or not photographs:
         return
     if runner.cell.renderer.method == "opengl" and runner.task.photographs:
         posed = as_it_stands(runner.task.shown(runner.setup.world, written(runner.setup)), runner.cell.truth)

@@ -40,6 +40,8 @@ PICTURES: Final = "pictures"
 HOST: Final = "host.json"
 REPORT: Final = "report.html"
 VIDEO: Final = "video.webp"
+MARK: Final = "unnamed"
+"""Holds the name of a folder that handeye has named itself; see `runs/unnamed_runs.py`."""
 
 
 def _outcomes() -> list[str]:
@@ -205,7 +207,7 @@ class RunFolder(Observer):
                 folder.rmdir()
 
 
-def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFolder:
+def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False, unnamed: bool = False) -> RunFolder:
     """A folder for a run; raises CannotWrite if one would be lost, unless `overwrite` replaces it once this moves."""
     _refuse_others(path)
     if not overwrite:
@@ -222,6 +224,8 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFo
         raise CannotWrite(f"{path} cannot be made: {error.strerror}") from None
     if not all(os.access(place, os.W_OK) for place in (path, *inner)):
         raise CannotWrite(f"{path} cannot be written to")
+    if not unnamed:
+        (path / MARK).unlink(missing_ok=True)
     folder = RunFolder(path, made)
     try:
         if not _holds_run(path):
@@ -280,13 +284,22 @@ def _holds_run(path: Path) -> bool:
 
 def _refuse_others(path: Path) -> None:
     """Raises InvalidInput if a folder holds what no run has left."""
-    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", CHECKPOINTS, PICTURES, HOST, *_outcomes()}
-    if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
-        ours.remove(PICTURES)
-    others = (
-        sorted(inside.name for inside in path.iterdir() if inside.name not in ours) if path.is_dir() else []
-    )
-    if others:
+    if others := _others(path):
         raise CannotWrite(
             f"{path} holds other things ({quoted(others[0])}); choose a new folder, or an empty one"
         )
+
+
+def holds_only_a_run(path: Path) -> bool:
+    """True if all that is in a folder was left by a run."""
+    return not _others(path)
+
+
+def _others(path: Path) -> list[str]:
+    """Names of what is in a folder and was left by no run."""
+    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", CHECKPOINTS, PICTURES, HOST, MARK, *_outcomes()}
+    if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
+        ours.remove(PICTURES)
+    return (
+        sorted(inside.name for inside in path.iterdir() if inside.name not in ours) if path.is_dir() else []
+    )

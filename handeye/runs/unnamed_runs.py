@@ -1,0 +1,154 @@
+"""Runs without a name of the user's: the newest ten stay in `runs` in the current folder, named by when they began.
+
+The environment variable HANDEYE_RUNS names another folder; if it is empty, no run is kept without `--out`.
+"""
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from datetime import datetime
+from itertools import count, islice
+from pathlib import Path
+from typing import Final
+
+from handeye.core.errors import BadFile, CannotWrite, InvalidInput
+from handeye.core.files import LineFile
+from handeye.runs.folder import EVENTS, MARK, TRACE, RunFolder, holds_only_a_run, open_new
+from handeye.runs.snapshot import Checkpoint
+
+VARIABLE: Final = "HANDEYE_RUNS"
+MOST: Final = 10
+_IGNORED: Final = "*\n"
+"""The runs are not for the repository that they stand in."""
+_GONE: Final = ".removed-"
+
+
+def runs_folder() -> Path | None:
+    """The folder of runs; None if none are kept."""
+    named = os.environ.get(VARIABLE, "runs")
+    return Path(named) if named else None
+
+
+class UnnamedRun:
+    """A folder for an unnamed run. Its mark is locked until it is closed, so that no other command removes it."""
+
+    def __init__(self, home: Path, start: Checkpoint) -> None:
+        """Begin a run in `home`, and remove all but the newest ten there; raises CannotWrite."""
+        try:
+            path = _new_place(home, start)
+            self._mark = LineFile(path / MARK, "another run", again=False)
+            self._mark.append(f"{path.name}\n".encode())
+            self.folder: RunFolder = open_new(path, start, unnamed=True)
+        except OSError as error:
+            raise CannotWrite(f"{home} cannot be written: {error.strerror}") from None
+        for old in islice(_newest_first(_unnamed(home)), MOST, None):
+            _remove(old)
+
+    @property
+    def path(self) -> Path:
+        return self.folder.path
+
+    def close(self) -> None:
+        """Let go of the folder; raises CannotWrite if the trace cannot be completed."""
+        try:
+            self.folder.close()
+        finally:
+            self._mark.close()
+
+    def discard(self) -> None:
+        """Remove the folder, if the run has not begun."""
+        self._mark.close()
+        (self.folder.path / MARK).unlink(missing_ok=True)
+        self.folder.discard()
+        with suppress(OSError):  # which holds other runs
+            self.folder.path.rmdir()
+
+
+def newest_run() -> Path | None:
+    """The newest run in the folder of runs, named or not, if there is one."""
+    home = runs_folder()
+    return None if home is None else next(_newest_first(_runs(home)), None)
+
+
+def newest_runs(number: int) -> list[Path]:
+    """The newest runs in the folder of runs, named or not, the newest first; raises BadFile if there are fewer."""
+    home = runs_folder()
+    if home is None:
+        raise BadFile(f"give the folder of a run; none are kept, since the variable {VARIABLE} is empty")
+    found = list(islice(_newest_first(_runs(home)), number))
+    if len(found) < number:
+        there = "no run" if not found else "only one run"
+        raise BadFile(f"there is {there} in {home}; give the folder of a run, or make one: handeye assemble")
+    return found
+
+
+def bytes_of(path: Path) -> int:
+    """Size of the files in a folder."""
+    return sum(file.stat().st_size for file in path.rglob("*") if file.is_file())
+
+
+def _new_place(home: Path, start: Checkpoint) -> Path:
+    """A new folder, with the time and the seed in its name."""
+    if not home.exists():
+        home.mkdir(parents=True)
+        (home / ".gitignore").write_text(_IGNORED, encoding="utf-8")
+    name = f"{datetime.now():%Y-%m-%d_%H%M%S}_seed{start.setup.world.seed}"
+    for number in count(1):
+        path = home / (name if number == 1 else f"{name}_{number}")
+        with suppress(FileExistsError):
+            path.mkdir()
+            return path
+    raise AssertionError
+
+
+def _runs(home: Path) -> Iterator[Path]:
+    """Folders in which a run has left something."""
+    if home.is_dir():
+        for path in home.iterdir():
+            if not path.name.startswith(".") and any((path / name).is_file() for name in (EVENTS, TRACE)):
+                yield path
+
+
+def _unnamed(home: Path) -> Iterator[Path]:
+    """Folders of unnamed runs that hold nothing else; a folder that was renamed has a name."""
+    for path in home.iterdir():
+        mark = path / MARK
+        if path.is_symlink() or not mark.is_file() or mark.is_symlink():
+            continue
+        if mark.read_text("utf-8", "replace") == f"{path.name}\n" and holds_only_a_run(path):
+            yield path
+
+
+def _newest_first(runs: Iterator[Path]) -> Iterator[Path]:
+    """Runs by the time at which they were last written to."""
+    return iter(sorted(runs, key=lambda path: (_written(path), path.name), reverse=True))
+
+
+def _written(path: Path) -> int:
+    """The time at which something last happened in a run, ns."""
+    for name in (EVENTS, TRACE, MARK):
+        with suppress(OSError):
+            return (path / name).stat().st_mtime_ns
+    return 0
+
+
+def _remove(path: Path) -> None:
+    """Remove a run, unless another process writes to it."""
+    with suppress(InvalidInput, OSError), ExitStack() as locks:
+        for name in (MARK, EVENTS):
+            if (path / name).is_file():
+                locks.callback(LineFile(path / name, "another run").close)
+        gone = path.with_name(f"{_GONE}{path.name}")
+        path.rename(gone)
+        shutil.rmtree(gone)
+
+
+@contextmanager
+def held(path: Path) -> Iterator[None]:
+    """While a run goes on in a folder, no other command removes it."""
+    with ExitStack() as lock:
+        if (path / MARK).is_file():
+            with suppress(InvalidInput):
+                lock.callback(LineFile(path / MARK, "another run").close)
+        yield
