@@ -14,6 +14,8 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -35,8 +37,54 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 """What it is called where nobody names it."""
 
 
+CALLED = "HANDEYE_CALLED"
+"""Names this file to handeye, which then says `python3 run.py report` where it would say `handeye report`."""
+
+
 class SetUpFailed(Exception):
     """What is the matter, and what to do about it."""
+
+
+class ProgressLine:
+    """One line that says how far the set-up is: on a terminal it changes in place, elsewhere it is written once."""
+
+    def __init__(self, packages: int) -> None:
+        self.packages = packages
+        self.collected = 0
+        self._began = time.monotonic()
+        self._over = threading.Event()
+        self._thread = threading.Thread(target=self._tell, daemon=True)
+
+    def __enter__(self) -> "ProgressLine":
+        if sys.stderr.isatty():
+            self._thread.start()
+        else:
+            say(f"Setting up {VENV.name}: {self.packages} packages. This happens once.")
+        return self
+
+    def __exit__(self, kind: object, *how: object) -> None:
+        self._over.set()
+        if self._thread.is_alive():
+            self._thread.join()
+        if kind is None:
+            say(f"Set up {VENV.name} in {self.seconds} s.")
+
+    @property
+    def seconds(self) -> int:
+        """Since the set-up began."""
+        return round(time.monotonic() - self._began)
+
+    def heard(self, line: str) -> None:
+        """A line of pip's."""
+        self.collected += line.startswith("Collecting ")
+
+    def _tell(self) -> None:
+        while not self._over.wait(0.2):
+            done = min(self.collected, self.packages)
+            doing = f"{done} of {self.packages} packages fetched" if done < self.packages else "installing"
+            line = f"Setting up {VENV.name} (once): {doing}, {self.seconds} s"
+            print(f"\r{line:<79.79}", end="", file=sys.stderr, flush=True)
+        print(f"\r{'':<79}\r", end="", file=sys.stderr, flush=True)
 
 
 def main(words: list[str]) -> int:
@@ -47,7 +95,7 @@ def main(words: list[str]) -> int:
     try:
         set_up(TEST_LOCK if testing else LOCK)
     except SetUpFailed as failure:
-        say(f"Setting up failed: {failure}.")
+        say(f"Setting up failed: {failure}" + ("" if "\n" in str(failure) else "."))
         return 2
     except OSError as error:
         say(f"Setting up failed: {error.filename or VENV}: {error.strerror}.")
@@ -56,6 +104,7 @@ def main(words: list[str]) -> int:
         say("\nSetting up was interrupted; the next start completes it.")
         return 130
     if not testing:
+        os.environ[CALLED] = f"{Path(sys.executable).name} {sys.argv[0]}"
         return run(["-m", "handeye", *words])
     os.chdir(ROOT)
     if words[1:2] == ["browser"]:
@@ -93,20 +142,17 @@ def set_up(lock: Path) -> None:
     with TURNSTILE.open("a") as turnstile, alone(turnstile):
         if is_set_up(lock):  # by the start that we waited for
             return
-        say(
-            f"Setting up {VENV.name} from {lock.name}. This happens once and takes half a minute;\n"
-            "where network or disk is slow, minutes."
-        )
-        if UNFINISHED.exists() or not PYTHON.exists():
-            empty_environment()
+        with ProgressLine(lock.read_text().count("==")) as line:
+            if UNFINISHED.exists() or not PYTHON.exists():
+                empty_environment()
+                UNFINISHED.touch()
+                make_environment()
             UNFINISHED.touch()
-            make_environment()
-        UNFINISHED.touch()
-        STAMP.unlink(missing_ok=True)
-        install_packages(lock)
-        install_handeye()
-        STAMP.write_text(digest(lock))
-        UNFINISHED.unlink()
+            STAMP.unlink(missing_ok=True)
+            install_packages(lock, line)
+            install_handeye(line)
+            STAMP.write_text(digest(lock))
+            UNFINISHED.unlink()
 
 
 def is_set_up(lock: Path) -> bool:
@@ -165,37 +211,49 @@ def make_environment() -> None:
     make = [sys.executable, "-m", "venv", str(VENV)]
     if subprocess.run(make, capture_output=True).returncode == 0:
         return
-    if subprocess.run([*make, "--without-pip"], stdout=sys.stderr).returncode != 0:
-        raise SetUpFailed(f"{sys.executable} could not make {VENV}, for the reason above")
+    made = subprocess.run([*make, "--without-pip"], capture_output=True, text=True, errors="replace")
+    if made.returncode != 0:
+        raise SetUpFailed(
+            f"{sys.executable} could not make {VENV}. It said:\n{(made.stdout + made.stderr).rstrip()}"
+        )
 
 
-def install_packages(lock: Path) -> None:
+def install_packages(lock: Path, line: ProgressLine) -> None:
     """Exactly what the lock lists, by hash.
 
     Raises:
         SetUpFailed: pip could not.
     """
-    progress = [] if sys.stderr.isatty() else ["--quiet"]
-    if pip("install", *progress, "--only-binary=:all:", "--require-hashes", "--requirement", str(lock)) != 0:
+    code, said = pip(
+        "install",
+        "--progress-bar=off",
+        "--only-binary=:all:",
+        "--require-hashes",
+        "--requirement",
+        str(lock),
+        line=line,
+    )
+    if code != 0:
         raise SetUpFailed(
-            f"pip could not install what {lock.name} lists, for the reason above. "
-            "With a connection and 1 GB of free disk, start again: the next start begins anew"
+            f"pip could not install what {lock.name} lists. "
+            f"With a connection and 1 GB of free disk, start again: the next start begins anew. pip said:\n{said}"
         )
 
 
-def install_handeye() -> None:
+def install_handeye(line: ProgressLine) -> None:
     """This folder, editable: the command, the lexer's entry point, the version. Needs no network.
 
     Raises:
         SetUpFailed: pip could not.
     """
-    how = ["--quiet", "--no-index", "--no-deps", "--no-build-isolation"]
-    if pip("install", *how, "--editable", str(ROOT)) != 0:
-        raise SetUpFailed(f"pip could not install handeye from {ROOT}, for the reason above")
+    how = ["--no-index", "--no-deps", "--no-build-isolation"]
+    code, said = pip("install", *how, "--editable", str(ROOT), line=line)
+    if code != 0:
+        raise SetUpFailed(f"pip could not install handeye from {ROOT}. pip said:\n{said}")
 
 
-def pip(*words: str) -> int:
-    """Run pip of the environment, or this Python's for it; all that it says goes to standard error.
+def pip(*words: str, line: ProgressLine) -> tuple[int, str]:
+    """Run pip of the environment, or this Python's for it: its exit code, and all that it said.
 
     Raises:
         SetUpFailed: there is none.
@@ -206,7 +264,15 @@ def pip(*words: str) -> int:
         command = [sys.executable, "-m", "pip", "--python", str(PYTHON)]
     else:
         raise SetUpFailed(f"{sys.executable} has no pip; on Debian, `apt install python3-venv` brings it")
-    return subprocess.run([*command, "--disable-pip-version-check", *words], stdout=sys.stderr).returncode
+    command += ["--disable-pip-version-check", "--no-color"]
+    said = []
+    with subprocess.Popen(
+        [*command, *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"
+    ) as process:
+        for text in process.stdout or ():
+            said.append(text)
+            line.heard(text)
+    return process.returncode, "".join(said).rstrip()
 
 
 def has_pip(python: str | Path) -> bool:

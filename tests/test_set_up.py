@@ -1,6 +1,7 @@
 """`run.py` makes the environment, notices when it is out of date, and mends one that was left half made."""
 
 import sys
+import time
 from importlib.util import find_spec, module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
@@ -28,9 +29,10 @@ class Pip:
         self.asked: list[str] = []
         self.fails_at: str | None = None
 
-    def __call__(self, *words: str) -> int:
+    def __call__(self, *words: str, line: object) -> tuple[int, str]:
         self.asked.append(Path(words[-1]).name)
-        return int(self.asked[-1] == self.fails_at)
+        failed = self.asked[-1] == self.fails_at
+        return int(failed), "there is no network" if failed else "Collecting everything"
 
 
 @pytest.fixture
@@ -91,7 +93,9 @@ def test_an_environment_that_was_left_half_made_is_made_anew(
 ) -> None:
     pip.fails_at = "requirements.lock"
     assert start.main(["check"]) == 2
-    assert "could not install what requirements.lock lists" in capfd.readouterr().err
+    said = capfd.readouterr().err
+    assert "could not install what requirements.lock lists" in said
+    assert said.endswith("pip said:\nthere is no network\n")
     (start.VENV / "half").touch()
     pip.fails_at = None
     assert start.main(["check"]) == 0
@@ -109,7 +113,7 @@ def test_an_environment_that_somebody_made_is_kept(start: ModuleType, pip: Pip) 
 def test_an_interruption_says_what_comes_next(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    def interrupted(*words: str) -> int:
+    def interrupted(*words: str, line: object) -> int:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(start, "pip", interrupted)
@@ -137,11 +141,34 @@ def test_the_checks_in_a_browser_are_found_and_told_where_it_is(
     assert carried_out == [["-m", "pytest", str(start.ROOT / "tests" / "browser" / "check_pages.py"), "-x"]]
 
 
+def test_a_set_up_that_goes_well_says_two_lines(start: ModuleType, capfd: pytest.CaptureFixture[str]) -> None:
+    start.main(["check"])
+    first, second = capfd.readouterr().err.splitlines()
+    packages = (ROOT / "requirements.lock").read_text().count("==")
+    assert first == f"Setting up .venv: {packages} packages. This happens once."
+    assert second.startswith("Set up .venv in ")
+
+
+@pytest.mark.slow
+def test_on_a_terminal_it_is_one_line_that_changes(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    with start.ProgressLine(2) as line:
+        line.heard("Collecting numpy==2.4\n")
+        line.heard("  Downloading numpy-2.4.whl\n")
+        time.sleep(0.3)
+    said = capfd.readouterr().err
+    assert said.count("\n") == 1
+    assert "\rSetting up .venv (once): 1 of 2 packages fetched, 0 s" in said
+    assert max(map(len, said.split("\r"))) < 80
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(find_spec("pip") is None, reason="this environment was made without pip")
-def test_pip_speaks_on_standard_error_only(capfd: pytest.CaptureFixture[str]) -> None:
+def test_pip_speaks_only_if_it_fails(start: ModuleType, capfd: pytest.CaptureFixture[str]) -> None:
     start = module_of(ROOT)
     start.PYTHON = sys.executable
-    assert start.pip("--version") == 0
-    out, err = capfd.readouterr()
-    assert (out, err[:4]) == ("", "pip ")
+    code, said = start.pip("--version", line=start.ProgressLine(0))
+    assert (code, said[:4]) == (0, "pip ")
+    assert capfd.readouterr() == ("", "")
