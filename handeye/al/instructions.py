@@ -1,7 +1,7 @@
 """The table of instructions, from which parser, checker, formatter and manual derive.
 
 Words and meanings of the period: Bolles and Paul, AIM-220 (1973), and what is left of the arm program's
-manual. What the period does not document and we added in its spirit has `ours` set.
+manual. Additions of ours, which the period does not document, have `ours` set.
 """
 
 from typing import Final
@@ -65,15 +65,15 @@ _MEANINGS: Final = {
     "MOVE": "go to a position: up first, over it, and down; with DIRECT, straight there",
     "CHANGE": "move straight from the present place: direction in table coordinates, inches, inches a second "
     "(0: the usual speed)",
-    "PLACE": "lower the hand, at most 3 in, until it meets the least force that is surely felt; else error 23",
+    "PLACE": "lower the hand, at most 3 in, until it meets the smallest force it can reliably feel; else error 23",
     "PARK": "go to the position called PARK",
     "TURN": "move on a circle about the vertical through a position, degrees counter-clockwise",
     "STOP": "end the next motion when the hand presses along the vector with more than its length (oz), "
     "or, for one number (ours), when anything opposes the motion with more; or when it exerts "
     "more than the moment (oz-in); else error 23",
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
-    "FREE": "give way to force along these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
-    "SPIN": "give way to a moment about these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
+    "FREE": "yield to forces along these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
+    "SPIN": "yield to moments about these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
     "VIA": "on the way to the goal of the next MOVE, pass these positions, in this order, without stopping",
     "TOUCH": "end the next motion when a finger touches something: 1 is the finger on the side that angle O "
     "points to, 2 the other, 3 either; else error 25",
@@ -81,37 +81,36 @@ _MEANINGS: Final = {
     "RESTORE": "shift the goal of the MOVE just before by a saved difference; with LEVEL, only horizontally",
     "OPEN": "drive the fingers to this gap (in)",
     "CLOSE": "close on something; error 2 on nothing or less than the minimum (in), 7 on more than the maximum",
-    "CENTER": "close without pushing the thing: the arm gives way; error 2 on nothing or less than the minimum (in)",
+    "CENTER": "close without pushing the part: the arm moves instead; error 2 on nothing or less than the minimum (in)",
     "SKIPE": "skip the next instruction if the last action raised this error; clears it",
     "SKIPN": "skip the next instruction if the last action did not raise this error; clears it",
-    "SEARCH": "start a spiral search with this step (in), or one along a line in a direction, degrees from table x; "
-    "the present place is the first; it extends three steps to each side, four along a line, or so many",
+    "SEARCH": "start a spiral search with this step (in), or a search along a line in a direction, degrees from table "
+    "x; from the present place it extends three steps to each side, four along a line, or the given number",
     "AOJ": "go to the next place of the search (error 6: there is none) and jump back to the label",
     "ASSIGN": "set a counter",
     "SOJG": "subtract one from a counter, and jump to the label while it is still positive",
     "JUMP": "continue at the label",
     "WAIT": "set the brakes and show the operator a text; without an operator the run ends there",
-    "UNDO": "have the arm undo its stage and begin it anew, once or so many times; then go on",
+    "UNDO": "have the arm undo its stage and start it again, once or the given number of times; then continue",
     "TRANS": "define a hand position: x, y, z (in), angles O, A, T (degrees); in table coordinates, or a part's",
-    "VECT": "define a vector for STOP, FORCE and CHANGE, in the unit of its place: ounces, ounce-inches or none; "
+    "VECT": "define a vector for STOP, FORCE and CHANGE, in the unit of its use: ounces, ounce-inches or none; "
     "X, Y and Z are predefined",
-    "SAVE": "save where the hand is, less where the last MOVE was to bring it; after CENTER only along the "
-    "finger line",
+    "SAVE": "save the offset of the hand from the goal of the last MOVE; after CENTER only along the finger line",
     "HERE": "define a position as where the hand is; a taught position of a part stays on that part",
     "WHERE": "show where the hand is, as `TRANS` writes it: inches and degrees",
     "TRAVEL": "check how far (in) the last CHANGE, PLACE or CENTER went; error 8 outside the range",
-    "HEIGHT": "check how much higher (in) the hand has come to a stop than where SAVE took the name; error 9 outside "
-    "the range",
+    "HEIGHT": "check how much higher (in) the last motion ended than the one before the SAVE of this name; error 9 "
+    "outside the range",
     "TOOL": "run the screwdriver (rpm, positive drives in); 0 is off",
     "LOAD": "declare the weight in the hand (oz), so that the arm carries it",
     "LENS": "turn the lens turret to the 25 or the 50 mm lens",
     "AIM": "point the camera at a position or a part, and focus",
-    "LOOK": "take a picture; with HOLD, at the target voltage of the one before",
+    "LOOK": "take a picture; with HOLD, at the target voltage (the gain) of the last one",
     "GENERAL": "find the part's outline in the picture; error 30 when it is not seen",
     "SPECIFIC": "find the part's holes in the picture; error 31 when they are not seen",
     "INSPECT": "compare two pictures and check that the part lies where it should; error 32 when it does not",
-    "MATCH": "compare two pictures and check that the part stands as it stood; error 33 when it does not",
-    "REQUIRE": "read a file of instructions, as if its lines stood here; its path is relative to this file",
+    "MATCH": "compare two pictures and check that the part has not moved; error 33 when it has",
+    "REQUIRE": "read a file of instructions, as if its lines were here; its path is relative to this file",
     "STAGE": "begin a stage of the work, under this name in the reports",
     "DEFINE": "begin a macro, perhaps with parameters, for which each call gives operands; a blank line ends it",
 }

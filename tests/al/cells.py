@@ -3,7 +3,7 @@
 The default is a perfect arm in an empty room. Lines put something there:
 
     solid below z 3.5
-    solid below z 3.75 but for a hole .2 wide at 25.07 38 down to 2.9
+    solid below z 3.75 with a hole .2 wide at 25.07 38 down to 2.9
     solid beyond y 40
     .24 between the fingers
     .24 between the fingers below z 3.2
@@ -110,7 +110,7 @@ def _driver(cell: FakeCell, torque: float) -> None:
 
 _LINES: dict[str, Callable[..., None]] = {
     f"solid below z {N}": _below,
-    f"solid below z {N} but for a hole {N} wide at {N} {N} down to {N}": _plate,
+    f"solid below z {N} with a hole {N} wide at {N} {N} down to {N}": _plate,
     f"solid beyond x {N}": _beyond_x,
     f"solid beyond y {N}": _beyond_y,
     f"{N} between the fingers": _between,

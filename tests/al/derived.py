@@ -61,7 +61,7 @@ def head(definition: Instruction) -> str:
     said = definition.help[0].upper() + definition.help[1:]
     out = [f"# `{definition.usage}`", "", f"{said}.", ""]
     if definition.operands:
-        out += ["| operand | what may stand there | origin |", "|---|---|---|"]
+        out += ["| operand | accepts | origin |", "|---|---|---|"]
         out += [_row(definition, operand) for operand in definition.operands]
         out.append("")
     out.append(part(definition))
