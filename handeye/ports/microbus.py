@@ -12,6 +12,7 @@ from msgspec import Meta
 
 from handeye.core.errors import HandeyeError
 from handeye.core.mutable_records import MutableRecord
+from handeye.core.plain_text import counted
 from handeye.core.record import Record
 
 COMMAND_BYTES: Final = 5
@@ -60,7 +61,9 @@ class NoAnswer(BusFault):
     """A microcomputer did not answer in full before the time limit."""
 
     def __init__(self, number: int, got: int, wanted: int) -> None:
-        super().__init__(f"NOANSWER {number}: {got} of {wanted} bytes arrived before the time limit")
+        super().__init__(
+            f"NOANSWER {number}: {got} of {counted(wanted, 'byte')} arrived before the time limit"
+        )
         self.number, self.got, self.wanted = number, got, wanted
 
 

@@ -6,7 +6,8 @@ from typing import Final
 
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, NoSuchName
-from handeye.ports.microbus import Command
+from handeye.core.record import Record
+from handeye.ports.microbus import COMMAND_BYTES, Command
 
 STEP_MM: Final = 0.0375  # travel of one step
 STEPS_PER_TURN: Final = 400
@@ -28,6 +29,32 @@ DEVICES: Final = {
 }  # of a hand microcomputer, as byte 3 names them
 
 
+class Timing(Record, frozen=True, kw_only=True):
+    """When lines change, are polled and are sampled: whole microseconds, of each device's own clock."""
+
+    slot: int = 20  # from byte to byte of a command
+    strobe_falls: int = 2  # /DATA READY, after the first byte begins
+    strobe_rises: int = 12
+    poll: int = 5  # a free microcomputer looks at /DATA READY so often
+    interrupt: int = 3  # from the fall of /DATA READY until an interrupt is served
+    sample: int = 2  # from seeing a strobe until the data are taken
+    check: int = 3  # to compare the first byte with a number
+    act: int = 4  # to carry out a command that moves nothing
+    prepare: int = 20  # from a question until its first byte
+    answer: int = 100  # from byte to byte of an answer
+    answer_low: int = 50  # /ANSWER READY and data, from the beginning of each
+    guard: int = 20  # the bus is watched so much longer than the last byte for one that was not asked for
+    time_limit: int = 5_000  # until each byte of an answer
+    settle: int = 0  # until a data line that has changed reads so
+    scan: int = 1_000  # of a force microcomputer, all its channels
+    hand: int = 150_000  # that a hand opens or closes
+
+    @property
+    def command(self) -> int:
+        """Microseconds that a command takes."""
+        return COMMAND_BYTES * self.slot
+
+
 class Op(IntEnum):
     """Operations, byte 2 of a command."""
 
@@ -42,7 +69,9 @@ class Op(IntEnum):
     THRESHOLD = 0x22
     ACTUATE = 0x31
     BEAM = 0x32  # asks
-    SELF_TEST = 0x7F  # asks
+    SENSE = 0x41  # asks a sensor of a newer kind; the length of its answer is its own
+    SELF_TEST = 0x7F  # asks; 0 is well
+    ECHO = 0x80  # asks for bytes 3 to 5 back; shares no bit with SELF_TEST
 
 
 ANSWERS: Final[dict[Op, int]] = {
@@ -51,6 +80,7 @@ ANSWERS: Final[dict[Op, int]] = {
     Op.FORCE: 2,
     Op.BEAM: 1,
     Op.SELF_TEST: 1,
+    Op.ECHO: 3,
 }
 """Bytes of each answer."""
 
@@ -136,6 +166,16 @@ def beam(arm: int) -> Command:
 def self_test(name: str | int) -> Command:
     """Ask a microcomputer to test itself: 0 is well."""
     return Command(number=number_of(name), op=Op.SELF_TEST)
+
+
+def echo(name: str | int, pattern: bytes) -> Command:
+    """Ask a microcomputer for three bytes back."""
+    return Command.of(bytes((number_of(name), Op.ECHO, *pattern)))
+
+
+def sense(name: str | int) -> Command:
+    """Ask a sensor of a newer kind."""
+    return Command(number=number_of(name), op=Op.SENSE)
 
 
 def signed(answer: Sequence[int]) -> int:

@@ -1,0 +1,97 @@
+"""What can be wrong with a bus, each asked for by name."""
+
+from typing import Final
+
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadArgument, NoSuchName
+from handeye.core.record import Record
+from handeye.systems.sigma.protocol import number_of
+
+
+class BusDefect(Record, frozen=True, kw_only=True):
+    """A fault: its kind, the segment or microcomputer that has it, and how much."""
+
+    kind: str
+    where: int = 0
+    value: int = 0
+
+
+class Defects(Record, frozen=True, kw_only=True):
+    """What a kind of fault is, and what a user says of it."""
+
+    help: str
+    where: str = ""  # `segment` or `microcomputer`; empty: the whole bus
+    default: int = 0  # place
+    value: str = ""  # what its number is; empty: it has none
+    amount: int = 0  # that number, where none is given
+    least: int = 0
+    most: int = 1
+
+
+KINDS: Final[dict[str, Defects]] = {
+    "stuck-low": Defects(help="a data line always reads 0", where="segment", value="bit", amount=5, most=7),
+    "stuck-high": Defects(help="a data line always reads 1", where="segment", value="bit", amount=3, most=7),
+    "dead-interface": Defects(help="nothing passes into or out of a segment", where="segment"),
+    "no-turn": Defects(help="a regenerator does not turn round for answers", where="segment", default=1),
+    "long-strobe": Defects(
+        help="the computer raises /DATA READY late", value="microseconds", amount=35, least=3, most=99
+    ),
+    "slow-lines": Defects(
+        help="a data line that has changed reads so late", value="microseconds", amount=6, most=19
+    ),
+    "dead": Defects(help="a microcomputer does nothing", where="microcomputer"),
+    "clock": Defects(
+        help="the clock of a microcomputer is slow, or fast if negative",
+        where="microcomputer",
+        value="per mille",
+        amount=200,
+        least=-500,
+        most=500,
+    ),
+    "address": Defects(
+        help="a microcomputer takes another number for its own",
+        where="microcomputer",
+        value="number",
+        amount=1,
+        most=255,
+    ),
+    "status-a": Defects(help="status line A is stuck", where="microcomputer", value="level", amount=1),
+    "status-b": Defects(help="status line B is stuck", where="microcomputer", value="level", amount=1),
+    "no-interrupt": Defects(help="the wire that joins the A lines of the motors is broken"),
+}
+"""By name, as `--fault` takes them."""
+
+
+def defect(text: str) -> BusDefect:
+    """The fault that `KIND`, `KIND:WHERE` or `KIND:WHERE:VALUE` names; raises BadArgument.
+
+    A kind that concerns the whole bus has no WHERE.
+    """
+    name, *rest = text.split(":")
+    if name not in KINDS:
+        raise NoSuchName(f"no fault of the bus is called {quoted(name)}; there are {', '.join(KINDS)}")
+    kind = KINDS[name]
+    fields = [*([kind.where] if kind.where else []), *([kind.value] if kind.value else [])]
+    if len(rest) > len(fields):
+        form = ":".join([name, *(field.upper() for field in fields)])
+        raise BadArgument(f"{quoted(text)} says more than the fault has: {form}")
+    where, value = kind.default, kind.amount
+    if kind.where and rest:
+        given = rest.pop(0)
+        if kind.where == "microcomputer" and not given.isdigit():
+            where = number_of(given)
+        else:
+            where = _number(given, kind.where, 0, 255)
+    if rest:
+        value = _number(rest[0], kind.value, kind.least, kind.most)
+    return BusDefect(kind=name, where=where, value=value)
+
+
+def _number(text: str, what: str, least: int, most: int) -> int:
+    try:
+        number = int(text)
+    except ValueError:
+        raise BadArgument(f"the {what} of a fault is a whole number, not {quoted(text)}") from None
+    if not least <= number <= most:
+        raise BadArgument(f"the {what} of a fault is from {least} to {most}, not {number}")
+    return number

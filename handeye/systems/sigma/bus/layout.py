@@ -1,0 +1,87 @@
+"""Who hangs on the bus: segments of ten, the regenerators between them, and pages of status lines."""
+
+from typing import Final, Literal
+
+from handeye.core.errors import BadArgument
+from handeye.core.record import Record
+from handeye.ports.microbus import PAGE
+from handeye.systems.sigma.protocol import AXES, COMPONENTS, NUMBERS, name_of
+
+FAN_OUT: Final = 10  # microcomputers on a segment
+PAGE_BITS: Final = 4  # output bits of the central computer that choose a page
+MORE_PAGE_BITS: Final = 2  # those that 256 microcomputers need besides
+
+Kind = Literal["motor", "force", "hand", "sensor"]
+
+
+class Place(Record, frozen=True, kw_only=True):
+    """A microcomputer: the number it answers to, which its status lines are wired by, and the segment it hangs on."""
+
+    number: int
+    kind: Kind
+    segment: int = 0
+    length: int = 0  # bytes of the answer of a sensor
+
+
+class Layout(Record, frozen=True, kw_only=True):
+    """All microcomputers, and how segments hang on each other."""
+
+    places: tuple[Place, ...]
+    behind: tuple[int, ...] = (-1,)
+    """For each segment, the one that its regenerator is towards; the first has none, and leads to the computer."""
+    more_pages: bool = False  # two more output bits, for 256 microcomputers
+
+    @property
+    def reflexes(self) -> dict[tuple[int, int], int]:
+        """The motor that each component of each force microcomputer interrupts."""
+        there = {place.number for place in self.places}
+        wired = {(NUMBERS[f"FORCE{axis[1]}"], COMPONENTS.index(axis[0])): NUMBERS[axis] for axis in AXES}
+        return {pair: motor for pair, motor in wired.items() if {pair[0], motor} <= there}
+
+    @property
+    def pages(self) -> int:
+        """Pages of status lines that can be chosen."""
+        return 1 << PAGE_BITS + (MORE_PAGE_BITS if self.more_pages else 0)
+
+    def way(self, segment: int) -> tuple[int, ...]:
+        """Segments from the computer to one, that one included."""
+        passed = [segment]
+        while (segment := self.behind[segment]) >= 0:
+            passed.append(segment)
+        return tuple(reversed(passed))
+
+    def check(self) -> None:
+        """Raise BadArgument if it cannot be built."""
+        if not self.behind or self.behind[0] != -1:
+            raise BadArgument("the first segment of a bus is that of the computer, behind no regenerator")
+        for segment, towards in enumerate(self.behind[1:], start=1):
+            if not 0 <= towards < segment:
+                raise BadArgument(f"segment {segment} must be behind an earlier one, not behind {towards}")
+        numbers = [place.number for place in self.places]
+        for place in self.places:
+            if numbers.count(place.number) > 1:
+                raise BadArgument(f"two microcomputers have the number {place.number}")
+            if not 0 <= place.segment < len(self.behind):
+                raise BadArgument(f"there is no segment {place.segment} for {name_of(place.number)}")
+            if not 0 <= place.number < min(self.pages * PAGE, 256):
+                more = "" if self.more_pages else "; two more output bits make 256"
+                raise BadArgument(
+                    f"{self.pages} pages of {PAGE} connect the status lines of microcomputers 0 to "
+                    f"{min(self.pages * PAGE, 256) - 1}, not of {place.number}{more}"
+                )
+        for segment in range(len(self.behind)):
+            if (count := sum(place.segment == segment for place in self.places)) > FAN_OUT:
+                raise BadArgument(
+                    f"{count} microcomputers hang on segment {segment}; it drives {FAN_OUT}, "
+                    "and more need a regenerator"
+                )
+
+
+def _kind(name: str) -> Kind:
+    return "force" if name.startswith("FORCE") else "hand" if name.startswith("HAND") else "motor"
+
+
+SUPERSIGMA: Final = Layout(
+    places=tuple(Place(number=number, kind=_kind(name)) for name, number in NUMBERS.items())
+)
+"""Two arms, which fill one segment."""

@@ -1,0 +1,432 @@
+"""The bus itself behind its port: the central computer's side of the lines, all microcomputers, and the machine.
+
+Nothing is stepped: waves, polls, samples and pulses are known in closed form, and time goes from event to event.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any, Final, Literal
+
+from msgspec import field
+
+from handeye.core.distributions import random_numbers
+from handeye.core.errors import BadFile, Refused
+from handeye.core.mutable_records import MutableRecord, put_back
+from handeye.ports.microbus import PAGE, Command, MicrobusPort, NoAnswer, Status, StrayAnswer
+from handeye.systems.sigma.bus.events import (
+    AnswerEnded,
+    AnyBusEvent,
+    ByteHeard,
+    ByteSpoken,
+    CommandSent,
+    FrameTaken,
+    InterruptLine,
+    StatusLines,
+)
+from handeye.systems.sigma.bus.faults import BusDefect
+from handeye.systems.sigma.bus.layout import SUPERSIGMA, Layout, Place
+from handeye.systems.sigma.bus.microcomputer import Microcomputer, NodeMemory, Taken
+from handeye.systems.sigma.bus.plant import IdealMachine, IdealMemory, Plant
+from handeye.systems.sigma.bus.wires import Sending, Wires
+from handeye.systems.sigma.firmware.device import PS, Crystal
+from handeye.systems.sigma.firmware.force import CONVERTER_N, Force
+from handeye.systems.sigma.firmware.hand import Hand
+from handeye.systems.sigma.firmware.motor import Motor, Pin
+from handeye.systems.sigma.protocol import Timing, name_of
+
+_REMEMBERED: Final = 400  # microseconds for which waves are kept
+_COMPUTER: Final = Crystal()  # the clock of the central computer, by which all others are fast or slow
+_HALF_STEP: Final = CONVERTER_N / 2 + 1e-9  # N that a reading may differ from a force
+_PER_MILLE: Final = 1_000  # ppm
+
+
+class Question(MutableRecord, kw_only=True):
+    """A question whose answer is awaited: the side of the central computer. Times are ps."""
+
+    number: int
+    wanted: int
+    got: bytes = b""
+    phase: Literal["low", "sample", "high", "guard", "over"] = "low"
+    since: int = 0  # when the phase began
+    failed: Literal["", "no answer", "stray byte"] = ""
+
+
+class BusMemory(MutableRecord, kw_only=True):
+    """All that a bus and its machine remember."""
+
+    now: int = 0  # microseconds
+    taken_until: int = 0  # microseconds, by a command
+    sent: tuple[Sending, ...] = ()  # the last ones
+    question: Question | None = None
+    nodes: dict[int, NodeMemory] = field(default_factory=dict)
+    plant: IdealMemory = field(default_factory=IdealMemory)
+
+
+class WiredBus(MicrobusPort):
+    """A bus with its microcomputers, over a machine."""
+
+    def __init__(
+        self,
+        layout: Layout = SUPERSIGMA,
+        *,
+        plant: Plant[Any] | None = None,
+        timing: Timing | None = None,
+        defects: Sequence[BusDefect] = (),
+        seed: int = 0,
+        clock_spread: float = 0.0,
+    ) -> None:
+        """Switch the bus on.
+
+        Args:
+            defects: What is wrong with it.
+            seed: Draws when each microcomputer begins to poll, and its clock.
+            clock_spread: How far clocks are off at most, as a share: .005.
+        """
+        layout.check()
+        self.layout, self.timing = layout, timing or Timing()
+        self.plant: Plant[Any] = plant or IdealMachine()
+        self._wired = layout.reflexes
+        self.wires = Wires(layout, self.timing, defects)
+        self.tell: list[
+            Callable[[AnyBusEvent], None]
+        ] = []  # called with each event, which none can change; some are known ahead of their time
+        self._defects = tuple(defects)
+        self._nodes = {place.number: self._switched_on(place, seed, clock_spread) for place in layout.places}
+        self._memory = BusMemory(plant=self.plant.memory)
+        self._memory.nodes = {number: node.memory for number, node in self._nodes.items()}
+        self._joined = not any(defect.kind == "no-interrupt" for defect in defects)
+        self._reckon()
+
+    def _switched_on(self, place: Place, seed: int, spread: float) -> Microcomputer:
+        drawn = random_numbers(seed, f"microcomputer {place.number}")
+        phase = int(drawn.integers(self.timing.poll * PS))
+        ppm = round(float(drawn.uniform(-spread, spread)) * PS)
+        mine = {d.kind: d.value for d in self._defects if d.where == place.number}
+        return Microcomputer(
+            place,
+            self.timing,
+            answers_to=mine.get("address", place.number),
+            ppm=ppm + mine.get("clock", 0) * _PER_MILLE,
+            phase=phase,
+            dead="dead" in mine,
+        )
+
+    def _reckon(self) -> None:
+        """Work out what follows from the memory."""
+        self._due = {number: self._due_of(number, self.now * PS) for number in self._nodes}
+        self._shown = {number: self._status(number) for number in self._nodes}
+        self._level = self._tied()
+
+    # -- the port ----------------------------------------------------------------------------------------
+
+    @property
+    def now(self) -> int:
+        return self._memory.now
+
+    @property
+    def next_event(self) -> int | None:
+        due = self._next()
+        return None if due is None else max(self.now, -(-due // PS))
+
+    @property
+    def free(self) -> bool:
+        question = self._memory.question
+        return self.now >= self._memory.taken_until and (question is None or question.phase == "over")
+
+    def begin(self, command: Command, answer: int = 0) -> None:
+        memory = self._memory
+        if not self.free:
+            raise Refused("a command or an answer is on the bus; nothing is sent before it is over")
+        sending = Sending(
+            start=self.now,
+            frame=command.frame,
+            falls=self.timing.strobe_falls,
+            rises=self.wires.strobe_rises,
+        )
+        memory.sent = (*(s for s in memory.sent if s.start > self.now - _REMEMBERED), sending)
+        memory.taken_until = self.now + self.timing.command
+        since = memory.taken_until * PS
+        memory.question = Question(number=command.number, wanted=answer, since=since) if answer else None
+        falls, rises = self.wires.strobe(sending)
+        self._say(CommandSent(at=self.now * PS, frame=sending.frame, falls=falls, rises=rises))
+        for number, node in self._nodes.items():
+            if node.memory.listens is not None:
+                self._listen(node, self.now * PS)
+                if node.memory.noticed is not None:
+                    self._due[number] = self._due_of(number, self.now * PS)
+
+    def answer(self) -> bytes:
+        question = self._memory.question
+        if question is None or question.phase != "over":
+            raise Refused("no question has been asked whose answer is over")
+        if question.failed == "no answer":
+            raise NoAnswer(question.number, len(question.got), question.wanted)
+        if question.failed:
+            raise StrayAnswer(question.number)
+        return question.got
+
+    def page(self, number: int) -> int:
+        if not 0 <= number < self.layout.pages:
+            raise Refused(f"there are {self.layout.pages} pages of status lines, from 0; {number} is none")
+        first = number * PAGE
+        return sum(int(self._shown.get(first + place, 0)) << 2 * place for place in range(PAGE))
+
+    @property
+    def interrupt(self) -> bool:
+        return self._level
+
+    def wait(self, until: int) -> int:
+        while self.now < until:
+            due = self._next()
+            moment = until if due is None else min(until, max(self.now, -(-due // PS)))
+            if self._pass(moment):
+                break
+        return self.now
+
+    @property
+    def memory(self) -> BusMemory:
+        return self._memory
+
+    def remember(self, memory: MutableRecord) -> None:
+        if not isinstance(memory, BusMemory) or not self._fits(memory):
+            raise BadFile("what the bus remembers is that of another bus")
+        put_back(self._memory, memory)
+        self.plant.memory = self._memory.plant
+        for number, node in self._nodes.items():
+            node.bind(self._memory.nodes[number])
+        self._reckon()
+
+    def _fits(self, memory: BusMemory) -> bool:
+        mine = {number: type(node.device.memory) for number, node in self._nodes.items()}
+        return {number: type(node.device) for number, node in memory.nodes.items()} == mine
+
+    # -- the machine's side ------------------------------------------------------------------------------
+
+    def motor(self, number: int) -> Motor:
+        """The firmware of a motor."""
+        device = self._nodes[number].device
+        if not isinstance(device, Motor):
+            raise Refused(f"{name_of(number)} is no motor")
+        return device
+
+    def touched(self, *numbers: int) -> None:
+        """Forces, beams or pins of microcomputers have been changed by the machine."""
+        for number in numbers:
+            self._due[number] = self._due_of(number, self.now * PS)
+
+    def pin(self, number: int, pin: Pin, level: bool) -> None:
+        """Change a pin of a motor now."""
+        motor = self.motor(number)
+        if getattr(motor.memory, pin) != level:
+            motor.pin(pin, level, self.now * PS)
+            self._settle(number, self.now * PS)
+
+    # -- events ------------------------------------------------------------------------------------------
+
+    def _next(self) -> int | None:
+        times = [due for due in self._due.values() if due is not None]
+        if self.now < self._memory.taken_until:
+            times.append(self._memory.taken_until * PS)
+        if (due := self._computer_due()) is not None:
+            times.append(due)
+        return min(times) if times else None
+
+    def _pass(self, moment: int) -> bool:
+        """Go on to a moment, through all events up to it; whether anything has changed that the port shows."""
+        before = self.free, self._level, dict(self._shown)
+        while (due := self._next_below(moment)) is not None:
+            for number, at in self._due.items():
+                if at is not None and at <= due:
+                    self._serve(number, at)
+            if (at := self._computer_due()) is not None and at <= due:
+                self._compute(at)
+        self._memory.now = moment
+        return before != (self.free, self._level, self._shown)
+
+    def _next_below(self, moment: int) -> int | None:
+        times = [due for due in self._due.values() if due is not None]
+        if (due := self._computer_due()) is not None:
+            times.append(due)
+        due = min(times, default=None)
+        return due if due is not None and due <= moment * PS else None
+
+    def _due_of(self, number: int, at: int) -> int | None:
+        """When a microcomputer has something to do next, after a moment."""
+        node = self._nodes[number]
+        times = [
+            time for time in (node.due, self._pin_due(node), self._scan_due(node, at)) if time is not None
+        ]
+        return min(times) if times else None
+
+    def _pin_due(self, node: Microcomputer) -> int | None:
+        if node.dead or not isinstance(node.device, Motor):
+            return None
+        change = self.plant.next_pin(node.place.number, node.device)
+        return change[0] if change else None
+
+    def _scan_due(self, node: Microcomputer, at: int) -> int | None:
+        """When a force microcomputer scans next, if that changes anything."""
+        if node.dead or not isinstance(node.device, Force):
+            return None
+        number, device = node.place.number, node.device
+        forces = self.plant.forces(number)
+        read = all(abs(f - r) <= _HALF_STEP for f, r in zip(forces, device.memory.readings, strict=True))
+        if read and all(self.motor(motor).memory.force == level for motor, level in self._reflexes(number)):
+            return None
+        return device.crystal.after(0, self.timing.scan, at + 1)
+
+    def _reflexes(self, number: int) -> list[tuple[int, bool]]:
+        """Motors that a force microcomputer interrupts, and whether it does."""
+        device = self._nodes[number].device
+        assert isinstance(device, Force)
+        pairs = ((self._wired.get((number, c)), level) for c, level in enumerate(device.pins))
+        return [(motor, level) for motor, level in pairs if motor is not None]
+
+    def _serve(self, number: int, at: int) -> None:
+        """Let a microcomputer do what is due."""
+        node, memory = self._nodes[number], self._memory
+        if isinstance(node.device, Motor) and self._pin_due(node) == at:
+            change = self.plant.next_pin(number, node.device)
+            assert change is not None
+            node.device.pin(change[1], change[2], at)
+        if isinstance(node.device, Force) and self._scan_due(node, at - 1) == at:
+            self._scan(node, node.device, at)
+        node.elapse(at)
+        taken = node.receive(at, memory.sent, self._speeches(), self.wires)
+        if taken is not None:
+            own = taken.frame[0] == node.answers_to
+            if isinstance(node.device, Hand):
+                node.device.memory.cut = self.plant.beam(number)
+            if own:
+                node.act(Command.of(taken.frame), at)
+            self._say_taken(number, taken, own=own)
+            if own:
+                self._acted(node)
+        self._settle(number, at)
+
+    def _scan(self, node: Microcomputer, device: Force, at: int) -> None:
+        device.scan(self.plant.forces(node.place.number))
+        for motor, level in self._reflexes(node.place.number):
+            if self.motor(motor).memory.force != level:
+                self.motor(motor).pin("force", level, at)
+                self._settle(motor, at)
+
+    def _acted(self, node: Microcomputer) -> None:
+        if isinstance(node.device, Hand):
+            self.plant.actuate(node.place.number, node.device.memory.devices)
+        speech = node.memory.speech
+        if speech is not None:
+            turned = self.wires.turned(speech)
+            for byte, (start, end) in zip(speech.frame, speech.lows(self.timing), strict=True):
+                self._say(ByteSpoken(at=start, number=speech.number, byte=byte, until=end, turned=turned))
+
+    def _settle(self, number: int, at: int) -> None:
+        """A microcomputer has done something: what it shows, and what it does next."""
+        node = self._nodes[number]
+        self._listen(node, at)
+        self._due[number] = self._due_of(number, at)
+        status = self._status(number)
+        if status != self._shown[number]:
+            self._shown[number] = status
+            self._say(StatusLines(at=at, number=number, status=int(status)))
+            level = self._tied()
+            if level != self._level:
+                self._level = level
+                self._say(InterruptLine(at=at, level=level))
+
+    def _listen(self, node: Microcomputer, at: int) -> None:
+        """Let a microcomputer look for a strobe, if it is free."""
+        for taken in node.listen(at, self._memory.sent, self.wires, quiet=not self._speeches()):
+            self._say_taken(node.place.number, taken, own=False)
+
+    def _status(self, number: int) -> Status:
+        """The status lines of a microcomputer, as they arrive."""
+        status = int(self._nodes[number].status)
+        for defect in self._defects:
+            if defect.where == number and defect.kind in ("status-a", "status-b"):
+                bit = 0b10 if defect.kind == "status-a" else 0b01
+                status = status | bit if defect.value else status & ~bit
+        return Status(status)
+
+    def _tied(self) -> bool:
+        tied = (self._shown[number] for number, node in self._nodes.items() if node.device.tied)
+        return self._joined and any(status.aborted for status in tied)
+
+    def _say_taken(self, number: int, taken: Taken, *, own: bool) -> None:
+        if self.tell:
+            self._say(
+                FrameTaken(
+                    at=taken.checked,
+                    number=number,
+                    frame=taken.frame,
+                    sampled=taken.sampled,
+                    noticed=taken.noticed,
+                    own=own,
+                )
+            )
+
+    def _say(self, event: AnyBusEvent) -> None:
+        for tell in self.tell:
+            tell(event)
+
+    # -- the central computer waits for an answer -----------------------------------------------------------
+
+    def _speeches(self) -> list[Any]:
+        return [node.memory.speech for node in self._nodes.values() if node.memory.speech is not None]
+
+    def _computer_due(self) -> int | None:
+        question, timing = self._memory.question, self.timing
+        if question is None:
+            return None
+        poll = timing.poll
+        match question.phase:
+            case "low":
+                return min(self._low(question) or self._limit(question), self._limit(question))
+            case "sample":
+                return question.since + _COMPUTER.micros(timing.sample)
+            case "high":
+                end = next(
+                    (end for start, end in self._answers() if start <= question.since < end), question.since
+                )
+                return _COMPUTER.after(question.since, poll, end)
+            case "guard":
+                end = question.since + _COMPUTER.micros(timing.answer - timing.answer_low + timing.guard)
+                return min(self._low(question) or end, end)
+            case "over":
+                return None
+
+    def _limit(self, question: Question) -> int:
+        return question.since + _COMPUTER.micros(self.timing.time_limit)
+
+    def _answers(self) -> list[tuple[int, int]]:
+        return self.wires.answers(self._speeches())
+
+    def _low(self, question: Question) -> int | None:
+        """When the computer sees /ANSWER READY low next."""
+        for start, end in self._answers():
+            seen = _COMPUTER.after(question.since, self.timing.poll, max(start, question.since))
+            if seen < end:
+                return seen
+        return None
+
+    def _compute(self, at: int) -> None:
+        question = self._memory.question
+        assert question is not None
+        match question.phase:
+            case "low" if at == self._low(question):
+                question.phase = "sample"
+            case "low":
+                self._over(question, at, "no answer")
+            case "sample":
+                byte = self.wires.heard(at, self._speeches())
+                question.got += bytes((byte,))
+                self._say(ByteHeard(at=at, number=question.number, byte=byte))
+                question.phase = "high"
+            case "high":
+                question.phase = "low" if len(question.got) < question.wanted else "guard"
+            case "guard":
+                self._over(question, at, "stray byte" if at == self._low(question) else "")
+        question.since = at
+
+    def _over(self, question: Question, at: int, failed: Literal["", "no answer", "stray byte"]) -> None:
+        question.phase, question.failed = "over", failed
+        self._say(AnswerEnded(at=at, number=question.number, answer=question.got, failed=failed))

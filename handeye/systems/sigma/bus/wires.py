@@ -1,0 +1,126 @@
+"""Levels of the lines, by segment and time: what a receiver takes that looks at them at a moment of its own.
+
+A command and an answer are waves that are known when they begin. Times are picoseconds.
+"""
+
+from collections.abc import Iterable, Sequence
+from typing import Final
+
+from handeye.core.record import Record
+from handeye.systems.sigma.bus.faults import BusDefect
+from handeye.systems.sigma.bus.layout import Layout
+from handeye.systems.sigma.firmware.device import PS, Crystal
+from handeye.systems.sigma.protocol import Timing
+
+OPEN: Final = 0xFF  # what data lines read that no one drives
+
+
+class Sending(Record, frozen=True, kw_only=True):
+    """A command on the lines, driven by the central computer."""
+
+    start: int  # microseconds
+    frame: bytes
+    falls: int  # microseconds after the start, /DATA READY
+    rises: int
+
+
+class Speech(Record, frozen=True, kw_only=True):
+    """An answer on the lines, driven by a microcomputer."""
+
+    number: int  # its place
+    segment: int
+    frame: bytes
+    begin: int  # ps
+    ppm: int  # of its clock
+
+    def lows(self, timing: Timing) -> list[tuple[int, int]]:
+        """When /ANSWER READY is low, and each byte on the lines: ps from and to."""
+        clock = Crystal(self.ppm)
+        starts = [self.begin + clock.micros(timing.answer * byte) for byte in range(len(self.frame))]
+        return [(start, start + clock.micros(timing.answer_low)) for start in starts]
+
+
+class Wires:
+    """The lines of a bus with its faults."""
+
+    def __init__(self, layout: Layout, timing: Timing, defects: Sequence[BusDefect]) -> None:
+        self.layout, self.timing = layout, timing
+        self.settle = timing.settle + sum(d.value for d in defects if d.kind == "slow-lines")
+        self.strobe_rises = next((d.value for d in defects if d.kind == "long-strobe"), timing.strobe_rises)
+        segments = range(len(layout.behind))
+        low, high = (
+            [sum(1 << d.value for d in defects if (d.kind, d.where) == (kind, s)) for s in segments]
+            for kind in ("stuck-low", "stuck-high")
+        )
+        self._stuck = [*zip(low, high, strict=True)]
+        dead = {d.where for d in defects if d.kind == "dead-interface"}
+        self.cut_off = [bool(dead.intersection(layout.way(segment))) for segment in segments]
+        self._clean = [
+            not self.cut_off[s] and not any(any(self._stuck[w]) for w in layout.way(s)) for s in segments
+        ]
+        self._rigid = {d.where for d in defects if d.kind == "no-turn"}
+
+    def strobe(self, sending: Sending) -> tuple[int, int]:
+        """When /DATA READY reads low for a command: ps from and to."""
+        return (sending.start + sending.falls) * PS, (sending.start + sending.rises) * PS
+
+    def whole(self, sending: Sending, segment: int, first: int, last: int) -> bool:
+        """Whether evenly spaced samples, ps, take each byte of a command as it was sent."""
+        begin, slot = (sending.start + self.settle) * PS, self.timing.slot * PS
+        end = begin + len(sending.frame) * slot
+        return self._clean[segment] and begin <= first < begin + slot and end - slot <= last < end
+
+    def data(self, segment: int, at: int, sent: Iterable[Sending], speeches: Iterable[Speech] = ()) -> int:
+        """The byte that a microcomputer on a segment reads at a moment."""
+        value, then = OPEN, at - self.settle * PS
+        for sending in sent:
+            slot = (then - sending.start * PS) // (self.timing.slot * PS)
+            if 0 <= slot < len(sending.frame):
+                value = sending.frame[slot]
+        for way in self.layout.way(segment):
+            value = self._through(way, value)
+        for speech in speeches:
+            if speech.segment == segment and (byte := self._spoken(speech, at)) is not None:
+                value &= byte
+        return OPEN if self.cut_off[segment] else value
+
+    def heard(self, at: int, speeches: Iterable[Speech]) -> int:
+        """The byte that the central computer reads at a moment."""
+        value = OPEN
+        for speech in speeches:
+            byte = self._spoken(speech, at - self.settle * PS)
+            if byte is None or self.cut_off[speech.segment]:
+                continue
+            for segment in reversed(self.layout.way(speech.segment)):
+                byte = self._through(segment, byte)
+                if segment in self._rigid and segment:
+                    byte = OPEN
+            value &= byte
+        return self._through(0, value)
+
+    def turned(self, speech: Speech) -> tuple[int, ...]:
+        """Segments whose regenerators turn round for an answer."""
+        return tuple(s for s in self.layout.way(speech.segment) if s and s not in self._rigid)
+
+    def answers(self, speeches: Iterable[Speech]) -> list[tuple[int, int]]:
+        """When /ANSWER READY reads low at the central computer: ps from and to, each interval in order."""
+        heard = (speech for speech in speeches if not self.cut_off[speech.segment])
+        lows = sorted(low for speech in heard for low in speech.lows(self.timing))
+        joined: list[tuple[int, int]] = []
+        for start, end in lows:
+            if joined and start <= joined[-1][1]:
+                joined[-1] = joined[-1][0], max(end, joined[-1][1])
+            else:
+                joined.append((start, end))
+        return joined
+
+    def _spoken(self, speech: Speech, at: int) -> int | None:
+        """The byte that a microcomputer drives at a moment; None: its port is open."""
+        for byte, (start, end) in zip(speech.frame, speech.lows(self.timing), strict=True):
+            if start <= at < end:
+                return byte
+        return None
+
+    def _through(self, segment: int, value: int) -> int:
+        low, high = self._stuck[segment]
+        return value & ~low | high

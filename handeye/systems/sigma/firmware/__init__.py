@@ -1,0 +1,1 @@
+"""Firmware of the microcomputers: bytes and pins in, pulses and bytes out."""

@@ -1,0 +1,209 @@
+"""Firmware of a motor: commands become pulse trains; a pin that rises while it moves becomes the steepest stop."""
+
+from typing import Final, Literal
+
+from handeye.core.mutable_records import MutableRecord
+from handeye.ports.microbus import Command, Status
+from handeye.systems.sigma.firmware.device import Crystal, Device
+from handeye.systems.sigma.motors.pulses import (
+    CURVES,
+    RELEASE,
+    SEEK,
+    Curve,
+    Train,
+    constant,
+    profile,
+    stop,
+)
+from handeye.systems.sigma.protocol import LONGEST_MOVE, SLOW_STEP_MM, STEP_MM, Op
+
+Pin = Literal["low", "high", "force"]
+"""End of the rail where counts are low, the other end, and excessive force, behind one gate to the interrupt."""
+State = Literal["still", "moving", "stopping", "seeking", "turning", "releasing"]
+"""`seeking` the low end of the rail, `turning` there, and `releasing` its switch are what ORIGIN does."""
+_BITS: Final = 16
+
+
+class MotorMemory(MutableRecord, kw_only=True, tag="motor"):
+    """What a motor's firmware remembers."""
+
+    state: State = "still"
+    status: Status = Status.FREE
+    train: Train | None = None
+    began: int = 0  # ps
+    sense: int = 1  # of the train, 1 or -1
+    pulses: int = 0  # sent to the driver before the train, forward less backward
+    zero: int = 0  # of them where the count is 0
+    at_abort: int = 0  # count when the last abort began
+    cause: Status = Status.FREE  # of the stop under way
+    pressed: int = 0  # the sense of the motion that has met the force there is
+    curve: int = 0
+    limit: int = 0  # steps/s; 0: none
+    low: bool = False  # levels of its pins
+    high: bool = False
+    force: bool = False
+
+
+class Motor(Device):
+    """The firmware of one motor."""
+
+    memory: MotorMemory
+    tied = True
+
+    def __init__(self, crystal: Crystal) -> None:
+        super().__init__(crystal)
+        self.memory = MotorMemory()
+
+    @property
+    def status(self) -> Status:
+        return self.memory.status
+
+    # -- where it is -------------------------------------------------------------------------------------
+
+    def sent(self, at: int) -> int:
+        """Pulses sent to the driver by a time, forward less backward."""
+        memory = self.memory
+        if memory.train is None:
+            return memory.pulses
+        made = memory.train.pulses.count(self.crystal.ticks_in(at - memory.began))
+        return memory.pulses + memory.sense * made
+
+    def count(self, at: int) -> int:
+        """Its count by a time, steps, as 16 bits with a sign."""
+        half = 1 << _BITS - 1
+        return (self.sent(at) - self.memory.zero + half) % (1 << _BITS) - half
+
+    def speed(self, at: int) -> float:
+        """Steps/s at a time, signed."""
+        memory = self.memory
+        if memory.train is None:
+            return 0.0
+        return memory.sense * memory.train.pulses.speed(self.crystal.ticks_in(at - memory.began))
+
+    def when(self, pulse: int) -> int | None:
+        """When the so-manieth pulse of the train, from 1, is sent; None: never."""
+        memory = self.memory
+        if memory.train is None or not 1 <= pulse <= len(memory.train.pulses):
+            return None
+        # a tick is over once its last picosecond is
+        return memory.began + self.crystal.ticks(int(memory.train.pulses.ticks[pulse - 1])) + 1
+
+    # -- commands ----------------------------------------------------------------------------------------
+
+    def execute(self, command: Command, at: int) -> bytes:
+        memory, code, value = self.memory, command.detail >> 1, command.value
+        sense = -1 if command.detail & 1 else 1
+        match command.op:
+            case Op.POSITION:
+                return self._answer(self.count(at), at)
+            case Op.ABORT_POSITION:
+                return self._answer(memory.at_abort, at)
+        memory.status = Status.FREE
+        match command.op:
+            case Op.MOVE if value:
+                memory.curve = code & 0b111
+                self._move(profile(value, self.shape, memory.limit), sense, at)
+            case Op.MOVE_SLOW if value and code:
+                speed = code * SLOW_STEP_MM / STEP_MM
+                self._move(constant(value, speed, self.shape, memory.limit), sense, at)
+            case Op.LIMIT_SPEED:
+                memory.limit = value
+            case Op.SET_POSITION:
+                memory.zero = memory.pulses - value
+            case Op.ORIGIN:
+                self._seek(at)
+        return b""
+
+    @property
+    def shape(self) -> Curve:
+        """Its curve of acceleration."""
+        return CURVES[self.memory.curve if self.memory.curve < len(CURVES) else 0]
+
+    def _answer(self, count: int, at: int) -> bytes:
+        self.memory.status = Status.FREE
+        return (count & LONGEST_MOVE).to_bytes(2, "big")
+
+    def _move(self, train: Train, sense: int, at: int) -> None:
+        memory = self.memory
+        if memory.low if sense < 0 else memory.high:
+            self._refuse(Status.RAIL, at)
+        elif memory.force and memory.pressed in (0, sense):
+            memory.pressed = sense
+            self._refuse(Status.FORCE, at)
+        else:
+            self._start("moving", train, sense, at)
+
+    def _refuse(self, cause: Status, at: int) -> None:
+        self.memory.status, self.memory.at_abort = cause, self.count(at)
+
+    def _start(self, state: State, train: Train, sense: int, at: int) -> None:
+        memory = self.memory
+        memory.state, memory.train, memory.sense, memory.began = state, train, sense, at
+        memory.status = Status.BUSY
+
+    def _halt(self, at: int) -> float:
+        """Take the train away; the speed until then, steps/s."""
+        memory, speed = self.memory, abs(self.speed(at))
+        memory.pulses, memory.train, memory.state = self.sent(at), None, "still"
+        return speed
+
+    def _seek(self, at: int) -> None:
+        if self.memory.low:
+            self._release(at)
+        else:
+            limit = min(SEEK, self.memory.limit or SEEK)
+            self._start("seeking", profile(LONGEST_MOVE, self.shape, limit), -1, at)
+
+    def _release(self, at: int) -> None:
+        self._start("releasing", constant(LONGEST_MOVE, RELEASE, self.shape), 1, at)
+
+    # -- what comes of itself ------------------------------------------------------------------------------
+
+    @property
+    def due(self) -> int | None:
+        memory = self.memory
+        if memory.train is None:
+            return None
+        return memory.began + self.crystal.ticks(memory.train.pulses.end) + 1
+
+    def elapse(self, at: int) -> None:
+        """The train has ended."""
+        memory, ended = self.memory, self.memory.state
+        self._halt(at)
+        match ended:
+            case "moving":
+                memory.status = Status.FREE
+            case "stopping":
+                memory.status = memory.cause
+            case "turning":
+                self._release(at)
+            case "seeking" | "releasing":  # as far as can be counted, and no switch has acted
+                self._refuse(Status.RAIL, at)
+
+    def pin(self, pin: Pin, level: bool, at: int) -> None:
+        """A pin of the interrupt has changed."""
+        memory = self.memory
+        rose = level and not getattr(memory, pin)
+        setattr(memory, pin, level)
+        match memory.state, pin:
+            case ("moving" | "seeking" | "releasing", "force") if rose:
+                memory.pressed = memory.sense
+                self._abort(Status.FORCE, at)
+            case ("moving", "low" | "high") | ("releasing", "high") if rose:
+                self._abort(Status.RAIL, at)
+            case ("seeking", "low") if rose:
+                self._brake("turning", at)
+            case ("releasing", "low") if not level:
+                self._halt(at)
+                memory.zero, memory.status = memory.pulses, Status.FREE
+        if pin == "force" and not level:
+            memory.pressed = 0
+
+    def _abort(self, cause: Status, at: int) -> None:
+        self.memory.cause, self.memory.at_abort = cause, self.count(at)
+        self._brake("stopping", at)
+
+    def _brake(self, state: State, at: int) -> None:
+        """Stop by the steepest ramp."""
+        speed = self._halt(at)
+        self._start(state, stop(speed, self.shape), self.memory.sense, at)

@@ -1,0 +1,1 @@
+"""Stepping motors: pulse trains, and the rotor that follows them or slips."""

@@ -1,0 +1,170 @@
+"""Pulse trains of the motor microcomputers: when each step is made, by a counter that divides a clock of 2 MHz.
+
+A train is a value of few numbers. Its pulses follow in closed form, so that firmware needs no step of time.
+"""
+
+import math
+from functools import cached_property, lru_cache
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.core.record import Record
+
+CLOCK_HZ: Final = 2_000_000  # of the 8253
+LARGEST_DIVIDER: Final = 0xFFFF  # its counters have 16 bits
+SHORT: Final = 8  # steps that are made at start/stop speed throughout
+EMERGENCY: Final = 140_000.0  # steps/s2, the steepest ramp
+SEEK: Final = 3_000.0  # steps/s towards the end of the rail
+RELEASE: Final = 500.0  # steps/s away from it
+_GRID: Final = 512  # points of a ramp between which its inverse begins
+_NEWTON: Final = 3
+
+Ticks = NDArray[np.int64]  # of the clock of 2 MHz
+
+
+class Curve(Record, frozen=True, kw_only=True):
+    """A curve of acceleration."""
+
+    start: float = 1_000.0  # steps/s at which a motor may start and stop at once
+    top: float = 13_333.0  # steps/s
+    acceleration: float = 56_000.0  # mean of a ramp, steps/s2
+
+
+CURVES: Final = (
+    Curve(),
+    Curve(top=15_000.0),
+    Curve(acceleration=28_000.0),
+    Curve(acceleration=14_000.0),
+    Curve(start=500.0),
+)
+"""By number, as commands select them; an unknown number is the first."""
+
+
+class Train(Record, frozen=True, kw_only=True):
+    """A pulse train: so many steps that begin and end at `start` and go no faster than `top`, or a stop from `top`."""
+
+    kind: Literal["profile", "stop"] = "profile"
+    steps: int  # of a stop: at most
+    start: float  # steps/s
+    top: float
+    acceleration: float = 0.0  # steps/s2
+
+    @property
+    def peak(self) -> float:
+        """Speed that the profile reaches, steps/s."""
+        if self.steps <= SHORT or self.top <= self.start:
+            return min(self.start, self.top)
+        return min(self.top, math.sqrt(self.start**2 + self.steps * self.acceleration))
+
+    @property
+    def pulses(self) -> "Pulses":
+        """When its steps are made."""
+        return _pulses(self)
+
+
+class Pulses:
+    """Pulses of a train."""
+
+    def __init__(self, ticks: Ticks) -> None:
+        self.ticks = ticks  # of each pulse after the command, rising
+        ticks.setflags(write=False)
+
+    def __len__(self) -> int:
+        return len(self.ticks)
+
+    @property
+    def end(self) -> int:
+        """Ticks until the last pulse; 0 if there is none."""
+        return int(self.ticks[-1]) if len(self.ticks) else 0
+
+    @cached_property
+    def dividers(self) -> Ticks:
+        """What the counter divides by before each pulse."""
+        return np.diff(self.ticks, prepend=0)
+
+    def count(self, ticks: int) -> int:
+        """Pulses made by a time."""
+        return int(np.searchsorted(self.ticks, ticks, side="right"))
+
+    def speed(self, ticks: int) -> float:
+        """Steps/s at a time; 0 behind the end."""
+        done = self.count(ticks)
+        return CLOCK_HZ / int(self.dividers[done]) if done < len(self.ticks) else 0.0
+
+    @property
+    def seconds(self) -> float:
+        """Until the last pulse."""
+        return self.end / CLOCK_HZ
+
+
+def profile(steps: int, curve: Curve, limit: float = 0.0) -> Train:
+    """The train of a move: constant if very short, else a ramp up and down, with a flat part if it is long.
+
+    Args:
+        steps: From 1.
+        limit: Greatest speed, steps/s; 0: that of the curve.
+    """
+    top = min(curve.top, limit) if limit else curve.top
+    return Train(steps=steps, start=min(curve.start, top), top=top, acceleration=curve.acceleration)
+
+
+def constant(steps: int, speed: float, curve: Curve, limit: float = 0.0, *, ramped: bool = True) -> Train:
+    """The train of a move at constant speed, steps/s; above start/stop speed it has ramps, unless `ramped` is off."""
+    speed = min(speed, limit) if limit else speed
+    start = min(curve.start, speed) if ramped else speed
+    return Train(steps=steps, start=start, top=speed, acceleration=curve.acceleration)
+
+
+def stop(speed: float, curve: Curve) -> Train:
+    """The steepest ramp from a speed, steps/s, down to that at which a motor may stop."""
+    steps = max(0, math.ceil((speed**2 - curve.start**2) / (2 * EMERGENCY)))
+    return Train(kind="stop", steps=steps, start=curve.start, top=speed, acceleration=EMERGENCY)
+
+
+@lru_cache(maxsize=512)
+def _pulses(train: Train) -> Pulses:
+    seconds = _stop_times(train) if train.kind == "stop" else _profile_times(train)
+    dividers = np.rint(np.diff(seconds, prepend=0.0) * CLOCK_HZ).astype(np.int64)
+    return Pulses(np.cumsum(np.clip(dividers, 1, LARGEST_DIVIDER)))
+
+
+def _stop_times(train: Train) -> NDArray[np.float64]:
+    """Pulses of an even deceleration."""
+    speeds = np.sqrt(
+        np.maximum(train.top**2 - 2 * train.acceleration * np.arange(1, train.steps + 1), train.start**2)
+    )
+    return np.asarray((train.top - speeds) / train.acceleration)
+
+
+def _profile_times(train: Train) -> NDArray[np.float64]:
+    """Pulses of two ramps that are raised cosines, and of what is between them."""
+    steps, start, peak = train.steps, train.start, train.peak
+    made = np.arange(1.0, steps + 1)
+    if peak <= start:
+        return made / peak
+    ramp = (peak - start) / train.acceleration  # s
+    length = (peak + start) * ramp / 2  # steps
+    flat = max(0.0, steps - 2 * length) / peak  # s
+    up, left = made <= length, steps - made
+    down = left < length
+    times = ramp + (made - length) / peak
+    times[down] = 2 * ramp + flat - _ramp_times(left[down], start, peak, ramp)
+    times[up] = _ramp_times(made[up], start, peak, ramp)
+    return times
+
+
+def _ramp_times(steps: NDArray[np.float64], start: float, peak: float, ramp: float) -> NDArray[np.float64]:
+    """When so many steps of a ramp from `start` to `peak` are made that takes `ramp` s."""
+
+    def made(time: NDArray[np.float64]) -> NDArray[np.float64]:
+        turned = ramp / math.pi * np.sin(math.pi * time / ramp)
+        return start * time + (peak - start) * (time - turned) / 2
+
+    grid = np.linspace(0.0, ramp, _GRID)
+    time = np.interp(steps, made(grid), grid)
+    for _ in range(_NEWTON):
+        speed = start + (peak - start) * (1 - np.cos(math.pi * time / ramp)) / 2
+        time = np.clip(time - (made(time) - steps) / speed, 0.0, ramp)
+    return time
