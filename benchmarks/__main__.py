@@ -304,7 +304,7 @@ def breaking(
             help="Interrupt the arm while it takes the pump apart: kill it ten times, or press Ctrl-C.",
         ),
     ] = False,
-    jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
+    jobs: Annotated[WholeNumber, Parameter(help="Number of processes at a time.")] = 2,
 ) -> int:
     """Interrupt runs, resume them, and check that the result is the same.
 

@@ -130,14 +130,17 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
     [
         (("assemble", "--seed", "-1"), f"{SEED}; -1 is not"),
         (("assemble", "--seed", "x"), "--seed: `x` is not a whole number"),
-        (("assemble", "--camera", "film"), "--camera is one of auto, gl, ray; `film` is none of them"),
+        (("assemble", "--camera", "film"), "--camera is one of auto, gl, ray, not `film`"),
         (("trials", "assembly", "--seeds", "9-3"), "`9-3` is neither"),
         (("trials", "assembly", "--seeds", "9" * 5000), "is neither"),
         (("trials", "assembly", "--seeds", "١-٣"), "is neither"),
         (("trials", "assembly", "--seeds", "9" * 19), f"{SEED}; {'9' * 19} is not"),
         (("trials", "assembly", "--seeds", "3,,4"), "`` is neither"),
         (("trials", "assembly", "--seeds", "0-5,3"), "--seeds names 3 twice"),
-        (("trials", "assembly", "--seeds", f"0-999999,{2**53 - 1}"), "at most 1,000,000 trials can be had"),
+        (
+            ("trials", "assembly", "--seeds", f"0-999999,{2**53 - 1}"),
+            "the number of trials can be 1,000,000 at most",
+        ),
         *(
             ((*words, "--seed", str(2**53 - 1), "--n", "2"), f"{SEED}; 9007199254740992 is not")
             for words in (
@@ -151,12 +154,12 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
             )
         ),
         (("bench", "insertion", "--seed", str(2**53 - 1), "--n", "11"), f"{SEED}; 9007199254740992 is not"),
-        (("trials", "assembly", "--seeds", "3", "--n", "2"), "--seeds says both: leave --n and --seed out"),
+        (("trials", "assembly", "--seeds", "3", "--n", "2"), "--seeds replaces --n and --seed"),
         (
             ("trials", "assembly", "--n", "3", "--only", "3"),
             "there is no trial 3: this batch has trials 0 to 2",
         ),
-        (("trials", "assembly", "--n", "0"), "at least one trial is needed; 0 is too few"),
+        (("trials", "assembly", "--n", "0"), "the number of trials must be at least 1, not 0"),
         (
             ("trials", "assembly", "--cpu-limit", "0"),
             "a limit of time is a number of seconds above 0; 0 is not",
@@ -169,15 +172,18 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
             ("trials", "assembly", "--simulated-limit", "1e999"),
             "a limit of time is a number of seconds above 0",
         ),
-        (("trials", "assembly", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
-        (("trials", "assembly", "--seeds", f"0-{2**53 - 1}"), "at most 1,000,000 trials can be had"),
-        (("trials", "base", "9" * 20), "at most 1,000,000 worlds can be had"),
-        (("trials", "pallet", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
-        (("bench", "insertion", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
+        (("trials", "assembly", "--n", "9" * 20), "the number of trials can be 1,000,000 at most"),
+        (
+            ("trials", "assembly", "--seeds", f"0-{2**53 - 1}"),
+            "the number of trials can be 1,000,000 at most",
+        ),
+        (("trials", "base", "9" * 20), "the number of worlds can be 1,000,000 at most"),
+        (("trials", "pallet", "--n", "9" * 20), "the number of trials can be 1,000,000 at most"),
+        (("bench", "insertion", "--n", "9" * 20), "the number of trials can be 1,000,000 at most"),
         (("faults", "--list", "--only", "rotr"), "there is no fault `rotr`; there are `finger_switch`"),
-        (("faults", "--list", "--stage", "pins"), "--list tries nothing: leave --stage and --out out"),
-        (("faults", "--list", "--out", "it"), "--list tries nothing: leave --stage and --out out"),
-        (("faults", "--list", "--workers", "0"), "at least one worker is needed; 0 is too few"),
+        (("faults", "--list", "--stage", "pins"), "--list runs nothing: leave out --stage and --out"),
+        (("faults", "--list", "--out", "it"), "--list runs nothing: leave out --stage and --out"),
+        (("faults", "--list", "--workers", "0"), "the number of workers must be at least 1, not 0"),
         (("frobnicate",), "there is no command `frobnicate`"),
     ],
 )
@@ -200,7 +206,7 @@ def test_a_script_in_the_place_of_a_plan_is_told_from_one(
 def test_no_more_errors_are_counted_than_are_told(command: Command, lines: int, count: str) -> None:
     Path("wrong.al").write_text("FLY\n" * lines, encoding="utf-8")
     assert (
-        command("plan", "wrong.al")[2].splitlines()[-1] == f"handeye: wrong.al has {count}; there is no plan"
+        command("plan", "wrong.al")[2].splitlines()[-1] == f"handeye: wrong.al has {count}; no plan was made"
     )
 
 
@@ -387,4 +393,4 @@ def test_too_little_memory_is_told_in_a_sentence(
 
     monkeypatch.setattr(scripts, "script_at", fail)
     code, _, err = command("check", "a.al")
-    assert (code, err.startswith("handeye: there is not enough memory; ")) == (2, True)
+    assert (code, err.startswith("handeye: out of memory; ")) == (2, True)

@@ -97,7 +97,7 @@ def test_a_plan_that_replaces_another_says_so(command: Command, planned: Planned
     told.append(command("plan", "job.al", "-o", "it")[1])
     assert told == [
         *["it: 1 step, 0 motions, 1 stage\n"] * 2,
-        "it: 1 step, 0 motions, 1 stage; another plan was there\n",
+        "it: 1 step, 0 motions, 1 stage, replacing another plan\n",
     ]
 
 

@@ -45,14 +45,14 @@ def test_a_file_of_the_name_wins_and_a_folder_does_not(command: Command) -> None
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("run water_pmup", "water_pmup: there is no such file, and no program is called so; did you mean"),
+        ("run water_pmup", "water_pmup: there is no such file, and no program of that name; did you mean"),
         ("run palletise", "the task `palletise`: TRIG cannot follow a plan of motions: its programs are taught in the "
          "world they work in; `handeye trig palletise`, "),
         ("export mjcf --task palletise -o out", "the task `palletise` exports no scene\n"),
         ("trig palletise --task bucket", "`trig palletise` has no option `--task` (see"),
         (
             "check insertion --task water_pump",
-            "the program `insertion` is of the task `insertion`, not of `water_pump`; leave --task out",
+            "the program `insertion` is of the task `insertion`, not of `water_pump`; leave out --task",
         ),
         (
             "world --task clock:TASK",
@@ -109,7 +109,7 @@ def test_a_pin_that_was_put_in_is_put_back_into_its_holder(command: Command) -> 
     ("words", "said"),
     [
         ("world --task palletise", ""),
-        ("trials disturbed --list --task insertion", "nothing can be disturbed in the work of this task"),
+        ("trials disturbed --list --task insertion", "this task has no disturbances"),
         ("trials base 1 --task insertion", "the task `insertion` has no trial `base`"),
     ],
 )

@@ -80,7 +80,7 @@ def test_no_such_run(command: Command) -> None:
 def test_an_event_list_does_not_say_where_things_were(command: Command) -> None:
     Path("events.jsonl").write_text("", encoding="utf-8")
     assert refused(command, "events.jsonl", "-o", "page.html") == (
-        "events.jsonl is an event list, which does not say where things were; take the trace.mcap"
+        "events.jsonl is an event list, which holds no positions; use the trace.mcap"
     )
 
 
@@ -138,7 +138,7 @@ def test_a_trace_that_was_cut_short_is_shown_as_far_as_it_goes(command: Command,
 
 def test_a_report_of_an_assembly_needs_a_folder(command: Command) -> None:
     code, _, err = command("assemble", "--report")
-    assert (code, err) == (2, "handeye: --report needs --out, the folder that the page is left in\n")
+    assert (code, err) == (2, "handeye: --report needs --out, the folder to write the page to\n")
 
 
 def test_a_run_leaves_its_report(
@@ -191,7 +191,7 @@ def test_the_demo_takes_less_than_an_eighth_of_a_megabyte_for_a_minute_of_its_ru
 
 @pytest.mark.parametrize("words", [(), ("kept", "--demo")])
 def test_a_report_is_of_one_run(command: Command, words: tuple[str, ...]) -> None:
-    assert refused(command, *words) == "a report is of one run: give its folder or its trace, or --demo"
+    assert refused(command, *words) == "name a run, by its folder or its trace, or give --demo"
 
 
 def test_a_picture_that_a_run_has_left_and_nobody_can_read_is_missing(
@@ -208,4 +208,4 @@ def test_a_trace_is_thinned_where_nothing_is_yet(command: Command, kept: Path) -
     assert command("trace", "thin", "kept", "-o", "thin.mcap")[0] == 0
     assert command("trace", "thin", "kept", "-o", "thin.mcap")[2].endswith("--overwrite replaces it\n")
     code, _, err = command("trace", "thin", "kept", "-o", "kept/trace.mcap", "--overwrite")
-    assert (code, err) == (2, "handeye: kept/trace.mcap holds the trace that is to be thinned\n")
+    assert (code, err) == (2, "handeye: kept/trace.mcap is the trace to be thinned; choose another file\n")

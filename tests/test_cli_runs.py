@@ -77,7 +77,7 @@ def test_a_stage_alone_without_a_checkpoint_has_the_earlier_ones_carried_out_fir
     code, out, err = command("run", planned(SCRIPT), "--stage", "once", "--json")
     assert (code, json.loads(out)["paused"]) == (0, True)
     assert done(out) == {"to and fro": "done", "once more": "done", "feel": "not reached"}
-    assert "no checkpoint of “once more” for this plan and world: carrying out the steps before it" in err
+    assert "no checkpoint of “once more” for this plan and world: running the steps before it" in err
 
 
 def test_a_stage_alone_begins_at_its_checkpoint_if_there_is_one(
@@ -109,12 +109,12 @@ def test_from_and_to_bound_a_run(command: Command, planned: Planned) -> None:
     ("words", "sentence"),
     [
         (("--stage", "onze"), "onze"),
-        (("--stage", "feel", "--to", "feel"), "--stage excludes --from and --to"),
-        (("--live",), "--live goes with --step"),
+        (("--stage", "feel", "--to", "feel"), "--stage cannot be given with --from or --to"),
+        (("--live",), "--live needs --step"),
         (("--until", "99"), "99"),
         (("--break", "NOWHERE"), "NOWHERE"),
         (("--stage", ""), "there is no stage"),
-        (("--from", "3", "--to", "1"), "the run begins with “feel”, after “to and fro”"),
+        (("--from", "3", "--to", "1"), "the run would begin with “feel”, which is after “to and fro”"),
         (("--break", "error:99"), "99"),
         (("--on-stop", "sleep"), "sleep"),
         (("--on-stop", "retry:x"), "retry:x"),
@@ -167,11 +167,11 @@ def test_a_break_that_lies_behind_the_start_is_told(command: Command, planned: P
     code, _, err = command(
         "run", planned(SCRIPT), "--stage", "2", "--break", "to and fro", "--checkpoints", "kept"
     )
-    assert (code, "kept is new; checkpoints are saved there" in err) == (0, True)
+    assert (code, "created kept for the checkpoints" in err) == (0, True)
     code, _, err = command(
         "run", planned(SCRIPT), "--stage", "2", "--break", "to and fro", "--checkpoints", "kept"
     )
-    assert (code, "the run never reaches to and fro from where it begins" in err) == (0, True)
+    assert (code, "the run never reaches to and fro from where it starts" in err) == (0, True)
 
 
 def test_a_step_that_lies_behind_the_start_is_no_place_to_stop(command: Command, planned: Planned) -> None:
@@ -179,7 +179,7 @@ def test_a_step_that_lies_behind_the_start_is_no_place_to_stop(command: Command,
     assert command("run", plan, "--to", "1", "--checkpoints", "kept")[0] == 0
     code, out, err = command("run", plan, "--from", "2", "--until", "TO", "--checkpoints", "kept")
     assert (code, out) == (2, "")
-    assert "the run never reaches step 1 from where it begins" in err
+    assert "the run never reaches step 1 from where it starts" in err
 
 
 def test_the_referee_looks_at_what_is_gone_on_with_if_it_was_to_look_at_the_run(
@@ -208,7 +208,7 @@ def test_the_checkpoints_of_a_run_stand_for_it(command: Command, planned: Planne
 def test_a_stage_that_has_ended_is_no_place_to_stop_any_more(command: Command, planned: Planned) -> None:
     assert command("run", planned(SCRIPT), "--to", "2", "--out", "it")[0] == 0
     code, _, err = command("resume", "it", "--to", "1")
-    assert (code, "the run begins with “feel”, after “to and fro”" in err) == (2, True)
+    assert (code, "the run would begin with “feel”, which is after “to and fro”" in err) == (2, True)
 
 
 @pytest.mark.parametrize(
@@ -243,7 +243,7 @@ def test_a_run_that_has_ended_is_shown_and_not_resumed(command: Command, planned
     for words, code in ((("resume", "it"), 3), (("show", "it"), 0)):
         ended, out, err = command(*words, "--json")
         assert (ended, out.encode()) == (code, before[Path("it/result.json")])
-        assert ("the run in it has ended: there is nothing to be resumed" in err) == (code == 3)
+        assert ("the run in it has ended: there is nothing to resume" in err) == (code == 3)
     assert everything("it") == before
 
 
@@ -529,7 +529,7 @@ def test_a_trace_that_was_lost_is_told_of_and_shows_nothing_that_it_does_not_hol
     assert "resuming after 5 steps: feel" in err
     assert "the trace in again was lost or damaged: it lacks the motions before " in err
     code, _, err = command("trace", "verify", "again")
-    assert (code, "are not in this trace, and were not compared" in err) == (0, True)
+    assert (code, "are not in this trace and were not compared" in err) == (0, True)
     code, _, err = command("trace", "photograph", "again", "--at", "1", "-o", "it.png")
     assert (code, "; 1 s is outside" in err) == (2, True)
 
@@ -608,9 +608,9 @@ def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
     ("found", "code", "said"),
     [
         (Repetition(), 0, "it repeats: the same"),
-        (Repetition(rounded="A"), 0, "it repeats but for last places, on another kind of processor: the same"),
+        (Repetition(rounded="A"), 0, "it repeats except for rounding, on another kind of processor: the same"),
         (Repetition(parts="B"), 1, "it does not repeat, on another kind of processor: B"),
-        (Repetition(parts="B", rounded="A"), 1, "processors round differently, differ before that: A"),
+        (Repetition(parts="B", rounded="A"), 1, "numbers differ only by rounding, as between kinds of processors: A"),
     ],
 )  # fmt: skip
 def test_verify_has_three_answers_and_names_the_processors(

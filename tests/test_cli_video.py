@@ -115,7 +115,7 @@ def test_a_wrong_argument_is_told_in_a_sentence(kept: Path, wrong: dict[str, Any
 
 
 REFUSALS = {
-    ("--size", "480"): "`480` is no size; one is written as 480x360",
+    ("--size", "480"): "`480` is not a size; write it as 480x360",
     ("--size", "4x4"): "a video of 4 x 4 cannot be made; a side has 8 to 2048 points",
     ("--seconds", "0"): "a video takes up to 600 s, and not 0.0 s",
     ("--speed", "nan"): "a video is some times as fast as the run, and not nan times",
@@ -193,7 +193,7 @@ def test_a_run_taken_up_from_a_checkpoint_shows_what_was_recorded(command: Comma
 def test_an_event_list_does_not_say_where_things_were(command: Command) -> None:
     Path("events.jsonl").write_text("", encoding="utf-8")
     assert refused(command, "events.jsonl") == (
-        "events.jsonl is an event list, which does not say where things were; take the trace.mcap"
+        "events.jsonl is an event list, which holds no positions; use the trace.mcap"
     )
 
 
@@ -213,7 +213,7 @@ def test_a_trace_that_was_cut_short_is_shown_as_far_as_it_goes(command: Command,
     data = (kept / "trace.mcap").read_bytes()
     Path("cut.mcap").write_bytes(data[: len(data) - 40])
     code, _, err = command("video", "cut.mcap", *SMALL)
-    assert (code, err.splitlines()[0]) == (0, "cut.mcap was cut short; this is a video of what it holds")
+    assert (code, err.splitlines()[0]) == (0, "cut.mcap was cut short; the video shows what it holds")
 
 
 @pytest.mark.parametrize("name", ["it.webp", "it.webm"])

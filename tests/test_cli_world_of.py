@@ -63,7 +63,7 @@ def test_a_world_of_ones_own_does_not_go_with_that_of_a_run(
 ) -> None:
     others = "--seed, --level, --without, --set, --scale, --fault and --camera"
     assert refused(command, recorded, "--world-of", "run", *words) == (
-        f"run brings its own world; {others} do not go with --world-of"
+        f"run brings its own world; {others} cannot be given with --world-of"
     )
 
 
@@ -80,7 +80,7 @@ def begins_otherwise(**fields: object) -> str:
 def test_a_world_of_another_version_is_refused(command: Command, recorded: str) -> None:
     other = begins_otherwise(world=msgspec.structs.replace(head("run").world, drawing=DRAWING - 1))
     assert refused(command, recorded, "--world-of", other) == (
-        "the world of other.jsonl was drawn by another handeye: seed 3 gives another world here "
+        "the world of other.jsonl comes from another version of handeye: seed 3 gives a different world here "
         f"(drawing {DRAWING - 1} there, {DRAWING} here)"
     )
 
@@ -88,7 +88,7 @@ def test_a_world_of_another_version_is_refused(command: Command, recorded: str) 
 def test_a_world_with_code_of_somebody_elses_is_refused(command: Command, recorded: str) -> None:
     other = begins_otherwise(replaced={"camera": "fog.Foggy"})
     assert refused(command, recorded, "--world-of", other) == (
-        "other.jsonl was carried out with code of its caller for camera, which is not here"
+        "other.jsonl used code of its caller for camera, which is not available here"
     )
 
 
@@ -97,12 +97,12 @@ def test_a_fault_that_cannot_set_in_is_told(
 ) -> None:
     short = planned("OPEN 1\n")
     assert refused(command, short, "--world-of", "run") == (
-        "the fault lamp.dead from stage 2 on in the world of run cannot set in: the plan has 1 stage"
+        "the fault lamp.dead from stage 2 on in the world of run cannot begin: the plan has only 1 stage"
     )
 
 
 def test_an_event_list_without_a_beginning_tells_no_world(command: Command, recorded: str) -> None:
     Path("empty.jsonl").touch()
     assert refused(command, recorded, "--world-of", "empty.jsonl") == (
-        "empty.jsonl does not hold the start of a run, which tells its world"
+        "empty.jsonl does not hold the start of a run, where its world is recorded"
     )

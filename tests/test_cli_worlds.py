@@ -124,8 +124,8 @@ def test_without_a_group_nothing_else_changes(command: Command) -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("--without", ""), "--without needs names of errors, with one comma between two"),
-        (("--without", "base.x,,camera"), "--without needs names of errors, with one comma between two"),
+        (("--without", ""), "--without needs names of errors, separated by single commas"),
+        (("--without", "base.x,,camera"), "--without needs names of errors, separated by single commas"),
         (("--without", "camra"), "the world has no quantity `camra`; did you mean `camera`?"),
         (
             ("--without", "arm.offset.7"),
@@ -250,9 +250,7 @@ def test_checkpoints_of_two_worlds_do_not_mix(command: Command, half_run: Path) 
 def test_a_checkpoint_brings_its_own_world(command: Command, half_run: Path, words: tuple[str, str]) -> None:
     kept = next((half_run / "checkpoints").glob("0002-*"))
     code, _, err = command("do", "OPEN 1", "--from", str(kept), *words)
-    told = (
-        "brings its own world; --seed, --level, --without, --set, --scale and --fault do not go with --from\n"
-    )
+    told = "brings its own world; --seed, --level, --without, --set, --scale and --fault cannot be given with --from\n"
     assert (code, err) == (2, f"handeye: {kept} {told}")
 
 

@@ -69,6 +69,6 @@ def test_for_an_unknown_shell_nothing_is_written(
     assert command("--install-completion") == (
         2,
         "",
-        f"handeye: completion can be written for bash, zsh and fish, and {found}: choose one with --shell\n",
+        f"handeye: completion is available for bash, zsh and fish, and {found}: choose one with --shell\n",
     )
     assert [*home.iterdir()] == []

@@ -1,4 +1,4 @@
-"""The command line: parses arguments, wires concrete things together, prints."""
+"""The command line: parses arguments, connects the parts, prints."""
 
 import codecs
 import io
@@ -25,7 +25,8 @@ _NO_MEMORY: Final = "allocate memory"
 app = App(
     name="handeye",
     version=HANDEYE,
-    help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.\n\n`handeye COMMAND --help` tells more.",
+    help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.\n\n`handeye COMMAND --help` shows the "
+    "options of a command.",
     suppress_keyboard_interrupt=False,
     default_parameter=Parameter(negative=""),
     console=screen,
@@ -39,7 +40,7 @@ completion.register(app)
 
 
 def main() -> NoReturn:
-    """Run the command line; the exit code says how it went."""
+    """Run the command line and return its exit code."""
     prepare_streams()
     try:
         code = _carried_out()
@@ -54,7 +55,7 @@ def main() -> NoReturn:
 
 
 def _carried_out() -> int:
-    """The exit code of the command that was typed; raises OSError if what there was to say cannot be written."""
+    """The exit code of the command as typed; raises OSError if its output cannot be written."""
     try:
         with heard(break_in):
             code = app(result_action="return_value", exit_on_error=False, print_error=False)
@@ -69,7 +70,7 @@ def _carried_out() -> int:
         return INTERRUPTED
     except UnicodeEncodeError as error:  # Python keeps byte 0xff of a name as U+DCFF, which nothing can write
         byte = ord(error.object[error.start]) & 0xFF
-        return _complained(f"a name with the byte {byte:#04x} in it is not UTF-8 text; choose another")
+        return _complained(f"a name with the byte {byte:#04x} in it is not UTF-8 text; choose another name")
     except OSError as error:  # a path that is too long, a folder that may not be looked into
         if error.filename is None:
             raise
@@ -77,7 +78,7 @@ def _carried_out() -> int:
     except Exception as error:  # MuJoCo's is a ValueError
         if not (isinstance(error, MemoryError) or _NO_MEMORY in str(error)):
             raise
-        return _complained("there is not enough memory; end other programs, or raise the limit (`ulimit -v`)")
+        return _complained("out of memory; close other programs, or raise the limit (`ulimit -v`)")
     return code if isinstance(code, int) else 0
 
 
@@ -98,9 +99,9 @@ _PLAIN: Final = "handeye.plain"
 
 
 def prepare_streams() -> None:
-    """Make the standard streams such that no character raises: one that the encoding lacks has a stand-in, or `?`.
+    """Make the standard streams accept every character: one that the encoding lacks becomes a similar one, or `?`.
 
-    The null device is in the place of a stream that was closed before we came.
+    A stream that was closed before the start becomes the null device.
     """
     codecs.register_error(_PLAIN, _stand_in)
     for name, mode, errors in (("stdin", "r", "replace"), ("stdout", "w", _PLAIN), ("stderr", "w", _PLAIN)):
@@ -112,7 +113,7 @@ def prepare_streams() -> None:
 
 
 def let_go_of_streams() -> None:
-    """Drop what cannot be written any more, so that the interpreter does not try again when it ends."""
+    """Drop output that can no longer be written, so that the interpreter does not try again at exit."""
     for stream in (sys.stdout, sys.stderr):
         if stream.closed:
             continue
@@ -123,7 +124,7 @@ def let_go_of_streams() -> None:
 
 
 def _stand_in(error: UnicodeError) -> tuple[str, int]:
-    """The replacement for characters that an encoding lacks, and the position at which the text goes on."""
+    """The replacement for characters that an encoding lacks, and the position at which encoding continues."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
     lacking = error.object[error.start : error.end]

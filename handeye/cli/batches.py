@@ -1,4 +1,4 @@
-"""Commands that carry plans out in many worlds, and that compare batches of trials."""
+"""Commands that run plans in many worlds, and that compare batches of trials."""
 
 import re
 import shlex
@@ -40,73 +40,75 @@ PlanOption = Annotated[
     Path | None,
     Parameter(
         name="--plan",
-        help="A plan made by `handeye plan`, or the name of a program; by default that of the task.",
+        help="A plan made by `handeye plan`, or the name of a program. Default: the program of the task.",
     ),
 ]
 
 
 def assembly_trials(
     *,
-    n: Annotated[WholeNumber | None, Parameter(help=f"How many trials; by default {COUNT}.")] = None,
+    n: Annotated[WholeNumber | None, Parameter(help=f"Number of trials. Default: {COUNT}.")] = None,
     seed: Annotated[
         WholeNumber | None,
-        Parameter(group=WORLD, help="World of trial 0, by default 0; trial K has a number greater by K."),
+        Parameter(group=WORLD, help="Seed of trial 0; trial K has this seed plus K. Default: 0."),
     ] = None,
     seeds: Annotated[
         str | None,
         Parameter(
-            help="In the place of --seed and --n: the worlds of the trials, as numbers and ranges with commas between "
-            "them, such as 20261126,0-19."
+            help="Instead of --seed and --n: the seeds of the trials, as numbers and ranges separated by commas, "
+            "such as 20261126,0-19."
         ),
     ] = None,
     errors: ErrorOptions = ANY_ERRORS,
     fault: Faults = None,
     plan: PlanOption = None,
-    only: Annotated[WholeNumber | None, Parameter(help="Carry out trial K alone, from 0.")] = None,
+    only: Annotated[WholeNumber | None, Parameter(help="Run only trial K (the first is 0).")] = None,
     engine: Annotated[
         Literal["process", "dask"],
-        Parameter(help="What carries trials out: processes of this computer, or workers of dask."),
+        Parameter(help="Where trials run: in processes on this computer, or on dask workers."),
     ] = "process",
     scheduler: Annotated[
         str | None,
-        Parameter(help="With --engine dask: address of a scheduler; by default, workers are begun here."),
+        Parameter(
+            help="With --engine dask: address of a scheduler. Default: start workers on this computer."
+        ),
     ] = None,
     camera: Camera = "auto",
     on_stop: Annotated[
         str,
         Parameter(
-            help="How calls of the operator are answered: `abort`, `retry:N`, `unwind` or `unwind:STAGE`, as in "
-            "`assemble`."
+            help="How to answer when the program calls the operator: `abort`, `retry:N`, `unwind` or `unwind:STAGE`, "
+            "as in `assemble`."
         ),
     ] = "abort",
     simulated_limit: Annotated[
-        float, Parameter(help="Seconds of the cell's clock after which a trial counts as failed.")
+        float, Parameter(help="Simulated seconds after which a trial counts as failed.")
     ] = 3600.0,
     cpu_limit: Annotated[
         float,
         Parameter(
-            help="Seconds of a processor after which a trial is broken off. Time in which the computer sleeps or does "
-            "other work is not counted."
+            help="CPU seconds after which a trial is stopped. Time in which the computer sleeps or does other work "
+            "does not count."
         ),
     ] = 1800.0,
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble in many worlds and count: how often, how sure that is, and what failed where.
+    """Assemble in many worlds: success rate with its confidence interval, and what failed where.
 
-    The figures are the same for any number of workers. A trial whose process is killed is tried once more; an
-    exception counts as a failure. What this computer broke off is tried again where the batch goes on. With --out the
-    figures are drawn on a page, too: figures.html in the folder.
+    The figures are the same for any number of workers. A trial whose process is killed is repeated once; an exception
+    counts as a failure. Trials that this computer stopped are repeated when the batch continues. With --out, the
+    folder also gets a page with the figures: figures.html.
 
-    Exit code 0: no silent failure; 1: every trial broke off; 3: in some world the program said done and the referee
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some world the program reported success and the referee
     disagreed; 2: bad input; 130: interrupted.
     """
     from handeye.trials.plans.trial import ASSEMBLY, Trial
     from handeye.trials.sweep import Case
 
     if options.tables is not None and options.folder is None:
-        raise BadArgument("--tables needs --out, the folder that they are left in")
+        raise BadArgument("--tables needs --out, the folder to write them to")
     if scheduler is not None and engine != "dask":
-        raise BadArgument("--scheduler goes with --engine dask")
+        raise BadArgument("--scheduler needs --engine dask")
     chosen = _chosen(n, seed, seeds)
     numbers = _numbers(len(chosen), only)
     positive(options.jobs, "worker")
@@ -119,7 +121,7 @@ def assembly_trials(
     planned(errors.work).check_arm(record)
     if parse_policy(on_stop, record.program.stages) is None:
         raise BadArgument(
-            "nobody can be asked in a batch: --on-stop takes abort, retry:N, unwind or unwind:STAGE"
+            "a batch cannot ask the operator: --on-stop takes abort, retry:N, unwind or unwind:STAGE"
         )
     trial = Trial(
         plan=record,
@@ -157,7 +159,7 @@ def assembly_trials(
 
 
 def _engine(name: str, jobs: int, scheduler: str | None, cpu_limit_s: float) -> "Engine":
-    """The engine that carries out trials."""
+    """The engine that runs trials."""
     from handeye.trials.sweep import processes
 
     if name == "process":
@@ -169,24 +171,26 @@ def _engine(name: str, jobs: int, scheduler: str | None, cpu_limit_s: float) -> 
 
 def dismantling_trials(
     *,
-    n: Annotated[WholeNumber, Parameter(help="How many trials.")] = COUNT,
+    n: Annotated[WholeNumber, Parameter(help="Number of trials.")] = COUNT,
     seed: Annotated[
-        WholeNumber, Parameter(group=WORLD, help="World of trial 0; trial K has a number greater by K.")
+        WholeNumber, Parameter(group=WORLD, help="Seed of trial 0; trial K has this seed plus K.")
     ] = 0,
     errors: ErrorOptions = ANY_ERRORS,
     fault: Faults = None,
     plan: PlanOption = None,
     to: Annotated[
-        str | None, Parameter(help="Build as far as the end of this stage, and take that apart.")
+        str | None, Parameter(help="Build up to the end of this stage, and take that apart.")
     ] = None,
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble in many worlds, have the arm take each apart again, and count how often everything is where it was.
+    """Assemble in many worlds, have the arm take each pump apart again, and count how often every part is back in
+    place.
 
-    Trials in which nothing was built are listed but not counted.
+    Trials that built nothing are listed but not counted.
 
-    Exit code 0: no silent failure; 1: every trial broke off; 3: in some world all was undone and the referee disagreed;
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some world the program reported all undone and the
+    referee disagreed;
     2: bad input; 130: interrupted.
     """
     from handeye.debugger.breakpoints import stage_number
@@ -198,9 +202,7 @@ def dismantling_trials(
     record = plan_or_own(plan, errors.task)
     errors, spared = errors.of(record.task).apart(record.program.calls)
     if not errors.work.judges_apart:
-        raise Refused(
-            f"the referee of the task {quoted(record.task)} does not look at what the arm has undone"
-        )
+        raise Refused(f"the referee of the task {quoted(record.task)} cannot judge what the arm has undone")
     world = broken(errors.spec(seed), fault, errors.work, record.program)
     stage = "" if to is None else record.program.stages[stage_number(to, record.program)]
     trial = DismantlingTrial(plan=record, world=world, camera=camera_here(camera), without=spared, to=stage)
@@ -212,7 +214,7 @@ def dismantling_trials(
         cases(world.seed, range(n)),
         trial.head(DISMANTLING),
         options,
-        title=f"{record.program.name} carried out {built} and undone, in worlds from {world} on",
+        title=f"{record.program.name} assembled {built} and undone, in worlds from {world} on",
         plan=record,
         again=_again(trial, ["trials", "dismantling", "--n", "1"], made + _task_words(record.task, plan)),
         engine=processes(options.jobs, trial.cpu_limit_s),
@@ -220,23 +222,22 @@ def dismantling_trials(
 
 
 def compare_trials(
-    first: Annotated[Path, Parameter(help="Folder of a batch.")],
+    first: Annotated[Path, Parameter(help="Folder of the first batch.")],
     /,
-    *others: Annotated[
-        Path, Parameter(help="Folders of batches that are compared with it.", json_list=False)
-    ],
+    *others: Annotated[Path, Parameter(help="Folders of the batches to compare with it.", json_list=False)],
     json: Json = False,
 ) -> int:
-    """Compare batches with a first one, world by world: what a sense, or an error of the world, makes of the rate.
+    """Compare batches with a first one, world by world: how a sense, or an error of the world, changes the success
+    rate.
 
-    Any batches of one kind can be compared. Only trials that both have count. `p` is of McNemar's exact test: how
-    likely pairs that differ fall so unevenly if neither batch is better.
+    All batches must be of one kind. Only trials that both batches have are counted. `p` is from McNemar's exact test:
+    the probability of differences at least this uneven if neither batch is better.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch
 
     if not others:
-        raise BadArgument("at least two batches are compared; name another folder")
+        raise BadArgument("a comparison needs at least two batches; name another folder")
     names = [str(path) for path in (first, *others)]
     found = paired(names, [read_batch(path) for path in (first, *others)])
     if json:
@@ -249,13 +250,13 @@ def compare_trials(
 
 
 def _chosen(n: int | None, seed: int | None, seeds: str | None) -> Sequence[int]:
-    """The seeds of a batch; raises BadArgument."""
+    """The seeds of a batch; raises BadArgument if they are not valid."""
     if seeds is None:
         first, count = seed or 0, COUNT if n is None else n
         positive(count, "trial")
         return _seeds(first, first + count - 1)
     if n is not None or seed is not None:
-        raise BadArgument("--seeds says both: leave --n and --seed out, or --seeds")
+        raise BadArgument("--seeds replaces --n and --seed: leave out either --seeds or the other two")
     ranges = [_range(part) for part in seeds.split(",")]
     if len(ranges) == 1:
         return ranges[0]
@@ -268,7 +269,7 @@ def _chosen(n: int | None, seed: int | None, seeds: str | None) -> Sequence[int]
 
 
 def _range(text: str) -> range:
-    """The seeds of a number or a range as typed; raises BadArgument."""
+    """The seeds of a number or a range as typed; raises BadArgument if it is neither."""
     found = re.fullmatch(f"([0-9]{{1,{LONGEST_NUMBER}}})(?:-([0-9]{{1,{LONGEST_NUMBER}}}))?", text.strip())
     first, last = (0, -1) if found is None else (int(found[1]), int(found[2] or found[1]))
     if last < first:
@@ -279,7 +280,7 @@ def _range(text: str) -> range:
 
 
 def _seeds(first: int, last: int) -> range:
-    """The seeds from one to another; raises BadArgument if there are none such, or too many."""
+    """The seeds of a range; raises BadArgument if it is empty or too long."""
     checked_seed(first)
     checked_seed(last)
     positive(last - first + 1, "trial")
@@ -287,7 +288,7 @@ def _seeds(first: int, last: int) -> range:
 
 
 def _numbers(count: int, only: int | None) -> range:
-    """The trials to be carried out."""
+    """The trials to run."""
     if only is None:
         return range(count)
     if not 0 <= only < count:

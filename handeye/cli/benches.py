@@ -1,4 +1,4 @@
-"""Commands of the benches: the timing table beside that of 1973, and insertion."""
+"""Commands of the benches: the timing table next to that of 1973, and insertion."""
 
 import time
 from typing import TYPE_CHECKING, Annotated, Final, Literal
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from handeye.trials.insertion import Condition
 
 GRID_N: Final = 10
-PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search of the listing of 1973"}
+PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search of the 1973 listing"}
 MOST_SD: Final = 5.0  # mm: beyond it most holes would be beyond the search
 
 
 def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
-    """Assemble once and print the timing table beside that of 1973.
+    """Assemble once and print the timing table next to that of 1973.
 
     Exit code 0: the program finished; 1: it stopped and called the operator.
     """
@@ -52,40 +52,46 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
 
 def insertion(
     *,
-    n: Annotated[WholeNumber, Parameter(name="--n", help="Trials of each condition.")] = GRID_N,
-    seed: Annotated[WholeNumber, Parameter(help="The first world; ten trials are made in each.")] = 0,
+    n: Annotated[WholeNumber, Parameter(name="--n", help="Number of trials of each condition.")] = GRID_N,
+    seed: Annotated[WholeNumber, Parameter(help="Seed of the first world; each world has ten trials.")] = 0,
     clearance: Annotated[
-        float | None, Parameter(help="Of the hole in diameter, mm: .05 to 1; .114 if others are given.")
+        float | None,
+        Parameter(
+            help="Clearance of the hole in diameter, mm: .05 to 1. Default if another condition "
+            "is given: .114."
+        ),
     ] = None,
     chamfer: Annotated[
-        float | None, Parameter(help="Of the hole, mm: 0 (a sharp edge) to 2; 1 if others are given.")
+        float | None,
+        Parameter(
+            help="Chamfer of the hole, mm: 0 (a sharp edge) to 2. Default if another condition is given: 1."
+        ),
     ] = None,
     sd: Annotated[
         float | None,
         Parameter(
-            help="Sigma of the error of the hole's place along each axis, mm: 0 to 5; 1 if others are given."
+            help="Standard deviation of the hole's position error along each axis, mm: 0 to 5. Default if another "
+            "condition is given: 1."
         ),
     ] = None,
     search: Annotated[
         Literal["gentle", "1973"],
-        Parameter(help="The bench's own program, or the search of the listing of 1973."),
+        Parameter(help="The search of the bench's own program, or that of the 1973 listing."),
     ] = "gentle",
     options: SweepOptions = ANY,
 ) -> int:
-    """Put one pin into one hole, many times: success, peak force, and time from the first contact to seated.
+    """Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
 
-    The product's own arm, hand, servo and program, against a plate with one hole, which is off by a normal error along
-    either axis. Worlds differ in the errors of the arm and the hand, as those of the pump do. A trial begins where the
-    program has fetched the pin and holds it over the hole. Without --clearance, --chamfer and --sd, a grid around the
-    setting of a published bench is tried, which takes some minutes.
+    The arm, hand and servo are those of the pump. The plate has one hole, which is displaced by a normal error along
+    each axis. Worlds differ in the errors of arm and hand, as those of the pump do. A trial begins with the pin held
+    over the hole. Without --clearance, --chamfer and --sd, the command tries a grid around the setting of a published
+    benchmark, which takes some minutes.
 
-    Peak force is the greatest between pin and plate in any physics step, by the simulator's truth; the program never
-    knows it.
+    Peak force is the greatest force between pin and plate in any physics step, from the simulator's ground truth; the
+    program never sees it. Ctrl-C stops the command and prints the trials that have finished.
 
-    Ctrl-C ends it and prints what has finished.
-
-    Exit code 0: no silent failure; 1: every trial broke off; 3: in some trial the program said done, and the pin was
-    not in its hole.
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program reported success, and the pin
+    was not in its hole.
     """
     from handeye.trials.folder import head_of
     from handeye.trials.insertion import INSERTION, InsertionWork, insertion_cases
@@ -107,7 +113,7 @@ def insertion(
 def _conditions(
     clearance: float | None, chamfer: float | None, sd: float | None, search: Literal["gentle", "1973"]
 ) -> "list[Condition]":
-    """The condition that is asked for, or the grid; raises InvalidInput if it cannot be tried."""
+    """The condition that the options give, or the grid; raises InvalidInput if it is out of range."""
     from handeye.trials.insertion import Condition, grid
 
     if clearance is None and chamfer is None and sd is None:
@@ -117,5 +123,5 @@ def _conditions(
         asked.items(), ((0.05, 1.0), (0.0, 2.0), (0.0, MOST_SD)), strict=True
     ):
         if value is not None and not least <= value <= most:
-            raise BadArgument(f"--{name} can be {least:g} to {most:g} mm; {value:g} is not")
+            raise BadArgument(f"--{name} must be {least:g} to {most:g} mm; {value:g} is not")
     return [Condition(search=search, **{name: value for name, value in asked.items() if value is not None})]

@@ -10,54 +10,54 @@ from cyclopts.command_spec import CommandSpec
 from handeye.core.entries import loaded
 
 COMMANDS: Final = """
-assemble = runs:assemble: Assemble the water pump, or do another task with its own program: plan, work, judge.
-run = runs:run: Carry out a plan in the work cell of its task, or stages of it, or step by step.
+assemble = runs:assemble: Assemble the water pump, or do another task with its own program: plan, run, judge.
+run = runs:run: Run a plan, or some of its stages, in the work cell of its task, at once or step by step.
 resume = runs:resume: Resume an interrupted run.
 dismantle = dismantling:dismantle: Have the arm undo what it did in a run: take the pump apart again.
-show = reports:show: Show the result of a run, or how far it has got; its folder is not changed.
-report = reports:report: Make a page of a run, or of two: one file with what happened, why, and what was seen and felt.
-video = videos:video: Make a video of a recorded run; nothing is simulated.
-view = views:view: Show the live cell in a browser, and step a run or teach positions there; or show a run that was recorded.
-compare = reports:compare: Compare two runs, step by step: what went otherwise first, where each searched, felt and corrected.
-do = teaching:do: Plan functions and carry them out at once, each by itself: `handeye do "OPEN 3" PARK`.
-repl = teaching:repl: Type functions to collect and check them; DO carries them out. HELP lists the commands.
-teach = teaching:teach: Move the arm and name positions; new names go into the taught file, and the rest of it stays.
-check = scripts:check: Check a script and its taught positions, the arm's reach included; nothing moves.
+show = reports:show: Show the result of a run, or its progress so far; the folder does not change.
+report = reports:report: Write one self-contained HTML page of a run, or of two: 3D replay, pictures, forces, and what happened and why.
+video = videos:video: Make a video of a recorded run, without simulating it again.
+view = views:view: Show the live cell in a browser, and step a run or teach positions there; or show a recorded run.
+compare = reports:compare: Compare two runs, step by step: the first difference, and where each searched, felt and corrected.
+do = teaching:do: Plan instructions and run them at once, one after the other: `handeye do "OPEN 3" PARK`.
+repl = teaching:repl: Type instructions to collect and check them; DO runs them. HELP lists the commands.
+teach = teaching:teach: Move the arm and name positions; new names are added to the taught file, the rest of which stays.
+check = scripts:check: Check a script and its taught positions, including the arm's reach; nothing moves.
 plan = scripts:plan: Compile a script into a plan.
-stages = scripts:stages: List the stages of a plan and their steps, with lines of the source.
-fmt = editing:fmt: Format scripts in columns, as in a listing of the period; comments stay.
-explain = editing:explain: Explain a diagnostic's code, an error number or an instruction; without an argument, list the codes.
+stages = scripts:stages: List the stages of a plan and their steps, with their source lines.
+fmt = editing:fmt: Format scripts in columns, like a listing of the period; comments stay.
+explain = editing:explain: Explain a diagnostic code, an error number or an instruction; without an argument, list the codes.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
-export: Hand a world, or what a run has left, to other programs.
-export mjcf = exports:mjcf: Write a scene that plain MuJoCo opens: scene.xml, its meshes and textures, and a README.
-export glb = exports:glb: Write solids for programs that show or measure shapes, and check that they are closed and weigh what they should.
+export: Export a world, or the end of a run, to other programs.
+export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
+export glb = exports:glb: Write solids for programs that show or measure shapes, and check that they are closed and have the right mass.
 inspect = scripts:inspect: Show what a plan does: stages, steps, times, guards, forces, and what each step depends on.
 diff = scripts:diff: Compare what two plans do, step by step.
 schema = scripts:schema: Print the JSON schema of the plan format.
-trace: Read the traces that runs leave.
+trace: Read the traces of runs.
 trace show = traces:show: Show what happened in a run, and why.
 trace stats = traces:stats: Count and time what happened in a run, stage by stage.
-trace photograph = traces:photograph: Photograph the cell as it was at a moment of a recorded run; nothing is simulated.
-trace verify = traces:verify: Carry out a recorded run again and compare.
-trace thin = exports:thin: Write a trace with no more of the motion than it takes to show the run, a tenth as large.
-trace plot = exports:plot: Draw joints, force of the hand and events of a run against time; it needs the extra `plot`, matplotlib.
+trace photograph = traces:photograph: Photograph the cell at a moment of a recorded run, without simulating it again.
+trace verify = traces:verify: Repeat a recorded run and compare the two.
+trace thin = exports:thin: Shrink a trace to about a tenth, for sharing: it keeps the motion that is needed to show the run.
+trace plot = exports:plot: Plot joints, hand force and events of a run against time; needs the extra `plot` (matplotlib).
 trace export: Write joints, forces and events of a run as tables.
-trace export csv = exports:csv: Write tables of a run as CSV, with a README that tells their columns.
-trace export parquet = exports:parquet: Write tables of a run as Parquet, with a README that tells their columns; it needs the extra `export`, pyarrow.
-world = worlds:world: List every quantity in which worlds differ: what it is in this world, unit, spread and source.
+trace export csv = exports:csv: Write tables of a run as CSV, with a README that describes the columns.
+trace export parquet = exports:parquet: Write tables of a run as Parquet, with a README that describes the columns; needs the extra `export` (pyarrow).
+world = worlds:world: List every quantity in which worlds differ: its value in this world, unit, spread and source.
 render = worlds:render: Render a picture of the work cell.
-faults = fault_matrix:faults: Assemble once with each fault of a matrix, at its usual size, and say which were noticed.
-trials: Try in many worlds and count.
-trials assembly = batches:assembly_trials: Assemble in many worlds and count: how often, how sure that is, and what failed where.
-trials dismantling = batches:dismantling_trials: Assemble in many worlds, have the arm take each apart again, and count how often everything is where it was.
-trials disturbed = trials:disturbed_trials: Build a pump, change something behind the arm's back, and have the arm undo it: is it stopped before harm?
-trials compare = batches:compare_trials: Compare batches with a first one, world by world: what a sense, or an error of the world, makes of the rate.
-trials base = trials:base_vision_trials: Find the base on the belt at many poses: how often, how exactly, and how often wrongly.
-trials gasket = trials:gasket_vision_trials: Check gaskets of every kind by eye: on properly, shifted by .3 in, absent, and one on another.
-trials chaos = trials:chaos_trials: Draw faults, times, worlds, kills, panics, retries and skips together, and check what must always hold.
-bench: Measure how long things take.
-bench timing = benches:timing: Assemble once and print the timing table beside that of 1973.
-bench insertion = benches:insertion: Put one pin into one hole, many times: success, peak force, and time from the first contact to seated.
+faults = fault_matrix:faults: Assemble once with each fault of a matrix, at its usual size, and report which the program noticed.
+trials: Repeat a task in many worlds and count successes.
+trials assembly = batches:assembly_trials: Assemble in many worlds: success rate with its confidence interval, and what failed where.
+trials dismantling = batches:dismantling_trials: Assemble in many worlds, have the arm take each pump apart again, and count how often every part is back in place.
+trials disturbed = trials:disturbed_trials: Build a pump, change something unseen by the arm, and have the arm undo it: does a guard stop it before harm?
+trials compare = batches:compare_trials: Compare batches with a first one, world by world: how a sense, or an error of the world, changes the success rate.
+trials base = trials:base_vision_trials: Find the base on the belt at many poses: how often, how accurately, and how often wrongly.
+trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
+trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; a failure is minimised to one command.
+bench: Measure timing and insertion.
+bench timing = benches:timing: Assemble once and print the timing table next to that of 1973.
+bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
 """  # noqa: E501 - a command a line
 """`NAME = MODULE:FUNCTION: SENTENCE` of each command, with the sentence that lists say of it, which is the first one of
 its docstring; a group of commands has no function. Modules are those of this folder."""
@@ -72,7 +72,7 @@ class _Command(CommandSpec):
 
 
 def restore_docstring(command: object) -> None:
-    """Give a command the docstring back that Python leaves out with -OO, from its source: it is the help."""
+    """Restore the docstring of a command from its source: it is the help, and Python drops it with -OO."""
     if isinstance(command, App):
         for part in (command.default_command, *command._commands.values()):
             restore_docstring(part)

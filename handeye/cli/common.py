@@ -24,23 +24,22 @@ _USUAL_WIDTH: Final = 80
 Script = Annotated[
     Path,
     Parameter(
-        help="A script (.al), with its taught file (.toml) beside it; or the name of a program that a task comes with, "
-        "such as `insertion`."
+        help="A script (.al), with its taught file (.toml) next to it; or the name of a program of a task, such as "
+        "`insertion`."
     ),
 ]
 PlanFile = Annotated[
     Path,
     Parameter(
-        help="A plan made by `handeye plan` (.plan.json); or the name of a program that a task comes with, such as "
-        "`insertion`."
+        help="A plan made by `handeye plan` (.plan.json); or the name of a program of a task, such as `insertion`."
     ),
 ]
 TaskWords = Annotated[
     str | None,
     Parameter(
         name="--task",
-        help="The task: its name, or MODULE:NAME for one of your own, in a module on the path or in this folder. By "
-        "default that of the plan, program or run, else the water pump.",
+        help="The task: its name, or MODULE:NAME for your own, in a module on the path or in this folder. Default: "
+        "the task of the plan, program or run, else the water pump.",
     ),
 ]
 CameraKind = Literal["auto", "gl", "ray"]
@@ -54,7 +53,7 @@ def camera_here(kind: CameraKind) -> Literal["gl", "ray"]:
 
 
 def whole(_: type, tokens: Sequence[Token]) -> int:
-    """A whole number as typed; raises ValueError if it is none, as 1.5 is, or larger than anything here."""
+    """A whole number as typed; raises ValueError if it is not one, like 1.5, or is too large."""
     typed = tokens[0].value
     if not re.fullmatch(r"[+-]?[0-9]+", typed):
         raise ValueError(f"{quoted(typed)} is not a whole number")
@@ -66,9 +65,9 @@ def whole(_: type, tokens: Sequence[Token]) -> int:
 def positive(count: int, what: str) -> None:
     """See that a count is at least 1 and at most MOST; `what` is the singular of what is counted."""
     if count < 1:
-        raise BadArgument(f"at least one {what} is needed; {count} is too few")
+        raise BadArgument(f"the number of {what}s must be at least 1, not {count}")
     if count > MOST:
-        raise BadArgument(f"at most {MOST:,} {what}s can be had; {count} are too many")
+        raise BadArgument(f"the number of {what}s can be {MOST:,} at most; {count} is too large")
 
 
 WholeNumber = Annotated[int, Parameter(converter=whole)]
@@ -76,21 +75,27 @@ PictureFile = Annotated[Path, Parameter(name=["--output", "-o"], help="The pictu
 SceneCamera = Annotated[
     str | None,
     Parameter(
-        help="One of the scene's cameras; by default the one that shows all of it, `studio` in the pump's cell."
+        help="A camera of the scene. Default: the one that shows the whole cell, `studio` for the pump."
     ),
 ]
-Width = Annotated[WholeNumber, Parameter(help="Points of the picture from left to right.")]
-Height = Annotated[WholeNumber, Parameter(help="Points of the picture from top to bottom.")]
+Width = Annotated[WholeNumber, Parameter(help="Width of the picture in pixels.")]
+Height = Annotated[WholeNumber, Parameter(help="Height of the picture in pixels.")]
 Camera = Annotated[
-    CameraKind, Parameter(help="How to make pictures: OpenGL, ray casting, or whichever works here.")
+    CameraKind,
+    Parameter(
+        help="How to render pictures: OpenGL, ray casting, or `auto`, whichever works on this computer."
+    ),
 ]
 Calibrate = Annotated[
-    bool, Parameter(help="Calibrate the camera anew, whatever `handeye cache` shows to be kept.")
+    bool,
+    Parameter(help="Calibrate the camera again instead of using a kept calibration (see `handeye cache`)."),
 ]
-Json = Annotated[bool, Parameter(help="One JSON object on standard output, all else on standard error.")]
+Json = Annotated[
+    bool, Parameter(help="Print one JSON object to standard output, everything else to standard error.")
+]
 Out = Annotated[
     Path | None,
-    Parameter(help="Folder for plan, events, trace, checkpoints, pictures and result."),
+    Parameter(help="Folder to save plan, events, trace, checkpoints, pictures and result in."),
 ]
 
 
@@ -126,7 +131,7 @@ notes = _Screen(stderr=True)
 def say(text: str, to: Console = screen, *, style: str | None = None, whole: bool = False) -> None:
     """Print plain text, which may come from an untrusted file.
 
-    On a terminal, lines are broken between words; `whole` ones, which people copy, where the terminal breaks them.
+    On a terminal, lines break between words; a `whole` one, meant to be copied, breaks where the terminal breaks it.
     """
     shown = visible(text)
     if to.is_terminal and not whole:
@@ -146,12 +151,12 @@ def put_line(text: str) -> None:
 
 
 def put_json(answer: object) -> None:
-    """Write an answer for programs as JSON that people can read too."""
+    """Write an answer as indented JSON."""
     put(msgspec.json.format(msgspec.json.encode(answer), indent=1) + b"\n")
 
 
 def answer(found: object, lines: Iterable[str], *, json: bool) -> int:
-    """Answer with JSON for programs, or with lines for people; the exit code of an answer."""
+    """Print the answer as JSON or as text; returns its exit code."""
     if json:
         put_json(found)
     for line in () if json else lines:
@@ -160,17 +165,17 @@ def answer(found: object, lines: Iterable[str], *, json: bool) -> int:
 
 
 def note(text: str) -> None:
-    """Say something to the person at the terminal that is not the answer."""
+    """Print a note for the user, on standard error."""
     say(text, notes)
 
 
 def complain(error: object) -> None:
-    """Say why nothing comes of a command."""
+    """Print why a command failed."""
     say(f"handeye: {error}", notes, style="red")
 
 
 def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
-    """Print diagnostics: as JSON on standard output, or for people on standard error."""
+    """Print diagnostics: as JSON on standard output, or as text on standard error."""
     if json:
         put_json([as_json(d, source) for d in diagnostics])
         return
@@ -181,7 +186,7 @@ def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
 
 
 def show_unreadable(file: Path, error: InvalidInput) -> None:
-    """Print as JSON, in the place of diagnostics, why there are none: a script, or what is taught, cannot be used."""
+    """Print as JSON, instead of diagnostics, why there are none: the script or the taught file cannot be used."""
     place = {"file": str(file), "line": 1, "column": 1, "end": 1, "text": ""}
     said = {"code": "unreadable-file", "severity": "error", "message": str(error), "file": str(file)}
     put_json([{**said, "primary": place, "secondary": [], "notes": [], "help": None}])

@@ -1,4 +1,4 @@
-"""The command that teaches a shell to complete the words of handeye."""
+"""The command that installs completion for a shell."""
 
 import os
 from pathlib import Path
@@ -14,30 +14,30 @@ Shell = Literal["bash", "zsh", "fish"]
 
 SHELLS: Final[dict[str, Shell]] = {"bash": "bash", "zsh": "zsh", "fish": "fish"}
 START_UP: Final[dict[Shell, str]] = {"bash": ".bashrc", "zsh": ".zshrc"}
-"""The file in the home folder that loads completions when a shell starts; fish finds them by itself."""
+"""The file in the home folder that loads completions when a shell starts; fish needs none."""
 CONDITION: Final[dict[Shell, str]] = {"zsh": ", if its .zshrc calls compinit"}
 
 
 def register(app: App) -> None:
-    """Add the command to the command line, of which it writes the words."""
+    """Add the command to the command line that it completes."""
 
     def install_completion(
         shell: Annotated[
-            Shell | None, Parameter(help="The shell to write it for. By default the one that SHELL names.")
+            Shell | None, Parameter(help="The shell. Default: the one in the variable SHELL.")
         ] = None,
     ) -> int:
-        """Let the Tab key complete commands and options in bash, zsh or fish.
+        """Make the Tab key complete commands and options in bash, zsh or fish.
 
-        Writes a file of completions into the home folder, and a line that loads it into .bashrc or .zshrc. Says what
-        it wrote.
+        Writes a file of completions in the home folder, and a line in .bashrc or .zshrc that loads it. Prints what it
+        wrote.
         """
         chosen = shell or _shell_of_the_user()
         before = _start_up_text(chosen)
         say(f"{app.install_completion(shell=chosen)}: written")
         if chosen in START_UP:
             changed = _start_up_text(chosen) != before
-            say(f"{_start_up(chosen)}: {'loads it from now on' if changed else 'already loads it'}")
-        say(f"Completion works in every {chosen} that is started from now on{CONDITION.get(chosen, '')}.")
+            say(f"{_start_up(chosen)}: {'now loads it' if changed else 'already loads it'}")
+        say(f"Completion works in every {chosen} that you start from now on{CONDITION.get(chosen, '')}.")
         return 0
 
     restore_docstring(install_completion)
@@ -49,9 +49,7 @@ def _shell_of_the_user() -> Shell:
     if named in SHELLS:
         return SHELLS[named]
     found = f"SHELL names `{named}`" if named else "SHELL names none"
-    raise BadArgument(
-        f"completion can be written for bash, zsh and fish, and {found}: choose one with --shell"
-    )
+    raise BadArgument(f"completion is available for bash, zsh and fish, and {found}: choose one with --shell")
 
 
 def _start_up(shell: Shell) -> Path:

@@ -23,9 +23,7 @@ def dismantle(
     /,
     *,
     task: TaskWords = None,
-    to: Annotated[
-        str | None, Parameter(help="Go back to the beginning of this stage, and no farther.")
-    ] = None,
+    to: Annotated[str | None, Parameter(help="Go back only to the beginning of this stage.")] = None,
     json: Json = False,
     details: Details = False,
     out: Out = None,
@@ -33,12 +31,12 @@ def dismantle(
 ) -> int:
     """Have the arm undo what it did in a run: take the pump apart again.
 
-    Every step is undone by the arm, the last one first: by the way it has gone, with what the hand holds, under
-    guards. Where the hand meets more force than it should, or holds something else than then, the brakes are set and
-    the operator is called. The folder of the run stays as it is.
+    The arm undoes every step, the last one first: it moves back along its own path, with what the hand holds, under
+    guards. If the hand meets more force than expected, or holds something else than it did then, the arm brakes and
+    the program calls the operator. The folder of the run does not change.
 
-    Exit code 0: everything is back where the run found it, or undone as far as was asked for; 1: a guard
-    stopped it; 3: it is undone, and the referee disagrees; 2: bad input; 130: interrupted.
+    Exit code 0: every part is back where the run found it, or undone as far as asked; 1: a guard stopped the arm; 3:
+    the program reported all undone, and the referee disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.cli.job import Job, work
     from handeye.debugger.breakpoints import stage_number
@@ -49,7 +47,7 @@ def dismantle(
     path = run_or_newest(run)
     whole = path.parent.parent if path.parent.name == CHECKPOINTS else path
     if out is not None and whole.is_dir() and whole.resolve() in (out.resolve(), *out.resolve().parents):
-        raise CannotWrite(f"--out {out}: {path} stays as it is; keep its dismantling in another folder")
+        raise CannotWrite(f"--out {out}: {path} must not change; keep its dismantling in another folder")
     wanted = made_known(task)
     kept = _newest(path)
     check_task(wanted, kept.setup.task, path)
@@ -69,7 +67,7 @@ def dismantle(
 
 
 def _newest(path: Path) -> "Checkpoint":
-    """The checkpoint in a file, or a run's folder as the run has left it; raises InvalidInput if there is none."""
+    """The checkpoint in a file, or the end of the run in a folder; raises InvalidInput if there is none."""
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.runs.folder import EVENTS, open_again
     from handeye.runs.undo_orders import caught_up, done_since
@@ -87,7 +85,7 @@ def _newest(path: Path) -> "Checkpoint":
         return start
     more = done_since(start, events)
     if more is None:
-        note(f"left out: {path / EVENTS}, which is not of the run in the checkpoints of {path}")
+        note(f"left out: {path / EVENTS}, which belongs to another run than the checkpoints of {path}")
     elif more:
-        note(f"carrying out again {counted(more, 'step')} that no checkpoint of {path} holds")
+        note(f"repeating {counted(more, 'step')} that no checkpoint of {path} holds")
     return caught_up(start, events, str(path))

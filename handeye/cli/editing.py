@@ -1,4 +1,4 @@
-"""Commands for writing scripts: tidy a text, explain a code, serve an editor."""
+"""Commands for writing scripts: format, explain, serve an editor."""
 
 import sys
 from pathlib import Path
@@ -21,17 +21,19 @@ STANDARD_INPUT = Path("-")
 
 def fmt(
     *files: Annotated[Path, Parameter(allow_leading_hyphen=True, json_list=False)],
-    check: Annotated[bool, Parameter(help="Write nothing; exit code 1 if a file would change.")] = False,
+    check: Annotated[
+        bool, Parameter(help="Write nothing; the exit code is 1 if a file would change.")
+    ] = False,
 ) -> int:
-    """Format scripts in columns, as in a listing of the period; comments stay.
+    """Format scripts in columns, like a listing of the period; comments stay.
 
-    `-` reads standard input and writes standard output. A script with syntax errors stays as it is. Exit code 2:
+    `-` reads standard input and writes standard output. A script with syntax errors does not change. Exit code 2:
     there was such a script, or a file cannot be used.
 
     Parameters
     ----------
     files
-        Scripts to format in their places.
+        Scripts to format in place.
     """
     if not files:
         raise BadArgument("fmt needs the name of a script, or - for standard input")
@@ -78,7 +80,7 @@ def _standard_input() -> Source:
 
 
 def explain(word: str | None = None, /) -> int:
-    """Explain a diagnostic's code, an error number or an instruction; without an argument, list the codes.
+    """Explain a diagnostic code, an error number or an instruction; without an argument, list the codes.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Commands that hand worlds, what runs have left, and their traces to other programs."""
+"""Commands that export worlds, the end of a run, and traces to other programs."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -35,14 +35,14 @@ def mjcf(
     run: State = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write.")],
-    overwrite: Annotated[bool, Parameter(help="Replace the export that is in the folder.")] = False,
+    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write to.")],
+    overwrite: Annotated[bool, Parameter(help="Replace an export in the folder.")] = False,
     json: Json = False,
     world: WorldOptions = ANY_WORLD,
 ) -> int:
-    """Write a scene that plain MuJoCo opens: scene.xml, its meshes and textures, and a README.
+    """Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
 
-    Exit code 0: it is written; 2: bad input.
+    Exit code 0: written; 2: bad input.
     """
     from handeye.results.export import export_mjcf
 
@@ -54,13 +54,13 @@ def glb(
     /,
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The file, .glb.")],
-    part: Annotated[str, Parameter(help="What of it: `cell` or `pump`.")] = "cell",
+    part: Annotated[str, Parameter(help="What to export: the whole `cell`, or the `pump`.")] = "cell",
     json: Json = False,
     world: WorldOptions = ANY_WORLD,
 ) -> int:
-    """Write solids for programs that show or measure shapes, and check that they are closed and weigh what they should.
+    """Write solids for programs that show or measure shapes, and check that they are closed and have the right mass.
 
-    Exit code 0: it is written, whatever the checks found; 2: bad input.
+    Exit code 0: written, whatever the checks found; 2: bad input.
     """
     from handeye.results.export import export_glb
 
@@ -81,7 +81,7 @@ def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
         return initial_state(world.spec, world.work.name)
     if world.chosen:
         raise BadArgument(
-            f"{run} brings its own world; --seed, --level, --without, --set and --scale do not go with it"
+            f"{run} brings its own world; --seed, --level, --without, --set and --scale cannot be given with it"
         )
     exhibit, faults = kept_state(run)
     check_task(wanted, exhibit.task, run)
@@ -92,24 +92,22 @@ def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
     return exhibit
 
 
-Folder = Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write.")]
-Overwrite = Annotated[bool, Parameter(help="Replace the tables that are in the folder.")]
+Folder = Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write to.")]
+Overwrite = Annotated[bool, Parameter(help="Replace tables in the folder.")]
 
 
 def plot(
     run: RunOrTrace = None,
     /,
     *,
-    output: Annotated[
-        Path, Parameter(name=["--output", "-o"], help="The plot: its name ends in .png, .svg or .pdf.")
-    ],
+    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The plot: .png, .svg or .pdf.")],
     stage: Annotated[
-        str | None, Parameter(help="This stage alone: its number, its name, or a piece of it.")
+        str | None, Parameter(help="Only this stage: its number, its name, or part of its name.")
     ] = None,
 ) -> int:
-    """Draw joints, force of the hand and events of a run against time; it needs the extra `plot`, matplotlib.
+    """Plot joints, hand force and events of a run against time; needs the extra `plot` (matplotlib).
 
-    Exit code 0: it is written; 1: so it is, of a trace that was cut short; 2: bad input.
+    Exit code 0: written; 1: written, but the trace was cut short; 2: bad input.
     """
     from handeye.trace.plot import KINDS, drawn
     from handeye.trace.plot import plot as plot_of
@@ -127,17 +125,17 @@ def plot(
 
 
 def csv(run: RunOrTrace = None, /, *, output: Folder, overwrite: Overwrite = False) -> int:
-    """Write tables of a run as CSV, with a README that tells their columns.
+    """Write tables of a run as CSV, with a README that describes the columns.
 
-    Exit code 0: they are written; 1: so they are, of a trace that was cut short; 2: bad input.
+    Exit code 0: written; 1: written, but the trace was cut short; 2: bad input.
     """
     return _exported(run_or_newest(run), output, "csv", overwrite=overwrite)
 
 
 def parquet(run: RunOrTrace = None, /, *, output: Folder, overwrite: Overwrite = False) -> int:
-    """Write tables of a run as Parquet, with a README that tells their columns; it needs the extra `export`, pyarrow.
+    """Write tables of a run as Parquet, with a README that describes the columns; needs the extra `export` (pyarrow).
 
-    Exit code 0: they are written; 1: so they are, of a trace that was cut short; 2: bad input.
+    Exit code 0: written; 1: written, but the trace was cut short; 2: bad input.
     """
     return _exported(run_or_newest(run), output, "parquet", overwrite=overwrite)
 
@@ -158,11 +156,11 @@ def _exported(run: Path, output: Path, kind: "Format", *, overwrite: bool) -> in
 
 
 def _cut(recorded: "RecordedRun") -> int:
-    """1 if the trace was cut short, which is noted; 0 if it is all that there is of a run."""
+    """1 if the trace was cut short, with a note; 0 if it is complete."""
     name = recorded.trace.name
     if recorded.whole or name.endswith(".part"):  # which is noted, too
         return 0
-    note(f"{name} was cut short; this is what it holds")
+    note(f"{name} was cut short; these are its contents")
     return 1
 
 
@@ -171,11 +169,11 @@ def thin(
     /,
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The thinned trace, .mcap.")],
-    overwrite: Annotated[bool, Parameter(help="Replace the trace that is there.")] = False,
+    overwrite: Annotated[bool, Parameter(help="Replace an existing trace.")] = False,
 ) -> int:
-    """Write a trace with no more of the motion than it takes to show the run, a tenth as large.
+    """Shrink a trace to about a tenth, for sharing: it keeps the motion that is needed to show the run.
 
-    It is a trace in its own right; only `verify` needs the whole one.
+    Every command can read it except `verify`, which needs the whole trace.
     """
     from handeye.core.files import check_free, check_place
     from handeye.trace.reading import TRACE, read_trace
@@ -185,7 +183,7 @@ def thin(
     trace = read_trace(whole)
     check_place(output, TRACE)
     if output.exists() and output.samefile(whole):
-        raise CannotWrite(f"{output} holds the trace that is to be thinned")
+        raise CannotWrite(f"{output} is the trace to be thinned; choose another file")
     check_free(output, "trace", overwrite=overwrite)
     kept = write_thinned(trace, output)
     say(f"{output}: {kept} of {counted(len(trace.times), 'servo period')}")

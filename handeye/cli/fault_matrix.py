@@ -1,4 +1,4 @@
-"""The command that tries faults, one a run: the outcome of each, and whether it is noticed."""
+"""The command that tries faults, one per run: the outcome of each, and whether the program notices it."""
 
 from typing import TYPE_CHECKING, Annotated
 
@@ -18,33 +18,36 @@ def faults(
     *,
     only: Annotated[
         list[str] | None,
-        Parameter(help="A fault or a group of them; may be repeated.", consume_multiple=False),
+        Parameter(help="A fault or a group of faults; may be repeated.", consume_multiple=False),
     ] = None,
-    every: Annotated[bool, Parameter(name="--all", help="All faults, not those of the matrix only.")] = False,
+    every: Annotated[
+        bool, Parameter(name="--all", help="Try all faults, not only those of the matrix.")
+    ] = False,
     listed: Annotated[
-        bool, Parameter(name="--list", help="Try nothing; list the faults, and what must happen with each.")
+        bool, Parameter(name="--list", help="List the faults and the expected outcome of each; run nothing.")
     ] = False,
     stage: Annotated[
-        str | None, Parameter(help="Let what can set in while the cell works set in with this stage.")
+        str | None, Parameter(help="Start the faults that can begin during work at this stage.")
     ] = None,
     n: Annotated[
-        WholeNumber, Parameter(name="--n", help="Worlds, from --seed on; each fault is tried in each.")
+        WholeNumber,
+        Parameter(name="--n", help="Number of worlds, from --seed on; each fault is tried in each world."),
     ] = 1,
     world: WorldOptions = ANY_WORLD,
     camera: Camera = "auto",
     options: SweepOptions = ANY,
-    overwrite: Annotated[bool, Parameter(help="Drop the trials that are in the folder.")] = False,
+    overwrite: Annotated[bool, Parameter(help="Drop the trials in the folder.")] = False,
 ) -> int:
-    """Assemble once with each fault of a matrix, at its usual size, and say which were noticed.
+    """Assemble once with each fault of a matrix, at its usual size, and report which the program noticed.
 
-    A fault is `recovered` from, or the program is `stopped` by its right name, in the right stage, with the brakes on.
-    Less good is a stop by another name (`misnamed`). Undetected are `unnoticed` faults that should have been noticed, a
-    stop that leaves the arm `unbraked`, and a wrong pump that the program took for right (`silent`).
+    Good outcomes: the program `recovered`, or it `stopped` in the right stage, with the brakes on, and named the
+    fault. Less good: it stopped but named another fault (`misnamed`). Bad outcomes, counted as undetected: the program
+    ought to notice and did not (`unnoticed`), it stopped without brakes (`unbraked`), or it reported success with a
+    wrong pump (`silent`). A run takes up to one CPU minute; the time left is shown on standard error. Ctrl-C stops the
+    command and prints the runs that have finished; with --out the same command continues from there.
 
-    A run takes up to a minute of a processor; the time left is estimated on standard error. Ctrl-C ends it
-    and prints what has finished; with --out the same command goes on there.
-
-    Exit code 0: no fault was undetected; 1: every trial broke off; 3: one was; 2: bad input; 130: interrupted.
+    Exit code 0: every fault was detected; 1: no trial finished; 3: a fault was undetected; 2: bad input; 130:
+    interrupted.
     """
     from handeye.trials.faults import FAULTS, FaultWork, chosen, usual, with_panic
     from handeye.trials.folder import head_of
@@ -53,9 +56,9 @@ def faults(
     spec = world.spec
     catalogue = with_panic(world.work.faults(spec))
     if every and only:
-        raise BadArgument("--all excludes --only")
+        raise BadArgument("--all cannot be given with --only")
     if listed and (stage is not None or options.out is not None):
-        raise BadArgument("--list tries nothing: leave --stage and --out out")
+        raise BadArgument("--list runs nothing: leave out --stage and --out")
     positive(options.jobs, "worker")
     positive(n, "world")
     everything = every or (listed and not only)
@@ -72,7 +75,7 @@ def faults(
         cases(spec.seed, range(n), [*given]),
         head_of(FAULTS, spec, plan, camera=camera),
         options,
-        title=f"{plan.program.name} with one fault each, in worlds from {spec} on",
+        title=f"{plan.program.name} with one fault at a time, in worlds from {spec} on",
         plan=plan,
         anew=overwrite,
     )

@@ -1,6 +1,5 @@
-"""Ctrl-C as the panic button of the cell: asked at every servo period instead of breaking in anywhere.
-
-To be told to end, as by `kill`, is the same as Ctrl-C.
+"""Ctrl-C as the panic button of the cell: polled at every servo period instead of interrupting anywhere. `kill` has
+the same effect as Ctrl-C.
 """
 
 import signal
@@ -13,7 +12,7 @@ from handeye.core.signals import ToldToEnd, break_in, heard
 
 
 class PanicButton:
-    """While entered, Ctrl-C presses it; the second time without an effect, it interrupts as usual."""
+    """While entered, Ctrl-C presses the button; if the first press had no effect, the second interrupts as usual."""
 
     def __init__(self) -> None:
         self._pressed = False
@@ -35,7 +34,9 @@ class PanicButton:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """While a person is asked: Ctrl-C interrupts as usual, and who was told to end is not asked any more."""
+        """While the user answers a question: Ctrl-C interrupts as usual, and after a `kill` there are no more
+        questions.
+        """
         if self._told:
             raise ToldToEnd
         with self.released():

@@ -1,4 +1,4 @@
-"""Scripts and plans as they are named to commands: by their file, or by the name of a program of a task."""
+"""Scripts and plans as commands name them: by file, or by the name of a program of a task."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -14,22 +14,22 @@ from handeye.tasks import known_any, named, planned, task
 if TYPE_CHECKING:
     from handeye.tasks.interface import Task
 
-_LEAVE_OUT: Final = "leave --task out, or name another"
+_LEAVE_OUT: Final = "leave out --task, or name another"
 
 
 def compiled(file: Path, work: "Task | None" = None) -> Plan:
-    """The plan of a script for a task, by default its own; or its diagnostics and the end."""
+    """The plan of a script for a task, by default its own; prints diagnostics and exits if there is none."""
     made = plan_script(file, work=work)
     show(made.diagnostics, made.source, json=False)
     if made.plan is not None:
         return made.plan
     errors = sum(d.severity == "error" for d in made.diagnostics)
     count = "1 error" if errors == 1 else f"{errors}{' or more' if errors == LIMIT else ''} errors"
-    raise BadFile(f"{file} has {count}; there is no plan")
+    raise BadFile(f"{file} has {count}; no plan was made")
 
 
 def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
-    """The script in a file, else the program of that name, and its task; raises InvalidInput if there is none."""
+    """The script in a file, or the program of that name, and its task; raises InvalidInput if there is none."""
     wanted = None if task_words is None else planned(named(task_words))
     program = None if given.is_file() else _program(given)
     if program is None:
@@ -46,7 +46,7 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
 
 
 def plan_at(given: Path, task_words: str | None = None) -> Plan:
-    """The plan in a file, else that of the program of that name; raises InvalidInput if there is none for the task."""
+    """The plan in a file, or that of the program of that name; raises InvalidInput if there is none for the task."""
     wanted = None if task_words is None else planned(named(task_words))
     if is_program(given):
         return compiled(*script_at(given, task_words))
@@ -60,7 +60,7 @@ def plan_at(given: Path, task_words: str | None = None) -> Plan:
 
 
 def plan_or_own(given: Path | None, task_words: str | None) -> Plan:
-    """The plan that `plan_at` finds; without one, that of the program which the task comes with."""
+    """The plan that `plan_at` finds; by default that of the task's own program."""
     if given is not None:
         return plan_at(given, task_words)
     work = task() if task_words is None else planned(named(task_words))
@@ -81,12 +81,12 @@ def _program(given: Path) -> "tuple[Path, Task] | None":
         if (other := known_any(given.name)) is not None:
             planned(other)  # which says why no plan does it
         near = suggestion(given.name, program_names()) or "give a file"
-        raise NoSuchName(f"{given}: there is no such file, and no program is called so; {near}")
+        raise NoSuchName(f"{given}: there is no such file, and no program of that name; {near}")
     return found
 
 
 def _note_file(given: Path) -> None:
-    """Note that a file is taken and not the program of its name, if there is one."""
+    """Note that the file is used, if a program has the same name."""
     if _is_name(given) and given.is_file() and program_named(given.name) is not None:
         note(f"{given}: taking this file, not the program of that name")
 
@@ -96,7 +96,7 @@ def _is_name(given: Path) -> bool:
 
 
 def made_known(words: str | None) -> str | None:
-    """The name of the task that `--task` names, which is known from here on; None: it was left out."""
+    """The name of the task that `--task` gives; None if it was left out. The task is registered from here on."""
     return None if words is None else named(words).name
 
 
@@ -104,5 +104,5 @@ def check_task(wanted: str | None, found: str, of: Path) -> None:
     """Raises BadArgument if `--task` names another task than that of a run."""
     if wanted not in (None, found):
         raise BadArgument(
-            f"the run in {of} is of the task {quoted(found)}, not of {quoted(wanted)}; leave --task out"
+            f"the run in {of} is of the task {quoted(found)}, not of {quoted(wanted)}; leave out --task"
         )

@@ -1,4 +1,4 @@
-"""Lines that a person types, with history and completion, or that are piped in."""
+"""Lines typed at a terminal, with history and completion, or piped in."""
 
 import os
 import select
@@ -52,7 +52,7 @@ def typed_lines(
 
 
 def typed_already() -> str | None:
-    """A line typed at the terminal before it was asked for; None if there is none, or no way to tell."""
+    """A line typed at the terminal before the prompt; None if there is none, or no way to know."""
     if sys.platform == "win32":
         return None
     if not select.select([sys.stdin], [], [], 0)[0]:
@@ -61,7 +61,7 @@ def typed_already() -> str | None:
 
 
 class PipedLines:
-    """The lines of a file as they come: waited for, or taken only if they are there."""
+    """The lines of a file as they arrive: waited for, or taken only if they have arrived."""
 
     def __init__(self, file: int) -> None:
         """Read a file, by its descriptor."""
@@ -108,6 +108,6 @@ def _edit(words: Callable[[], Iterable[str]]) -> None:
 
 
 def completion(start: str, number: int, words: Iterable[str]) -> str | None:
-    """The word, by its number from 0, that a beginning can be completed to; None behind the last."""
+    """The completion of a beginning with a given number, from 0; None after the last."""
     found = sorted({word for word in words if word.upper().startswith(start.upper())})
     return f"{found[number]} " if number < len(found) else None

@@ -1,4 +1,4 @@
-"""Worlds of recorded runs, in which other plans are carried out: what would have happened."""
+"""Worlds of recorded runs, for other plans: what would have happened with this plan."""
 
 from pathlib import Path
 from typing import Final
@@ -23,14 +23,12 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
     """The setup of a plan in a recorded run's world, faults and camera; raises InvalidInput if it cannot be built."""
     events = _events(path)
     if not events or not isinstance(events[0], RunStarted):
-        raise BadFile(f"{path} does not hold the start of a run, which tells its world")
+        raise BadFile(f"{path} does not hold the start of a run, where its world is recorded")
     begun = events[0]
     _check_drawing(path, begun)
     own = [part for part in begun.own_parts if part != "referee"]
     if own:
-        raise Refused(
-            f"{path} was carried out with code of its caller for {', '.join(own)}, which is not here"
-        )
+        raise Refused(f"{path} used code of its caller for {', '.join(own)}, which is not available here")
     _check_faults(path, begun, plan)
     if begun.task != plan.task:
         raise BadArgument(
@@ -41,7 +39,7 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
 
 
 def _events(path: Path) -> tuple[AnyEvent, ...]:
-    """The events of a run; its event list, which tells the same and is shorter, where it lies beside the trace."""
+    """The events of a run: from its event list if there is one, which is shorter than the trace."""
     file = path / EVENTS if (path / EVENTS).is_file() else trace_file(path)
     if file.suffix == ".jsonl":
         return tuple(read_events(file, growing=True))
@@ -49,20 +47,21 @@ def _events(path: Path) -> tuple[AnyEvent, ...]:
 
 
 def _check_drawing(path: Path, begun: RunStarted) -> None:
-    """Raises InvalidInput if this handeye draws another world from the seed of a run."""
+    """Raises InvalidInput if this version draws another world from the seed of a run."""
     world = begun.world
     if world.drawing != DRAWING:
         raise Refused(
-            f"the world of {path} was drawn by another handeye: seed {world.seed} gives another world here "
+            f"the world of {path} comes from another version of handeye: seed {world.seed} gives a different world "
+            f"here "
             f"(drawing {world.drawing} there, {DRAWING} here)"
         )
 
 
 def _check_faults(path: Path, begun: RunStarted, plan: Plan) -> None:
-    """Raises InvalidInput if a fault sets in with a stage that a plan does not have."""
+    """Raises InvalidInput if a fault begins with a stage that a plan does not have."""
     stages = len(plan.program.stages)
     for fault in begun.world.faults:
         if fault.stage is not None and fault.stage > stages:
             raise BadArgument(
-                f"the fault {fault} in the world of {path} cannot set in: the plan has {counted(stages, 'stage')}"
+                f"the fault {fault} in the world of {path} cannot begin: the plan has only {counted(stages, 'stage')}"
             )

@@ -33,7 +33,7 @@ DEMO: Final = "demo.html"
 def report(
     run: RunOrTrace = None,
     other: Annotated[
-        Path | None, Parameter(help="A second run: the page compares the two, as `compare -o` does.")
+        Path | None, Parameter(help="A second run: the page then compares the two, like `compare -o`.")
     ] = None,
     /,
     *,
@@ -42,18 +42,16 @@ def report(
         Path | None,
         Parameter(
             name=["--output", "-o"],
-            help="The page, .html; by default report.html in the folder of the run, or beside the trace; of `--demo` "
-            "demo.html here.",
+            help="The page, .html; by default report.html in the folder of the run, or next to the trace; with "
+            "`--demo`, demo.html in this folder.",
         ),
     ] = None,
-    overwrite: Annotated[bool, Parameter(help="Replace the report that is there.")] = False,
-    demo: Annotated[
-        bool, Parameter(negative="", help="Of a run that comes with handeye; nothing has to be carried out.")
-    ] = False,
+    overwrite: Annotated[bool, Parameter(help="Replace an existing report.")] = False,
+    demo: Annotated[bool, Parameter(negative="", help="Use the recorded run included with handeye.")] = False,
 ) -> int:
-    """Make a page of a run, or of two: one file with what happened, why, and what was seen and felt.
+    """Write one self-contained HTML page of a run, or of two: 3D replay, pictures, forces, and what happened and why.
 
-    Exit code 0: it is written, whatever the result of the run; 2: bad input.
+    Exit code 0: written, whatever the result of the run; 2: bad input.
     """
     from handeye.core import resources
     from handeye.runs.folder import REPORT
@@ -67,7 +65,7 @@ def report(
         note(f"open {place} in a browser")
     elif run is not None and other is not None:
         if output is None:
-            raise BadArgument("a page of two runs belongs to neither; say with -o where it is to be written")
+            raise BadArgument("a page of two runs belongs in neither folder; choose a file with -o")
         place = output
         write_comparison(run, other, place, overwrite=overwrite)
     else:
@@ -134,14 +132,13 @@ def compare(
         Path | None,
         Parameter(name=["--output", "-o"], help="A page with both views under one slider, .html."),
     ] = None,
-    overwrite: Annotated[bool, Parameter(help="Replace the page that is there.")] = False,
+    overwrite: Annotated[bool, Parameter(help="Replace an existing page.")] = False,
     json: Json = False,
 ) -> int:
-    """Compare two runs, step by step: what went otherwise first, where each searched, felt and corrected.
+    """Compare two runs, step by step: the first difference, and where each searched, felt and corrected.
 
-    Runs of different plans, scenes or worlds are compared as far as they go.
-
-    Exit code 0: they are compared, whatever was found; 2: bad input.
+    Runs of different plans, scenes or worlds are compared as far as possible. Exit code 0: compared, whatever the
+    difference; 2: bad input.
     """
     from handeye.comparison.comparison import as_json, comparison
     from handeye.comparison.text import comparison_text
@@ -171,7 +168,7 @@ def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comp
 
 
 def _animations(a: "RecordedRun", b: "RecordedRun") -> "Animations | str":
-    """The animations of both runs, or the reason why there are none."""
+    """The animations of both runs, or why there are none."""
     from handeye.report.animation import animation
     from handeye.report.recorded import check_scene
 
@@ -190,9 +187,9 @@ def _animations(a: "RecordedRun", b: "RecordedRun") -> "Animations | str":
 
 
 def show(run: Run = None, /, *, json: Json = False) -> int:
-    """Show the result of a run, or how far it has got; its folder is not changed.
+    """Show the result of a run, or its progress so far; the folder does not change.
 
-    Exit code 0: it is shown, whatever the result of the run; 2: there is no run that could be shown.
+    Exit code 0: shown, whatever the result of the run; 2: there is no run to show.
     """
     folder = run_or_newest(run)
     kept = shown(folder, json=json)
@@ -202,7 +199,7 @@ def show(run: Run = None, /, *, json: Json = False) -> int:
 
 
 def _way_on(folder: Path, result: "Result") -> str:
-    """Tell how a run is gone on with: from Python, if code of its caller belongs to it."""
+    """Print how to continue a run: from Python, if it uses code of its caller."""
     from handeye.runs.parts import deciding
     from handeye.tasks import known_any, option
 
@@ -213,9 +210,7 @@ def _way_on(folder: Path, result: "Result") -> str:
     if not own:
         return f"resume with: handeye resume {shlex.join([str(folder), *option(result.task)])}"
     call = ", ".join([repr(str(folder)), *(f"{part}=..." for part in parts)])
-    return (
-        f"the run has a {' and a '.join(own)} of its own: from Python, handeye.begin({call}) goes on with it"
-    )
+    return f"the run has a {' and a '.join(own)} of its own: from Python, handeye.begin({call}) continues it"
 
 
 def shown(folder: Path, *, json: bool, details: bool = True) -> "KeptRun":

@@ -1,4 +1,4 @@
-"""Commands that carry out a program: assemble, run, resume."""
+"""Commands that run a program: assemble, run, resume."""
 
 import time
 from pathlib import Path
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 Then = Literal["dismantle", "assemble"]
 To = Annotated[str | None, Parameter(help="Pause after this stage.")]
 Until = Annotated[
-    str | None, Parameter(help="Pause before this step: its number in `handeye stages`, or its label.")
+    str | None,
+    Parameter(help="Pause before this step: its number in `handeye stages`, or its label in the script."),
 ]
 Break = Annotated[
     list[str] | None,
@@ -31,21 +32,21 @@ Break = Annotated[
         "may be repeated.",
     ),
 ]  # fmt: skip
-Step = Annotated[bool, Parameter(help="Step by commands; without a terminal they come from standard input.")]
+Step = Annotated[bool, Parameter(help="Step through the run with commands, typed or from standard input.")]
 Live = Annotated[
     bool,
     Parameter(
-        help="With --step: tell each line as it begins, and hear `pause` and `pace` while the run goes, as on a "
-        "terminal. Give the next command when the last is answered."
+        help="With --step and piped commands: print each line as it begins, and accept `pause` and `pace` during the "
+        "run, as on a terminal. Send a command only after the answer to the last one."
     ),
 ]
-Overwrite = Annotated[bool, Parameter(help="Replace the run in the folder of --out.")]
+Overwrite = Annotated[bool, Parameter(help="Replace an existing run in the folder of --out.")]
 OnStop = Annotated[
     str | None,
     Parameter(
-        help="What to do when the operator is called: `abort`, `retry:N` (each stage again, N times at most), "
-        "`unwind:STAGE` (the arm undoes what it did, to the beginning of that stage, once for each that fails; "
-        "`unwind`: of the one that fails) or `ask`. By default asks on a terminal and aborts elsewhere."
+        help="What to do when the operator is called: `abort`, `retry:N` (repeat each stage, N times at most), "
+        "`unwind:STAGE` (the arm undoes its work back to the beginning of STAGE and tries again, once for each stage "
+        "that fails; `unwind` alone: the stage that failed) or `ask`. Default: `ask` on a terminal, `abort` elsewhere."
     ),
 ]
 
@@ -60,21 +61,23 @@ def assemble(
     overwrite: Overwrite = False,
     no_keep: NoKeep = False,
     camera: Camera = "auto",
-    report: Annotated[bool, Parameter(help="Leave a page of the run in the folder, report.html.")] = False,
+    report: Annotated[
+        bool, Parameter(help="Also write report.html, a page of the run, in the folder.")
+    ] = False,
     calibrate: Calibrate = False,
     on_stop: OnStop = None,
     then: Annotated[
         list[Then] | None,
         Parameter(
             consume_multiple=False,
-            help="When the referee has found it right: have the arm undo it (`dismantle`), and `assemble` again: in "
-            "turn, as often as given.",
+            help="After a pump that the referee accepts: have the arm take it apart (`dismantle`), then `assemble` "
+            "it again; in turn, may be repeated.",
         ),
     ] = None,
 ) -> int:
-    """Assemble the water pump, or do another task with its own program: plan, work, judge.
+    """Assemble the water pump, or do another task with its own program: plan, run, judge.
 
-    Exit code 0: assembled; 1: the program stopped and called the operator; 3: the program ended, but the
+    Exit code 0: assembled; 1: the program stopped and called the operator; 3: the program reported success, but the
     referee disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.cli.job import Job, work
@@ -82,7 +85,7 @@ def assemble(
     from handeye.runs.snapshot import Checkpoint
 
     if any(part != ("dismantle", "assemble")[n % 2] for n, part in enumerate(then or ())):
-        raise BadArgument("--then dismantle and --then assemble go in turn: what stands is dismantled first")
+        raise BadArgument("--then dismantle and --then assemble alternate, beginning with dismantle")
     _check_kept(no_keep, out)
     if report and no_keep:
         raise BadArgument("--report leaves a page in the folder of the run; --no-keep leaves none")
@@ -121,15 +124,14 @@ def run(
     world_of: Annotated[
         Path | None,
         Parameter(
-            help="A run, by its folder or trace: the plan is carried out in its world, with its faults; pictures are "
-            "made as they were there."
+            help="Use the world, the faults and the renderer of this run, given by its folder or trace."
         ),
     ] = None,
     judge: Annotated[
         bool | None,
         Parameter(
             negative="--no-judge",
-            help="Let the referee judge the result; by default that of a program that was named.",
+            help="Have the referee judge the result. Default: only if the plan is given by the name of a program.",
         ),
     ] = None,
     json: Json = False,
@@ -141,7 +143,7 @@ def run(
     calibrate: Calibrate = False,
     first: Annotated[str | None, Parameter(name="--from", help="Begin with this stage.")] = None,
     to: To = None,
-    stage: Annotated[str | None, Parameter(help="Carry out this stage alone.")] = None,
+    stage: Annotated[str | None, Parameter(help="Run only this stage.")] = None,
     until: Until = None,
     breaks: Break = None,
     step: Step = False,
@@ -149,17 +151,18 @@ def run(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder of checkpoints, or of a run: --from and --stage begin there, and new ones are saved there."
+            help="Folder of checkpoints, or of a run: --from and --stage begin from its checkpoints, and new ones "
+            "are saved there."
         ),
     ] = None,
     on_stop: OnStop = None,
 ) -> int:
-    """Carry out a plan in the work cell of its task, or stages of it, or step by step.
+    """Run a plan, or some of its stages, in the work cell of its task, at once or step by step.
 
-    Give a stage by its number, its name, or a piece of its name. A later stage begins at its
-    checkpoint; without one, the stages before it come first.
+    Give a stage by its number, its name, or part of its name. A later stage starts from its checkpoint; without one,
+    the stages before it run first.
 
-    Exit code 0: the program ended, or paused where asked; 1: it stopped and called the
+    Exit code 0: the program finished, or paused where asked; 1: it stopped and called the
     operator; 3: the referee, if asked, disagrees; 2: bad input, or a --step command that was piped in
     was refused; 130: interrupted.
     """
@@ -174,13 +177,13 @@ def run(
     wanted = world
     world, spared = world.of(plan.task).apart(plan.program.calls)
     if stage is not None and (first is not None or to is not None):
-        raise BadArgument("--stage excludes --from and --to")
+        raise BadArgument("--stage cannot be given with --from or --to")
     if world_of is None:
         spec = broken(world.spec, fault, world.work, plan.program)
         setup = Setup(plan=plan, world=spec, camera=camera, judged=judge, without=spared)
     elif wanted.chosen or fault or camera != "auto":
         others = "--seed, --level, --without, --set, --scale, --fault and --camera"
-        raise BadArgument(f"{world_of} brings its own world; {others} do not go with --world-of")
+        raise BadArgument(f"{world_of} brings its own world; {others} cannot be given with --world-of")
     else:
         setup = in_world_of(world_of, plan, judged=judge)
     start = Checkpoint(setup=setup)
@@ -191,7 +194,7 @@ def run(
         start = _at_stage(start, (first if stage is None else stage) or "", kept, out)
     _check_ahead(start, stops, breaks or [])
     if checkpoints is not None and kept is not None and not kept.exists():
-        note(f"{kept} is new; checkpoints are saved there")
+        note(f"created {kept} for the checkpoints")
     return work(
         Job(
             start=start,
@@ -222,12 +225,14 @@ def resume(
         bool | None,
         Parameter(
             negative="--no-judge",
-            help="Let the referee judge the result; by default as when the run began.",
+            help="Have the referee judge the result. Default: as when the run began.",
         ),
     ] = None,
     json: Json = False,
     details: Details = False,
-    out: Annotated[Path | None, Parameter(help="Folder to save the run in, for a checkpoint file.")] = None,
+    out: Annotated[
+        Path | None, Parameter(help="Folder to save the run in, if PATH is a checkpoint file.")
+    ] = None,
     overwrite: Overwrite = False,
     to: To = None,
     until: Until = None,
@@ -238,7 +243,7 @@ def resume(
 ) -> int:
     """Resume an interrupted run.
 
-    Of a run that has ended the result is shown, and nothing is changed; with `--step` it can go back.
+    If the run has ended, the command shows its result and changes nothing; with `--step` you can go back in it.
 
     The folder of a run resumes from its newest sound checkpoint. Exit codes are those of `run`.
     """
@@ -257,7 +262,7 @@ def resume(
     if path.is_dir():
         if out is not None:
             raise BadArgument(
-                f"{path} is the folder of a run, which resumes there; --out needs a checkpoint file"
+                f"{path} is the folder of a run and resumes there; --out needs a checkpoint file"
             )
         folder, start, faults = open_again(path)
         for fault in faults:
@@ -270,7 +275,7 @@ def resume(
     _check_ahead(start, stops, breaks or [])
     wanted = start.setup.judged if judge is None else judge
     if folder is not None and not step and has_ended(folder.path, start, judged=wanted):
-        note(f"the run in {folder.path} has ended: there is nothing to be resumed")
+        note(f"the run in {folder.path} has ended: there is nothing to resume")
         return shown(folder.path, json=json, details=details).result.exit_code
     done = "no steps" if start.position < 1 else counted(start.position, "step")
     stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
@@ -301,13 +306,13 @@ def _check_kept(no_keep: bool, out: Path | None) -> None:
 
 
 def _check_live(live: bool, step: bool) -> None:
-    """Raises InvalidInput if the run would have no live display."""
+    """Raises InvalidInput if the run has no live display."""
     if live and not step:
-        raise BadArgument("--live goes with --step: it tells a run that is stepped as it goes")
+        raise BadArgument("--live needs --step: it shows the lines of a stepped run as they begin")
 
 
 def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
-    """Stops at which a run ends; breakpoints are only parsed, so that a wrong one is refused before anything moves."""
+    """Where to end a run; breakpoints are only parsed, so that a wrong one is refused before anything moves."""
     from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
     from handeye.runs.advance import AfterStage, BeforeStep
 
@@ -331,25 +336,25 @@ def _check_order(listing: "Listing", first: str | None, last: str | None) -> Non
     stages = listing.stages
     begin, end = stages[stage_number(first, listing)], stages[stage_number(last, listing)]
     if stages.index(end) < stages.index(begin):
-        raise BadArgument(f"the run begins with “{begin}”, after “{end}”")
+        raise BadArgument(f"the run would begin with “{begin}”, which is after “{end}”")
 
 
 def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
-    """Note breaks that lie behind where a run begins; raises Refused if the step to stop at does."""
+    """Note breakpoints that a run cannot reach from its start; raises Refused if the step to stop at is one."""
     from handeye.debugger.breakpoints import breakpoint, is_ahead
     from handeye.runs.advance import BeforeStep
     from handeye.runs.systems import listing_of
 
     for stop in stops:
         if isinstance(stop, BeforeStep) and not is_ahead(stop, start):
-            raise BadArgument(f"the run never reaches step {stop.step} from where it begins")
+            raise BadArgument(f"the run never reaches step {stop.step} from where it starts")
     for text in breaks:
         if not is_ahead(breakpoint(text, listing_of(start.setup)), start):
-            note(f"the run never reaches {text} from where it begins")
+            note(f"the run never reaches {text} from where it starts")
 
 
 def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:
-    """Folder to search for checkpoints: one of them, or one inside the folder of a run."""
+    """Folder to search for checkpoints: the given one, or the one inside the folder of a run."""
     from handeye.runs.folder import CHECKPOINTS
 
     folder = checkpoints or out
@@ -359,7 +364,7 @@ def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | Non
 
 
 def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | None) -> "Checkpoint":
-    """The checkpoint from which a stage is reached soonest."""
+    """The checkpoint with the fewest steps before a stage."""
     from handeye.debugger.breakpoints import stage_number
     from handeye.runs.checkpoint_store import CheckpointStore
     from handeye.runs.folder import EVENTS
@@ -374,6 +379,6 @@ def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | Non
     if number > 0 and (found is None or found.stage != wanted):
         reached = "the beginning" if found is None else f"“{found.stage}”"
         note(
-            f"no checkpoint of “{wanted}” for this plan and world: carrying out the steps before it, from {reached}"
+            f"no checkpoint of “{wanted}” for this plan and world: running the steps before it, from {reached}"
         )
     return found or start

@@ -1,4 +1,4 @@
-"""Commands on scripts and plans: check, compile, list, look into; nothing moves."""
+"""Commands for scripts and plans: check, compile, list, inspect; nothing moves."""
 
 import time
 from collections.abc import Callable
@@ -44,20 +44,21 @@ def check(
     /,
     *,
     task: TaskWords = None,
-    json: Annotated[bool, Parameter(help="Diagnostics as JSON.")] = False,
+    json: Annotated[bool, Parameter(help="Print diagnostics as JSON.")] = False,
     strict: Annotated[
         bool,
         Parameter(
-            name="--strict-1973", help="Refuse words and operands that handeye adds to the language of 1973."
+            name="--strict-1973", help="Refuse words and operands that handeye adds to the 1973 language."
         ),
     ] = False,
     watch: Annotated[
-        bool, Parameter(help="Check again whenever the script, a required file or the taught file changes.")
+        bool, Parameter(help="Keep checking whenever the script, a required file or the taught file changes.")
     ] = False,
 ) -> int:
-    """Check a script and its taught positions, the arm's reach included; nothing moves.
+    """Check a script and its taught positions, including the arm's reach; nothing moves.
 
-    Exit code 0: no errors; 2: errors, or bad input. Ctrl-C ends watching, with the code of the last check.
+    Exit code 0: no errors; 2: errors, or bad input. With --watch, Ctrl-C ends the command with the exit code of the
+    last check.
     """
     file, work = script_at(file, task)
 
@@ -78,7 +79,7 @@ def _wait() -> None:
 
 
 def watched(file: Path, check: Callable[[], int], pause: Callable[[], None] = _wait) -> int:
-    """Check a script now and whenever a file it looks at changes, until Ctrl-C; returns the code of the last check."""
+    """Check a script now and whenever one of its files changes, until Ctrl-C; returns the code of the last check."""
     code = 2
     seen: dict[Path, Version] = {}
     note(f"watching {file}; Ctrl-C ends it")
@@ -100,7 +101,7 @@ def watched(file: Path, check: Callable[[], int], pause: Callable[[], None] = _w
 
 
 def _files(file: Path) -> list[Path]:
-    """The files that a check of a script looks at."""
+    """The files that a check of a script reads."""
     if own_language(file.name) is not None:
         return [file]
     try:
@@ -111,7 +112,7 @@ def _files(file: Path) -> list[Path]:
 
 
 def _version(path: Path) -> Version:
-    """Version of a file: changes with it, and when an editor puts another file in its place."""
+    """Version of a file: changes with its contents, and when an editor replaces the file."""
     try:
         status = path.stat()
     except OSError:
@@ -150,15 +151,15 @@ def plan(
     Parameters
     ----------
     output
-        File for the plan; by default beside the script, with the ending .plan.json; of a program by its name, in this
-        folder. A plan that is there is replaced.
+        File for the plan. Default: next to the script, with the ending .plan.json; for a program given by name, in
+        this folder. An existing plan is replaced.
     """
     script, work = script_at(file, task)
     target = output or beside(file, ".plan.json")
     made = compiled(script, work)
     before = read_whole(target) if target.is_file() else b""
     write_plan(target, made)
-    replaced = "; another plan was there" if before not in (b"", read_whole(target)) else ""
+    replaced = ", replacing another plan" if before not in (b"", read_whole(target)) else ""
     counts = {"step": made.program.steps, "motion": made.motions, "stage": made.program.stages}
     said = ", ".join(counted(len(items), name) for name, items in counts.items())
     say(f"{target}: {said}{replaced}")
@@ -166,16 +167,18 @@ def plan(
 
 
 def stages(
-    file: PlanFile, /, *, json: Annotated[bool, Parameter(help="One JSON object on standard output.")] = False
+    file: PlanFile, /, *, json: Annotated[bool, Parameter(help="Print one JSON object.")] = False
 ) -> int:
-    """List the stages of a plan and their steps, with lines of the source."""
+    """List the stages of a plan and their steps, with their source lines."""
     from handeye.debugger.listing import listing, listing_text
 
     made = plan_at(file)
     return answer(listing(made.program), listing_text(made.program), json=json)
 
 
-StageName = Annotated[str | None, Parameter(help="One stage only: its number, its name, or a piece of it.")]
+StageName = Annotated[
+    str | None, Parameter(help="Only this stage: its number, its name, or part of its name.")
+]
 DRAWINGS: Final = {"svg": Kind("SVG drawing", rb"<svg ", ending=".svg"), "dot": Kind("graph", rb"digraph ")}
 
 
@@ -184,10 +187,10 @@ def inspect(
     /,
     *,
     stage: StageName = None,
-    graph: Annotated[Literal["svg", "dot"] | None, Parameter(help="Draw the flow instead.")] = None,
+    graph: Annotated[Literal["svg", "dot"] | None, Parameter(help="Draw the flow chart instead.")] = None,
     output: Annotated[
         Path | None,
-        Parameter(name=["--output", "-o"], help="File for the drawing; by default standard output."),
+        Parameter(name=["--output", "-o"], help="File for the drawing. Default: standard output."),
     ] = None,
     json: Json = False,
 ) -> int:
@@ -198,7 +201,7 @@ def inspect(
     from handeye.inspection.inspection import inspection, inspection_text
 
     if graph is not None and json:
-        raise BadArgument("--graph and --json do not go together")
+        raise BadArgument("--graph and --json cannot be given together")
     plan = plan_at(file)
     number = None if stage is None else stage_number(stage, plan.program) + 1
     if graph is not None:
@@ -219,7 +222,7 @@ def inspect(
 def diff(old: PlanFile, new: PlanFile, /, *, json: Json = False) -> int:
     """Compare what two plans do, step by step.
 
-    Exit code 0: both do the same; 1: they do not; 2: bad input.
+    Exit code 0: both do the same; 1: they differ; 2: bad input.
     """
     from handeye.inspection.difference import difference
     from handeye.inspection.difference_text import difference_text
@@ -233,7 +236,7 @@ def schema(
     *,
     output: Annotated[
         Path | None,
-        Parameter(name=["--output", "-o"], help="File for the schema; by default standard output."),
+        Parameter(name=["--output", "-o"], help="File for the schema. Default: standard output."),
     ] = None,
 ) -> int:
     """Print the JSON schema of the plan format."""

@@ -1,4 +1,4 @@
-"""The parts that sweep commands share: options, progress, the folder, and the closing summary."""
+"""What sweep commands share: options, progress, the folder, and the summary at the end."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -27,20 +27,22 @@ ROWS: Final = ".csv"
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SweepOptions:
-    """Options of every sweep but number and seed."""
+    """Options of every sweep, except number and seed."""
 
-    jobs: Annotated[WholeNumber, Parameter(name=["--jobs", "--workers"], help="Processes at a time.")] = 2
+    jobs: Annotated[
+        WholeNumber, Parameter(name=["--jobs", "--workers"], help="Number of processes at a time.")
+    ] = 2
     out: Annotated[
         Path | None,
         Parameter(
-            help="Folder of the batch: a line is written to it as each trial ends, and the same command goes on where "
-            "it was broken off; a page, figures.html, when all have ended. Or a page (.html) or a table of the trials "
-            "(.csv) alone."
+            help="Folder of the batch. Each trial is saved as it ends, so that the same command continues an "
+            "interrupted batch; figures.html is written at the end. Or a file: only the page (.html) or only "
+            "the table of trials (.csv)."
         ),
     ] = None
     tables: Annotated[
         Literal["csv", "parquet"] | None,
-        Parameter(help="With --out: the figures as tables, in the folder `tables` there."),
+        Parameter(help="With --out: also write the figures as tables, to the folder `tables` in it."),
     ] = None
     json: Json = False
 
@@ -57,7 +59,7 @@ class SweepOptions:
 
         positive(self.jobs, "process")
         if self.tables is not None and self.folder is None:
-            raise BadArgument("--tables needs --out, the folder that they are left in")
+            raise BadArgument("--tables needs --out, the folder to write them to")
         if self.out is None:
             return
         if self.folder is None:
@@ -87,12 +89,13 @@ def carry_out_sweep(
     anew: bool = False,
     more: Mapping[str, object] | None = None,
 ) -> int:
-    """Carry out a sweep: keep and tell each trial as it ends, then the figures, even if broken off; the exit code.
+    """Run a sweep: save and report each trial as it ends, then print the figures, even if interrupted; returns the
+    exit code.
 
     Args:
-        again: the command that carries the trial of a row out again.
-        anew: trials that are in the folder are dropped.
-        more: what the JSON has besides.
+        again: the command that repeats the trial of a row.
+        anew: drop trials that are in the folder.
+        more: further fields of the JSON.
     """
     from handeye.trials.figures import figures
     from handeye.trials.folder import BatchFolder
@@ -118,7 +121,7 @@ def carry_out_sweep(
     except BaseException:
         if folder is not None:
             note(
-                f"{counted(len(folder.rows), 'trial')} kept in {options.out}; the same command goes on from there"
+                f"{counted(len(folder.rows), 'trial')} kept in {options.out}; the same command continues from there"
             )
         raise
     finally:
@@ -132,7 +135,7 @@ def carry_out_sweep(
             _tell(sweep, ordered, found, options, title, more or {}, head.camera)
         again_later = sum(row.to_be_tried_again for row in ordered)
         if folder is not None and again_later:
-            note(f"{counted(again_later, 'trial')} broken off by this computer; the same command tries again")
+            note(f"{counted(again_later, 'trial')} stopped by this computer; the same command repeats them")
     return found.exit_code
 
 
@@ -175,7 +178,7 @@ def json_of(sweep: "Sweep[Any]", rows: "Sequence[Any]", found: "Figures") -> dic
 
 
 class _Progress(Tally):
-    """Trials counted as they end, and told as their kind wants it."""
+    """Trials counted and reported as they end."""
 
     def __init__(
         self, sweep: "Sweep[Any]", total: int, kept: "list[Any]", timer: HostTimer, *, json: bool
@@ -184,12 +187,12 @@ class _Progress(Tally):
         self._sweep, self._rows, self._timer = sweep, list(kept), timer
         self._to = notes if json else screen
         if kept:
-            note(f"{len(kept)} of {counted(total, sweep.noun)} kept from before")
+            note(f"{len(kept)} of {counted(total, sweep.noun)} kept from earlier")
         for row in kept:
             self._say(row)
 
     def tell(self, row: "TrialRow") -> None:
-        """Count a trial that has ended, and tell of it."""
+        """Count a trial that has ended, and report it."""
         self._rows.append(row)
         with self.aside():
             self._say(row)
@@ -216,14 +219,12 @@ class _Progress(Tally):
 
 
 def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
-    """A command that carries out a sweep whose work takes no options, `n` trials by default: for a system's entry."""
+    """A command that runs a sweep without options of its own, `n` trials by default: for a system's entry."""
 
     def command(
         *,
-        number: Annotated[WholeNumber, Parameter(name="--n", help="How many trials.")] = n,
-        seed: Annotated[
-            WholeNumber, Parameter(help="World of trial 0; trial K has a number greater by K.")
-        ] = 0,
+        number: Annotated[WholeNumber, Parameter(name="--n", help="Number of trials.")] = n,
+        seed: Annotated[WholeNumber, Parameter(help="Seed of trial 0; trial K has this seed plus K.")] = 0,
         options: SweepOptions = ANY,
     ) -> int:
         from handeye.core.variation import WorldSpec, checked_seed
@@ -233,9 +234,7 @@ def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
         positive(number, sweep.noun)
         options.check()
         if sweep.work is None:
-            raise BadArgument(
-                f"trials of the kind {sweep.kind} take options; they have a command of their own"
-            )
+            raise BadArgument(f"trials of the kind {sweep.kind} take options and have a command of their own")
         world = WorldSpec(seed=checked_seed(seed))
         title = f"{sweep.kind} in worlds from seed {seed} on"
         return carry_out_sweep(
@@ -243,8 +242,8 @@ def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
             again=lambda row: f"handeye trials {sweep.kind} --n 1 --seed {row.seed}",
         )  # fmt: skip
 
-    told = f"Carry out trials of the kind {sweep.kind} in many worlds and count."
+    told = f"Run {sweep.kind} trials in many worlds and count."
     command.__doc__ = (
-        f"{told}\n\nExit code 0: no silent failure; 1: every trial broke off; 3: one was silent."
+        f"{told}\n\nExit code 0: no silent failure; 1: no trial finished; 3: there was a silent failure."
     )
     return command

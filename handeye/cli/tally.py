@@ -1,4 +1,4 @@
-"""Progress of a batch on standard error: trials ended, and the estimated time for the rest."""
+"""Progress of a batch on standard error: trials that have ended, and the estimated time left."""
 
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -29,7 +29,7 @@ class Tally:
         silent: bool = False,
         kept: int = 0,
     ) -> None:
-        """Count trials of which some are `kept` from before; `silent`: something else tells of each."""
+        """Count trials, of which `kept` were there from earlier; `silent`: the caller reports each."""
         self._silent, self._kept = silent, kept
         self._total, self._what, self._console, self._clock = total, what, console, clock
         self._ended, self._began = kept, clock()
@@ -69,7 +69,7 @@ class Tally:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """While something else is printed: a bar that is there is out of the way."""
+        """While something else is printed: hide the bar, if there is one."""
         self._bar.stop()
         try:
             yield

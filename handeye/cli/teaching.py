@@ -1,4 +1,4 @@
-"""Commands for programming by doing: functions carried out at once, and the two modes of the arm program."""
+"""Commands for programming by doing: instructions run at once, and the two modes of the arm program."""
 
 import sys
 from dataclasses import dataclass
@@ -29,11 +29,11 @@ if TYPE_CHECKING:
     from handeye.teaching.workplace import Workplace
 
 TaughtFile = Annotated[
-    Path | None, Parameter(name="--taught", help="Taught file; by default that of `assemble`.")
+    Path | None, Parameter(name="--taught", help="Taught file. Default: the one of `assemble`.")
 ]
-Looking = Annotated[bool, Parameter(name="--look", help="Set the camera up first, as `assemble` does.")]
-From = Annotated[Path | None, Parameter(name="--from", help="Begin with the cell of this checkpoint.")]
-Keep = Annotated[Path | None, Parameter(help="Save the cell at the end to this checkpoint.")]
+Looking = Annotated[bool, Parameter(name="--look", help="Calibrate the camera first, as `assemble` does.")]
+From = Annotated[Path | None, Parameter(name="--from", help="Start from the cell of this checkpoint.")]
+Keep = Annotated[Path | None, Parameter(help="At the end, save the cell to this checkpoint.")]
 
 
 @Parameter(name="*")
@@ -62,8 +62,8 @@ class CellOptions:
 
         if self.first is not None and (self.world.chosen or self.fault):
             raise BadArgument(
-                f"{self.first} brings its own world; --seed, --level, --without, --set, --scale and --fault do not go "
-                "with --from"
+                f"{self.first} brings its own world; --seed, --level, --without, --set, --scale and --fault cannot "
+                f"be given with --from"
             )
         if self.first is not None:
             return Workplace.at(read_checkpoint(self.first), taught, panic, observers)
@@ -92,21 +92,21 @@ def do(
     keep: Keep = None,
     json: Json = False,
 ) -> int:
-    """Plan functions and carry them out at once, each by itself: `handeye do "OPEN 3" PARK`.
+    """Plan instructions and run them at once, one after the other: `handeye do "OPEN 3" PARK`.
 
     Exit code 0: done; 1: the operator was called; 2: bad input; 130: interrupted.
 
     Parameters
     ----------
     functions
-        Instructions of the arm language; a modifier comes before its motion, with a newline between.
+        Instructions of the arm language; a modifier goes before its motion, in one argument, separated by a newline.
     """
     from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
     from handeye.teaching.answers import converse
     from handeye.teaching.repl import Repl
 
     if not all(map(str.strip, functions or ("",))):
-        raise BadArgument('give a function, such as `handeye do "OPEN 3"`')
+        raise BadArgument('give an instruction, such as `handeye do "OPEN 3"`')
     if keep is not None:
         check_place(keep, CHECKPOINT)
     with PanicButton() as panic:
@@ -115,7 +115,7 @@ def do(
         repl = Repl(workplace=workplace, folder=Path(), called=_kept(keep))
         failed = converse(repl, lines, put_line if json else say, json=json, strict=True)
     if failed is not None and "modifier-without-motion" in {d.code for d in failed.diagnostics}:
-        note("a modifier and its motion go into one argument: handeye do $'STOP 50\\nCHANGE Z -1'")
+        note("a modifier and its motion must be one argument: handeye do $'STOP 50\\nCHANGE Z -1'")
     if keep is not None and (failed is None or not failed.refused):
         write_checkpoint(keep, workplace.checkpoint())
     return _code(failed)
@@ -128,15 +128,15 @@ def repl(
     cell: CellOptions = ANY_CELL,
     json: Json = False,
 ) -> int:
-    """Type functions to collect and check them; DO carries them out. HELP lists the commands.
+    """Type instructions to collect and check them; DO runs them. HELP lists the commands.
 
-    Exit code 0: left; 1: the operator was called last; 2: bad input, or a line that was piped in was refused;
+    Exit code 0: you left; 1: the last program called the operator; 2: bad input, or a piped line was refused;
     130: interrupted.
 
     Parameters
     ----------
     script
-        A script, with its taught file and the programs for `DO NAME` beside it.
+        A script, with its taught file and the programs for `DO NAME` next to it.
     """
     from handeye.al.instructions import INSTRUCTIONS
     from handeye.teaching.answers import converse
@@ -164,15 +164,15 @@ def teach(
     camera: Camera = "auto",
     json: Json = False,
 ) -> int:
-    """Move the arm and name positions; new names go into the taught file, and the rest of it stays.
+    """Move the arm and name positions; new names are added to the taught file, the rest of which stays.
 
-    Exit code 0: left; 2: bad input, or a line that was piped in was refused, or something was left unsaved;
+    Exit code 0: you left; 2: bad input, a piped line was refused, or names were not saved;
     130: interrupted.
 
     Parameters
     ----------
     file
-        The taught file (TOML), or the script beside it. It need not exist yet.
+        The taught file (TOML), or the script next to it. It need not exist yet.
     """
     from handeye.teaching.answers import converse
     from handeye.teaching.teach_commands import TEACH_COMMANDS, TeachSession
@@ -200,7 +200,7 @@ def teacher_of(
     cell: CellOptions,
     observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
 ) -> "Teacher":
-    """A cell, and the taught file that is given, or that stands beside a script; raises InvalidInput."""
+    """A cell, and the given taught file, or the one next to a script; raises InvalidInput if either cannot be used."""
     from handeye.teaching.teacher import Teacher
 
     path = file if file.suffix == ".toml" else beside(file, ".toml")
@@ -218,14 +218,14 @@ def left_unsaved(teacher: "Teacher") -> bool:
 
 
 def _kept(file: Path | None) -> str:
-    """Advice when the operator was called and there is no one to ask."""
+    """Advice when the program called the operator and there is no one to ask."""
     if file is None:
         return "--keep FILE would save the cell as it is now, and --from FILE would continue from there"
     return f"`handeye do --from {file}` continues from there"
 
 
 def _code(failed: "Answer | None") -> int:
-    """The exit code for the first answer that was not as wished."""
+    """The exit code of the first answer that was not a success."""
     if failed is None:
         return 0
     if failed.refused:

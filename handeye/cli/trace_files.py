@@ -1,4 +1,4 @@
-"""The file that a run's trace, or what there is of it, is read from."""
+"""The file to read the trace of a run from, as far as it exists."""
 
 from pathlib import Path
 from typing import Annotated, Final
@@ -57,7 +57,7 @@ def trace_file(path: Path) -> Path:
     check_holds_run(path)
     growing = part(path / TRACE)
     if growing.exists():  # newer than the whole one, which is of before the run was resumed
-        note(f"the run in {path} was interrupted; this is what its trace holds")
+        note(f"the run in {path} was interrupted; this is its trace so far")
         return growing
     if (path / TRACE).exists():
         return path / TRACE
@@ -67,7 +67,7 @@ def trace_file(path: Path) -> Path:
 
 
 def check_no_batch(folder: Path) -> None:
-    """Raises InvalidInput if a folder is not a run's, but that of a batch of trials."""
+    """Raises InvalidInput if a folder holds a batch of trials instead of a run."""
     from handeye.trials.folder import TRIALS
 
     if (folder / TRIALS).is_file():
@@ -75,8 +75,8 @@ def check_no_batch(folder: Path) -> None:
 
 
 def motion_file(path: Path) -> Path:
-    """The same, where it must say where things were; raises InvalidInput if there is only an event list."""
+    """The same for a caller that needs positions; raises InvalidInput if there is only an event list."""
     file = trace_file(path)
     if file.suffix == ".jsonl":
-        raise Refused(f"{file} is an event list, which does not say where things were; take the trace.mcap")
+        raise Refused(f"{file} is an event list, which holds no positions; use the trace.mcap")
     return file

@@ -1,4 +1,4 @@
-"""Commands on the traces of runs."""
+"""Commands that read the traces of runs."""
 
 import tempfile
 from pathlib import Path
@@ -33,7 +33,10 @@ if TYPE_CHECKING:
 
 
 def show(
-    run: RunOrEvents = None, /, *, json: Annotated[bool, Parameter(help="Events as JSON lines.")] = False
+    run: RunOrEvents = None,
+    /,
+    *,
+    json: Annotated[bool, Parameter(help="Print the events as JSON lines.")] = False,
 ) -> int:
     """Show what happened in a run, and why."""
     from handeye.program.events import to_line
@@ -73,7 +76,7 @@ def photograph(
     height: Height = 960,
     how: FineOptions = PLAIN,
 ) -> int:
-    """Photograph the cell as it was at a moment of a recorded run; nothing is simulated."""
+    """Photograph the cell at a moment of a recorded run, without simulating it again."""
     from handeye.cell.photograph import PNG, png
     from handeye.cell.posed import posed
 
@@ -82,7 +85,7 @@ def photograph(
     file = run_or_newest(run)
     trace, _ = _read(file)
     if trace is None:
-        raise Refused(f"{file} is an event list, which does not hold where things were; use the trace.mcap")
+        raise Refused(f"{file} is an event list, which holds no positions; use the trace.mcap")
     check_task(wanted, trace.head.task, file)
     state = trace.at(at)
     shot = how.take(posed(trace.scene, state.poses, state.time), camera or trace.overview, width, height)
@@ -93,15 +96,16 @@ def photograph(
 
 
 def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
-    """Carry out a recorded run again and compare.
+    """Repeat a recorded run and compare the two.
 
     It repeats what operators and experimenters did, and compares an interrupted run up to its last whole
     step.
 
-    It repeats; or it repeats but for last places of numbers, which another kind of processor and other versions round
-    otherwise; or it parts from the record, and the answer says where.
+    The operator's and experimenter's actions are repeated as well. An interrupted run is compared up to its last
+    complete step. There are three answers: the run repeats exactly; it repeats except for rounding in the last digits,
+    as on another kind of processor or with other versions; or it differs, and the answer says where.
 
-    Exit code 0: the run repeats, exactly or but for last places; 1: it does not; 2: bad input.
+    Exit code 0: the run repeats, exactly or except for rounding; 1: it differs; 2: bad input.
     """
     from handeye.core.processor import processor
     from handeye.core.versions import versions
@@ -110,7 +114,7 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
     wanted, file = made_known(task), run_or_newest(run)
     trace, events = _read(file)
     if trace is None:
-        raise Refused(f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too")
+        raise Refused(f"{file} is an event list; verify the trace.mcap next to it, which also holds the plan")
     check_task(wanted, trace.head.task, file)
     changed = [name for name, version in versions().items() if trace.head.versions.get(name) != version]
     if changed:
@@ -126,7 +130,7 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
         say(f"{file} does not repeat{elsewhere}: {found.parts}")
         if found.rounded is not None:
             say(
-                f"last places of numbers, which processors round differently, differ before that: {found.rounded}"
+                f"before that, numbers differ only by rounding, as between kinds of processors: {found.rounded}"
             )
         return 1
     count = settled(events)
@@ -136,9 +140,9 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
         say(f"{file} repeats: {same}, to the byte")
     else:
         why = elsewhere or (", with other versions" if changed else ", as on another kind of processor")
-        say(f"{file} repeats but for last places{why}: {same}; first, {found.rounded}")
+        say(f"{file} repeats except for rounding{why}: {same}; first, {found.rounded}")
     if trace.begins > 0:
-        note(f"motions before {trace.begins:.2f} s are not in this trace, and were not compared")
+        note(f"motions before {trace.begins:.2f} s are not in this trace and were not compared")
     return 0
 
 

@@ -1,4 +1,4 @@
-"""Commands that try things in many worlds and count."""
+"""Commands that repeat a trial in many worlds and count."""
 
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -29,35 +29,37 @@ if TYPE_CHECKING:
     from handeye.tasks.interface import Disturbance
     from handeye.trials.chaos.schedule import Schedule
 
-Worldly = Annotated[WholeNumber, Parameter(name="--n", help="Worlds, from --seed on; each is tried in each.")]
+Worldly = Annotated[
+    WholeNumber, Parameter(name="--n", help="Number of worlds, from --seed on, for each disturbance.")
+]
 
 
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AttemptOptions:
-    """Options for the number of attempts, their worlds and the camera."""
+    """Options for the number of trials, their worlds and the camera."""
 
     n: Annotated[WholeNumber | None, Parameter(help="The same as COUNT.")] = None
     world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
     worlds: Annotated[
-        WholeNumber | None, Parameter(help="Worlds to try in, from --seed on; by default as many as COUNT.")
+        WholeNumber | None, Parameter(help="Number of worlds, from --seed on. Default: COUNT.")
     ] = None
     eye: Annotated[
         Known,
         Parameter(
-            help="What the program knows of its camera: what its lamp shows it, what simulated sightings would "
-            "(cheap, and too good), its drawing, or the truth."
+            help="How the program knows its camera: by calibration with the lamp, by simulated sightings (faster, "
+            "and too good), from its drawing, or exactly."
         ),
     ] = "lamp"
     camera: Camera = "auto"
 
     def carry_out(self, name: str, count: int | None, usual: int, options: SweepOptions) -> int:
-        """Carry out a trial of the task; raises BadArgument if COUNT and --n both say how often."""
+        """Run the trials of the task; raises BadArgument if COUNT and --n are both given."""
         from handeye.trials.eye import EyeWork, eye_cases, eye_sweep
         from handeye.trials.folder import head_of
 
         if None not in (count, self.n):
-            raise BadArgument("COUNT says the same as --n: leave one of them out")
+            raise BadArgument("COUNT means the same as --n: leave out one of them")
         count = next((each for each in (count, self.n) if each is not None), usual)
         worlds = count if self.worlds is None else self.worlds
         for each, what in ((count, "world"), (worlds, "world"), (options.jobs, "process")):
@@ -75,7 +77,7 @@ class AttemptOptions:
             eye_cases(first.seed, count, number),
             head_of(sweep, first, settings=settings, camera=camera),
             options,
-            title=f"{name} in worlds from {first} on, the camera known by {self.eye}",
+            title=f"{name} in worlds from {first} on, the camera known from {self.eye}",
             more={"worlds": number, "eye": self.eye},
         )
 
@@ -90,17 +92,17 @@ def base_vision_trials(
     attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Find the base on the belt at many poses: how often, how exactly, and how often wrongly.
+    """Find the base on the belt at many poses: how often, how accurately, and how often wrongly.
 
-    In every world the arm carries its lamp through the camera's view first, as in a run. That is nearly all that a
-    trial costs; `--worlds` has several poses share a world and its calibration.
+    In every world the arm first moves its lamp through the camera's view, as in a run. This takes most of the time of
+    a trial; with `--worlds`, several poses share a world and its calibration.
 
     Exit code 0: no wrong pose was accepted; 3: one was.
 
     Parameters
     ----------
     count
-        Poses to try, by default 100: the one that a world has, then fresh ones.
+        Number of poses, by default 100: first the pose of the world, then random ones.
     """
     return attempts.carry_out("base", count, 100, options)
 
@@ -112,16 +114,16 @@ def gasket_vision_trials(
     attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Check gaskets of every kind by eye: on properly, shifted by .3 in, absent, and one on another.
+    """Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 
-    Two gaskets on each other look like one, and are counted for that: the hand finds them, by their height.
+    Two gaskets look like one and count as right here: in a run the hand finds them, by their height.
 
     Exit code 0: no shifted or absent gasket was accepted; 3: one was.
 
     Parameters
     ----------
     count
-        Gaskets of each kind, by default 50.
+        Number of gaskets of each kind, by default 50.
     """
     return attempts.carry_out("gasket", count, 50, options)
 
@@ -129,22 +131,20 @@ def gasket_vision_trials(
 def disturbed_trials(
     *,
     only: Annotated[
-        list[str] | None, Parameter(help="This disturbance alone. May be repeated.", consume_multiple=False)
+        list[str] | None, Parameter(help="Only this disturbance. May be repeated.", consume_multiple=False)
     ] = None,
-    listed: Annotated[
-        bool, Parameter(name="--list", help="List the disturbances; nothing is carried out.")
-    ] = False,
+    listed: Annotated[bool, Parameter(name="--list", help="List the disturbances; run nothing.")] = False,
     n: Worldly = 1,
     world: WorldOptions = ANY_WORLD,
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Build a pump, change something behind the arm's back, and have the arm undo it: is it stopped before harm?
+    """Build a pump, change something unseen by the arm, and have the arm undo it: does a guard stop it before harm?
 
-    In time is: a guard stops the arm, no part has moved by more than 2 mm in a step that the hand did not hold, and
-    the hand has felt no more than 60 N. Each builds the pump first, which takes a minute of a processor.
+    In time means: a guard stops the arm, no part that the hand does not hold has moved by more than 2 mm in a step,
+    and the hand has felt no more than 60 N. Each trial builds the pump first, which takes one CPU minute.
 
-    Exit code 0: every one was stopped in time; 3: one was not; 2: bad input; 130: interrupted.
+    Exit code 0: every trial was stopped in time; 3: one was not; 2: bad input; 130: interrupted.
     """
     from handeye.trials.disturbing import DISTURBED, DisturbanceWork
     from handeye.trials.folder import head_of
@@ -164,16 +164,16 @@ def disturbed_trials(
         cases(spec.seed, range(n), [each.name for each in chosen]),
         head_of(DISTURBED, spec, plan, camera=camera),
         options,
-        title=f"what {plan.program.name} builds, disturbed and undone, in worlds from {spec} on",
+        title=f"the work of {plan.program.name}, disturbed and undone, in worlds from {spec} on",
         plan=plan,
     )
 
 
 def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[Disturbance]":
-    """The disturbances of some names; all, if there are none."""
+    """The disturbances of some names; all if there are no names."""
     names = [each.name for each in known]
     if not names:
-        raise Refused("nothing can be disturbed in the work of this task")
+        raise Refused("this task has no disturbances")
     for name in only or ():
         if name not in names:
             near = suggestion(name, names) or "--list lists them"
@@ -183,42 +183,42 @@ def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[D
 
 def chaos_trials(
     *,
-    count: Annotated[WholeNumber, Parameter(name="--n", help="Schedules to draw.")] = 100,
-    seed: Annotated[
-        WholeNumber, Parameter(help="Number from which schedules are drawn, and the first world of theirs.")
-    ] = 0,
-    worlds: Annotated[WholeNumber, Parameter(help="Worlds to draw from: nominal, low and high in turn.")] = 3,
+    count: Annotated[WholeNumber, Parameter(name="--n", help="Number of schedules to draw.")] = 100,
+    seed: Annotated[WholeNumber, Parameter(help="Seed of the schedules, and of their first world.")] = 0,
+    worlds: Annotated[
+        WholeNumber, Parameter(help="Number of worlds: of nominal, low and high level in turn.")
+    ] = 3,
     schedule: Annotated[
         list[str] | None,
         Parameter(
-            help="Try this one, as it was printed; draw none. May be repeated.", consume_multiple=False
+            help="Run this schedule, as it was printed, instead of drawing any. May be repeated.",
+            consume_multiple=False,
         ),
     ] = None,
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder for the sound runs that schedules begin in: made where they are not there, and kept."
+            help="Folder for the fault-free runs that schedules start from: made if missing, and kept."
         ),
     ] = None,
     task: TaskWords = None,
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Draw faults, times, worlds, kills, panics, retries and skips together, and check what must always hold.
+    """Chaos test: random faults, crashes, interruptions and operator answers; a failure is minimised to one command.
 
-    A schedule begins somewhere in a sound run and goes on for a few steps, or to the end of the stage: with up to two
-    faults that set in there, up to two interruptions (the panic button, a pause, a way back, a process that is killed),
-    each of which is taken up again from disk, and an operator who retries, skips, proceeds and aborts. It is carried
-    out once more without its interruptions.
+    A schedule starts somewhere in a fault-free run and continues for a few steps, or to the end of the stage. It has
+    up to two faults, up to two interruptions (panic button, pause, going back, killed process), after each of which
+    the run resumes from disk, and an operator who retries, skips, proceeds and aborts. The same schedule then runs
+    again without its interruptions.
 
-    Checked are: no pump is wrong that the program takes for right (`silent`); trace, events and state are the same to
+    The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
     the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read
-    and tells what happened (`trace`); nothing is lost on disk (`disk`); and nothing is raised (`error`). A schedule
-    that fails is shrunk to the fewest things with which it still does, and printed as a command.
+    and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). A
+    schedule that fails is reduced as long as it still fails, and printed as a command. First, one complete run is made
+    in each world, which takes one CPU minute; a schedule takes some seconds.
 
-    Each world is carried out once in whole before, which takes a minute of a processor; a schedule takes some seconds.
-
-    Exit code 0: all held; 3: something did not; 2: bad input; 130: interrupted.
+    Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """
     from handeye.trials.chaos.schedule import parse_schedule
     from handeye.trials.chaos.trials import CHAOS, ChaosWork
@@ -250,7 +250,7 @@ def chaos_trials(
 
 @contextmanager
 def _folder(named: Path | None) -> Iterator[Path]:
-    """The folder of the sound runs; a temporary one by default."""
+    """The folder of the fault-free runs; a temporary one by default."""
     if named is not None:
         yield named
         return
@@ -259,7 +259,7 @@ def _folder(named: Path | None) -> Iterator[Path]:
 
 
 def _own_setup(words: str | None, camera: str) -> Setup:
-    """A run of a task by its own plan, whichever system does it; its world is to be chosen."""
+    """A run of a task by its own plan, in any system; its world is still open."""
     work = any_task(DEFAULT) if words is None else named(words)
     if isinstance(work, Task):
         return Setup(plan=plan_or_own(None, words), world=WorldSpec(seed=0), camera=camera)
@@ -270,11 +270,11 @@ def _own_setup(words: str | None, camera: str) -> Setup:
 
 
 def _drawn(setup: Setup, folder: Path, seed: int, count: int, worlds: int, jobs: int) -> "list[Schedule]":
-    """Schedules, when the worlds that they begin in have been carried out."""
+    """Schedules, once the runs that they start from exist."""
     from handeye.trials.chaos import trials
 
     specs = trials.worlds(seed, worlds, levels="levels" in entry_named(setup.system).can)
     ended = trials.sound_runs(setup, folder, specs, jobs)
-    tally = Tally(len(specs), "worlds carried out")
+    tally = Tally(len(specs), "worlds finished")
     runs = sorted(tally.counting(ended), key=lambda run: run.world.seed)
     return list(trials.schedules(seed, count, runs, any_task(setup.task)))

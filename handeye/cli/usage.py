@@ -1,4 +1,4 @@
-"""One sentence for each way in which a command line can be wrong, from the facts of the parser."""
+"""One sentence for each kind of mistake in a command line, from the facts of the parser."""
 
 from collections.abc import Iterable
 from typing import Final, Literal, get_args, get_origin
@@ -19,7 +19,7 @@ _NOUNS: Final[dict[object, str]] = {float: "a number", int: "a whole number"}
 
 
 def usage_sentence(error: CycloptsError) -> str:
-    """A sentence on the mistake in a command line, with a likely correction and where to read more."""
+    """A sentence about the mistake in a command line, with a likely correction and where to read more."""
     command = " ".join(error.command_chain or ())
     tell_more = f"see `handeye {command} --help`" if command else "see `handeye --help`"
     return f"{_fault(error, quoted(command or 'handeye'))} ({tell_more})"
@@ -40,7 +40,7 @@ def _fault(error: CycloptsError, command: str) -> str:
         case CoercionError():
             return _wrong_value(error)
         case UnusedCliTokensError(unused_tokens=[word, *_]):
-            return f"{command} has no use for {quoted(word)}"
+            return f"{command} does not take {quoted(word)}"
         case MissingArgumentError(argument=argument, keyword=keyword) if argument is not None:
             return f"{keyword} needs a value" if keyword else f"{command} needs {argument.name}"
     error.verbose = False
@@ -48,20 +48,20 @@ def _fault(error: CycloptsError, command: str) -> str:
 
 
 def _wrong_value(error: CoercionError) -> str:
-    """A sentence on the wrong value of an option or argument."""
+    """A sentence about the wrong value of an option or argument."""
     name = "" if error.argument is None else error.argument.name
     if error.msg is not None:  # by a converter of our own
         return f"{name}: {error.msg}"
     given = "" if error.token is None else error.token.value
     if get_origin(error.target_type) is Literal:
         words = [str(word) for word in get_args(error.target_type)]
-        return f"{name} is one of {', '.join(words)}; {quoted(given)} is none of them"
+        return f"{name} is one of {', '.join(words)}, not {quoted(given)}"
     if error.target_type is bool:
-        return f"{name} takes no value; {quoted(given)} is one"
+        return f"{name} takes no value, but {quoted(given)} was given"
     return f"{name} is {_NOUNS.get(error.target_type, 'something else')}; {quoted(given)} is not"
 
 
 def _meant(name: str, known: Iterable[str]) -> str:
-    """`; did you mean ...`, or the few that there are, if that helps."""
+    """`; did you mean ...`, or a list of the names if there are few."""
     near = suggestion(name, known)
     return f"; {near}" if near else ""

@@ -29,43 +29,44 @@ def video(
         Path | None,
         Parameter(
             name=["--output", "-o"],
-            help="The video, .webp or .webm; by default video.webp in the folder of the run, or beside the trace.",
+            help="The video, .webp or .webm. Default: video.webp in the folder of the run, or next to the trace.",
         ),
     ] = None,
-    overwrite: Annotated[bool, Parameter(help="Replace the video that is there.")] = False,
+    overwrite: Annotated[bool, Parameter(help="Replace an existing video.")] = False,
     camera: Annotated[
         str,
         Parameter(
-            help="`orbit` sways round the cell, `follow` goes near to where the hand works; or one of the scene's "
-            "cameras."
+            help="`orbit` moves around the cell, `follow` moves close to the hand; or a camera of the scene."
         ),
     ] = "orbit",
-    size: Annotated[str, Parameter(help="Points from left to right, and from top to bottom.")] = "480x360",
-    seconds: Annotated[float | None, Parameter(help="Length of the video; 14 by default.")] = None,
+    size: Annotated[str, Parameter(help="Width and height in pixels.")] = "480x360",
+    seconds: Annotated[float | None, Parameter(help="Length of the video in seconds. Default: 14.")] = None,
     speed: Annotated[
-        float | None, Parameter(help="How many times as fast as the run it is, in the place of a length.")
+        float | None, Parameter(help="Instead of a length: how many times faster than the run.")
     ] = None,
     first: Annotated[
         str | None,
-        Parameter(name="--from", help="Begin with this stage: its number, name, or a piece of it."),
+        Parameter(name="--from", help="Begin with this stage: its number, its name, or part of its name."),
     ] = None,
     last: Annotated[str | None, Parameter(name="--to", help="End with this stage.")] = None,
     captions: Annotated[
         bool,
-        Parameter(help="Tell stage and clock, and stand still for each picture that the program takes."),
+        Parameter(
+            help="Show captions with stage and clock, and pause at each picture that the program takes."
+        ),
     ] = False,
 ) -> int:
-    """Make a video of a recorded run; nothing is simulated.
+    """Make a video of a recorded run, without simulating it again.
 
-    An animated WebP (for a README) or a WebM; browsers play both. The long waits for the camera's mechanism are cut
-    out. With a length, short stages are slowed down so that each can be seen; with a speed, all is equally fast.
+    An animated WebP (for a README) or a WebM; browsers play both. Long waits for the camera's mechanism are cut. With
+    a length, short stages play slower so that each can be seen; with a speed, all stages play at that speed.
 
     ```
     handeye video pump
     handeye video pump -o pins.webm --camera follow --from insert --to top
     ```
 
-    Exit code 0: it is written; 2: bad input.
+    Exit code 0: written; 2: bad input.
     """
     from handeye.runs.folder import VIDEO
     from handeye.video.making import make_video
@@ -74,7 +75,7 @@ def video(
     wanted_task = made_known(task)
     found = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", size)
     if found is None:
-        raise BadArgument(f"{quoted(size)} is no size; one is written as 480x360")
+        raise BadArgument(f"{quoted(size)} is not a size; write it as 480x360")
     width, height = int(found[1]), int(found[2])
     wanted = VideoRequest(
         camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
@@ -98,13 +99,13 @@ def _trace(run: Path) -> "Trace":
     file = motion_file(run)
     cut = is_cut_short(file)
     if cut and file.suffix != ".part":
-        note(f"{file} was cut short; this is a video of what it holds")
+        note(f"{file} was cut short; the video shows what it holds")
     return read_trace(file, lenient=cut)
 
 
 @contextmanager
 def drawing() -> Iterator["Progress"]:
-    """Tells how many frames are drawn: as a bar, or where there is no terminal, once in a while."""
+    """Shows how many frames have been drawn: as a bar, or without a terminal as a line now and then."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn("drawing"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())

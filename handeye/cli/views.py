@@ -1,4 +1,4 @@
-"""Command that shows the cell in a browser: a run that is carried out there, or one that was recorded."""
+"""Command that shows the cell in a browser: a live run, or a recorded one."""
 
 from pathlib import Path
 from threading import Event
@@ -32,27 +32,24 @@ def view(
     /,
     *,
     demo: Annotated[
-        bool, Parameter(negative="", help="A short program that takes no pictures, and goes by itself.")
+        bool, Parameter(negative="", help="Run a short program included with handeye; it takes no pictures.")
     ] = False,
     teach: Annotated[
         Path | None,
-        Parameter(
-            help="Move the arm and name positions instead, as `handeye teach`: a taught file, or its script."
-        ),
+        Parameter(help="Teach positions instead, as `handeye teach` does: a taught file, or its script."),
     ] = None,
-    port: Annotated[WholeNumber, Parameter(help="Port of this computer; 0: any that is free.")] = 0,
+    port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0: any free port.")] = 0,
     world: WorldOptions = ANY_WORLD,
     fault: Faults = None,
     camera: Camera = "auto",
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Show the live cell in a browser, and step a run or teach positions there; or show a run that was recorded.
+    """Show the live cell in a browser, and step a run or teach positions there; or show a recorded run.
 
-    Prints the address to open, which cannot be guessed or reached from another computer. Any number of pages may look
-    on; one drives. Nobody who looks on changes anything of the run, or slows it.
-
-    Exit codes are those of `run`, with --teach those of `teach`; of a recorded run 0, when Ctrl-C ends it.
+    Prints the address to open, which contains a secret and works on this computer only. Several pages can watch, one
+    controls; watching neither changes nor slows the run. Exit codes are those of `run`, with --teach those of `teach`;
+    for a recorded run 0, when Ctrl-C ends it.
     """
     from handeye.cli.job import Job, work
     from handeye.core import resources
@@ -65,16 +62,12 @@ def view(
         raise BadArgument("--demo brings its own program; give a plan or --demo")
     if teach is not None:
         if demo or file is not None or out is not None or overwrite:
-            raise BadArgument(
-                "--teach carries out no plan and keeps no run; give it without plan, --demo and --out"
-            )
+            raise BadArgument("--teach runs no plan and keeps no run; leave out the plan, --demo and --out")
         return _teach(teach, port, world, fault, camera)
     if file is not None and (file.is_dir() or file.suffix in _RECORDED):
         made_known(world.task)
         if world.chosen or fault or camera != "auto" or out is not None or overwrite:
-            raise BadArgument(
-                f"{file} is a run that was carried out; of the options, only --port goes with it"
-            )
+            raise BadArgument(f"{file} is a recorded run; it takes no option except --port")
         return _play(file, port)
     untold = not (demo or world.chosen or world.task or fault or camera != "auto" or out is not None)
     if file is None and untold and (newest := newest_run()) is not None:

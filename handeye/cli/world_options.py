@@ -26,8 +26,8 @@ Faults = Annotated[
         name="--fault",
         group=WORLD,
         consume_multiple=False,
-        help="NAME, NAME=VALUE, or either with @STAGE behind it: something that is broken, from the beginning or from "
-        "a stage on; `handeye faults --list` lists them. May be repeated.",
+        help="A fault: NAME or NAME=VALUE, with @STAGE after it to begin at that stage instead of at the start. "
+        "`handeye faults --list` lists them. May be repeated.",
     ),
 ]
 
@@ -35,20 +35,20 @@ Faults = Annotated[
 @Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErrorOptions:
-    """The task whose world it is, which errors that has, and how large they are."""
+    """The task of the world, its errors, and their sizes."""
 
     task: TaskWords = None
     level: Annotated[
         Literal["low", "nominal", "high"],
-        Parameter(help="How large errors are: `low` is half as large as nominal, `high` twice."),
+        Parameter(help="Size of the errors: `low` is half of nominal, `high` twice."),
     ] = "nominal"
     without: Annotated[
         list[str] | None,
         Parameter(
             help="Errors or groups of them to switch off, separated by commas; `handeye world` lists their names. "
-            "`assemble`, `run` and `trials assembly` take senses, too: vision, touch, search, force, centring; the "
-            "program goes by what it believes without them. And they take macros that the program calls, such as the "
-            "checks HEADS and TOOLS of the pump: what they do is left out.",
+            "`assemble`, `run` and `trials assembly` also take senses (vision, touch, search, force, centring): "
+            "without one, the program relies on its plan. They also take macros that the program calls, such as "
+            "the checks HEADS and TOOLS of the pump, which are then skipped.",
             consume_multiple=False,
         ),
     ] = None
@@ -56,7 +56,7 @@ class ErrorOptions:
         list[str] | None,
         Parameter(
             name="--set",
-            help="NAME=VALUE: a value for a quantity, or for each of a group, such as camera.place.x=.3in; may be "
+            help="NAME=VALUE: a value for a quantity, or for each of a group, such as camera.place.x=.3in. May be "
             "repeated.",
             consume_multiple=False,
         ),
@@ -64,8 +64,8 @@ class ErrorOptions:
     scale: Annotated[
         list[str] | None,
         Parameter(
-            help="NAME=FACTOR: errors of a quantity or group so much larger, or of all whose sizes have no source: "
-            "unsourced=2; may be repeated.",
+            help="NAME=FACTOR: multiply the errors of a quantity or group by a factor; unsourced=2 doubles all whose "
+            "sizes have no source. May be repeated.",
             consume_multiple=False,
         ),
     ] = None
@@ -76,7 +76,7 @@ class ErrorOptions:
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
-        """The same for the task that a plan or run records; what is written there never has a module imported."""
+        """The same for the task recorded in a plan or run, which never causes a module to be imported."""
         return replace(self, task=any_task(name).name)
 
     def spec(self, seed: int) -> WorldSpec:
@@ -85,12 +85,12 @@ class ErrorOptions:
         off = self._names()
         if "" in off:
             raise BadArgument(
-                "--without needs names of errors, with one comma between two; `handeye world` lists them"
+                "--without needs names of errors, separated by single commas; `handeye world` lists them"
             )
         lacking = next((name for name in off if name in SENSES), None)
         if lacking is not None:
             raise BadArgument(
-                f"`{lacking}` is a sense and no error of the world: here, no program can go without it"
+                f"`{lacking}` is a sense, not an error of the world, and this command runs no program"
             )
         wanted = overrides(self.work.variation(), off, self.settings or (), self.scale or ())
         spec = WorldSpec(seed=seed, level=self.level, overrides=wanted)
@@ -98,7 +98,7 @@ class ErrorOptions:
         return spec
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
-        """The errors alone, and what a program is to do without, each once: senses, and macros that it calls."""
+        """The errors alone, and the senses and macros that the program is to do without, each once."""
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
         errors = [name for name in names if name not in spared]
@@ -124,7 +124,7 @@ class ErrorOptions:
 @Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OwnErrorOptions(ErrorOptions):
-    """The same where the command says which task it is."""
+    """The same for commands with a fixed task."""
 
     task: Annotated[str | None, Parameter(parse=False)] = None
 
@@ -138,8 +138,8 @@ class WorldOptions:
         int | None,
         Parameter(
             converter=whole,
-            help="A random number from 0 to 2^53 - 1, that the world is drawn from: where things lie, and every error. "
-            "It means nothing else; a date does as well as 3. By default 0.",
+            help="Seed of the world, a whole number from 0 to 2^53 - 1: it decides where parts lie, and every error. "
+            "Default: 0.",
         ),
     ] = None
     errors: Annotated[ErrorOptions, Parameter(name="*")] = ErrorOptions()
@@ -156,7 +156,7 @@ class WorldOptions:
 
     @property
     def chosen(self) -> bool:
-        """A world was chosen, and not a task alone."""
+        """True if a world was chosen, not only a task."""
         return replace(self, errors=replace(self.errors, task=None)) != ANY_WORLD
 
     def of(self, name: str) -> Self:
@@ -169,7 +169,7 @@ class WorldOptions:
         return self.errors.spec(self.seed or 0)
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
-        """The world, and what a program that calls these macros is to do without in it."""
+        """The world, and the senses and macros that the program is to do without in it."""
         errors, spared = self.errors.apart(calls)
         return replace(self, errors=errors), spared
 
@@ -184,7 +184,7 @@ def broken(
     """A world of a task with faults; raises InvalidInput if there is no such fault, value or stage.
 
     Args:
-        listing: tells the stages with which they may set in; None: there are none.
+        listing: lists the stages at which faults may begin; None: there are none.
     """
     if not options:
         return world

@@ -36,21 +36,24 @@ class FineOptions:
         bool,
         Parameter(
             negative="",
-            help="Average many exposures in a light of their own: soft shadows, depth of field, smooth edges.",
+            help="Average many exposures: soft shadows, depth of field, smooth edges.",
         ),
     ] = False
     film: Annotated[
         Literal["colour", "1973"] | None,
         Parameter(
-            help="Colour, or black and white as in the paper of 1973, in hard light from the side. It implies `--fine`."
+            help="Colour, or black and white in hard side light, like the photographs of the 1973 paper. Implies "
+            "`--fine`."
         ),
     ] = None
     exposures: Annotated[
-        WholeNumber | None, Parameter(help="How many are averaged, by default 24. It implies `--fine`.")
+        WholeNumber | None, Parameter(help="Number of exposures. Default: 24. Implies `--fine`.")
     ] = None
 
     def take(self, posed: "Posed", camera: str, width: int, height: int) -> "Photograph":
-        """The photograph, and its progress on the terminal; raises InvalidInput if camera or size cannot be."""
+        """The photograph, and its progress on the terminal; raises InvalidInput if the camera does not exist or the
+        size is not possible.
+        """
         from handeye.cell.exposures import exposing, photographed
 
         how = exposing(fine=self.fine, film=self.film, exposures=self.exposures)
@@ -65,7 +68,7 @@ PLAIN: Final = FineOptions()
 
 
 def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
-    """List every quantity in which worlds differ: what it is in this world, unit, spread and source."""
+    """List every quantity in which worlds differ: its value in this world, unit, spread and source."""
     from handeye.results.world_page import world_json, world_page
 
     spec = world.spec

@@ -62,7 +62,7 @@ def test_a_run_is_taken_up_in_its_world(folder: Path) -> None:
     [
         ({"at": "nix"}, r"^there is no stage `nix`"),
         ({"at": 9}, r"^there is no stage 9; the program has stages 1 to 4$"),
-        ({"at": "never"}, r"^the run never comes to “never” from where it begins$"),
+        ({"at": "never"}, r"^the run never comes to “never” from where it starts$"),
         ({"at": ["shut"]}, r"^a place is a text or the number of a line, not \['shut'\]$"),
         ({"seed": -1}, r"^a seed is a whole number from 0 to 9007199254740991, or 2\^53 - 1; -1 is not$"),
         ({"seed": "3"}, r"^a seed is a whole number from 0 to 9007199254740991, or 2\^53 - 1; '3' is not$"),

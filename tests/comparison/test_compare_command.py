@@ -67,14 +67,14 @@ def test_programs_are_told_step_line_quantity_and_both_values(command: Command, 
     }  # fmt: skip
 
 
-_NO_PLACES = "an event list, which does not say where things were"
+_NO_PLACES = "an event list, which holds no positions"
 
 
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [
         ("nowhere", None, "nowhere: there is no such file"),
-        ("events.jsonl", "", f"events.jsonl is {_NO_PLACES}; take the trace.mcap"),
+        ("events.jsonl", "", f"events.jsonl is {_NO_PLACES}; use the trace.mcap"),
         ("b.mcap", "no trace", "b.mcap is not a trace: it is not an MCAP file"),
     ],
 )  # fmt: skip

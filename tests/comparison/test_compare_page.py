@@ -127,7 +127,7 @@ def test_a_page_is_replaced_only_if_somebody_says_so_and_nothing_else_ever(comma
 
 @pytest.mark.usefixtures("traces")
 def test_a_report_of_two_runs_has_to_be_told_its_place(command: Command) -> None:
-    said = "handeye: a page of two runs belongs to neither; say with -o where it is to be written\n"
+    said = "handeye: a page of two runs belongs in neither folder; choose a file with -o\n"
     assert command("report", "a.mcap", "b.mcap") == (2, "", said)
 
 

@@ -152,7 +152,8 @@ def test_senses_are_told_from_errors_of_the_world() -> None:
     errors, spared = options.apart({"HEADS", "TOOLS"})
     assert (spared, errors.without) == (("vision", "touch", "HEADS"), ["camera"])
     with pytest.raises(
-        InvalidInput, match=r"^`touch` is a sense and no error of the world: here, no program can go"
+        InvalidInput,
+        match=r"^`touch` is a sense, not an error of the world, and this command runs no program",
     ):
         options.spec(0)
 

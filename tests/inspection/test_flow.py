@@ -138,4 +138,4 @@ def test_an_output_without_a_drawing_is_refused(command: Command) -> None:
 
 def test_a_drawing_as_json_is_refused(command: Command) -> None:
     code, _, err = command("inspect", PUMP, "--graph", "svg", "--json")
-    assert (code, err) == (2, "handeye: --graph and --json do not go together\n")
+    assert (code, err) == (2, "handeye: --graph and --json cannot be given together\n")

@@ -38,7 +38,7 @@ def test_do_takes_a_modifier_with_its_motion(command: Command) -> None:
 def test_do_tells_a_modifier_alone_how_it_goes_with_its_motion(command: Command) -> None:
     code, _, err = command("do", "STOP [0 0 -30]", "CHANGE Z -9")
     assert (code, err.count("\n")) == (2, 1)
-    assert err.startswith("a modifier and its motion go into one argument: handeye do $'STOP 50\\nCHANGE")
+    assert err.startswith("a modifier and its motion must be one argument: handeye do $'STOP 50\\nCHANGE")
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_do_goes_on_from_the_cell_that_another_has_kept(command: Command) -> Non
 
 def test_do_without_a_function_says_what_is_wanted(command: Command) -> None:
     code, _, err = command("do")
-    assert (code, err) == (2, 'handeye: give a function, such as `handeye do "OPEN 3"`\n')
+    assert (code, err) == (2, 'handeye: give an instruction, such as `handeye do "OPEN 3"`\n')
 
 
 def test_repl_reads_functions_from_standard_input_and_answers_each_with_a_line_of_json(

@@ -128,14 +128,14 @@ def test_of_a_trace_that_was_cut_short_it_is_said_and_the_exit_code_says_so(
     whole = Path("a.mcap").read_bytes()
     Path("a.mcap").write_bytes(whole[: len(whole) * 3 // 4])
     code, out, err = command("trace", "export", "csv", "a.mcap", "-o", "told")
-    assert (code, out[:14], err) == (1, "told: joints (", "a.mcap was cut short; this is what it holds\n")
+    assert (code, out[:14], err) == (1, "told: joints (", "a.mcap was cut short; these are its contents\n")
 
 
 def test_an_event_list_makes_no_tables(command: Command) -> None:
     Path("events.jsonl").touch()
     code, _, err = command("trace", "export", "csv", "events.jsonl", "-o", "told")
     assert (code, Path("told").exists()) == (2, False)
-    assert err.endswith("does not say where things were; take the trace.mcap\n")
+    assert err.endswith("holds no positions; use the trace.mcap\n")
 
 
 def test_parquet_without_pyarrow_is_told_with_the_way_to_get_it(

@@ -68,7 +68,7 @@ def test_options_of_a_run_do_not_go_with_one_that_was_carried_out(
 ) -> None:
     Path("kept").mkdir()
     code, _, err = command("view", "kept", *option)
-    assert (code, "only --port goes with it" in err) == (2, True)
+    assert (code, "it takes no option except --port" in err) == (2, True)
 
 
 def test_the_demo_takes_no_plan(command: Command) -> None:

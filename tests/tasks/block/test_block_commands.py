@@ -67,7 +67,7 @@ def test_a_task_that_contradicts_the_plan_is_refused(command: Command) -> None:
     told(command, "plan", *BLOCK, "block.al")
     assert command("run", PLAN, "--task", "water_pump") == (
         2, "", f"handeye: {PLAN} is a plan for the task `block`, not for `water_pump`; "
-        "leave --task out, or name another\n",
+        "leave out --task, or name another\n",
     )  # fmt: skip
 
 
