@@ -1,9 +1,7 @@
 """Commands that run plans in many worlds, and that compare batches of trials."""
 
-import re
 import shlex
-from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final, Literal
@@ -11,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Final, Literal
 from cyclopts import Parameter
 
 from handeye.cli.common import (
-    LONGEST_NUMBER,
     Camera,
     Json,
     WholeNumber,
@@ -21,12 +18,12 @@ from handeye.cli.common import (
     screen,
 )
 from handeye.cli.programs import plan_or_own
+from handeye.cli.seeds import Seeds, following, seeds_of
 from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.plain_text import counted
-from handeye.core.variation import checked_seed
 from handeye.runs.operator import parse_policy
 from handeye.tasks import DEFAULT, option, planned
 
@@ -52,13 +49,7 @@ def assembly_trials(
         WholeNumber | None,
         Parameter(group=WORLD, help="Seed of trial 0; trial K has this seed plus K. Default: 0."),
     ] = None,
-    seeds: Annotated[
-        str | None,
-        Parameter(
-            help="Instead of --seed and --n: the seeds of the trials, as numbers and ranges separated by commas, "
-            "such as 20261126,0-19."
-        ),
-    ] = None,
+    seeds: Seeds = None,
     errors: ErrorOptions = ANY_ERRORS,
     fault: Faults = None,
     plan: PlanOption = None,
@@ -109,7 +100,7 @@ def assembly_trials(
         raise BadArgument("--tables needs --out, the folder to write them to")
     if scheduler is not None and engine != "dask":
         raise BadArgument("--scheduler needs --engine dask")
-    chosen = _chosen(n, seed, seeds)
+    chosen = seeds_of(n, seed, seeds, usual=COUNT)
     numbers = _numbers(len(chosen), only)
     positive(options.jobs, "worker")
     for limit in (simulated_limit, cpu_limit):
@@ -132,10 +123,9 @@ def assembly_trials(
         simulated_limit_s=simulated_limit,
         cpu_limit_s=cpu_limit,
     )
-    following = all(seed == chosen[0] + k for k, seed in enumerate(chosen))
     where = (
         f"worlds from {world} on"
-        if following
+        if following(chosen)
         else f"{counted(len(chosen), 'world')} by name, from {world} on"
     )
     lacking = f", without {', '.join(spared)}" if spared else ""
@@ -145,7 +135,7 @@ def assembly_trials(
         ASSEMBLY,
         trial,
         [Case(trials=(k,), seed=chosen[k]) for k in numbers],
-        trial.head(ASSEMBLY, seeds=() if following else tuple(chosen)),
+        trial.head(ASSEMBLY, seeds=() if following(chosen) else tuple(chosen)),
         options,
         title=f"{record.program.name} in {where}{lacking}{answered}",
         plan=record,
@@ -247,44 +237,6 @@ def compare_trials(
 
         screen.print(comparison(names[0], found), soft_wrap=True)
     return 0
-
-
-def _chosen(n: int | None, seed: int | None, seeds: str | None) -> Sequence[int]:
-    """The seeds of a batch; raises BadArgument if they are not valid."""
-    if seeds is None:
-        first, count = seed or 0, COUNT if n is None else n
-        positive(count, "trial")
-        return _seeds(first, first + count - 1)
-    if n is not None or seed is not None:
-        raise BadArgument("--seeds replaces --n and --seed: leave out either --seeds or the other two")
-    ranges = [_range(part) for part in seeds.split(",")]
-    if len(ranges) == 1:
-        return ranges[0]
-    positive(sum(map(len, ranges)), "trial")
-    found = [each for part in ranges for each in part]
-    twice = next((each for each, times in Counter(found).items() if times > 1), None)
-    if twice is not None:
-        raise BadArgument(f"--seeds names {twice} twice")
-    return found
-
-
-def _range(text: str) -> range:
-    """The seeds of a number or a range as typed; raises BadArgument if it is neither."""
-    found = re.fullmatch(f"([0-9]{{1,{LONGEST_NUMBER}}})(?:-([0-9]{{1,{LONGEST_NUMBER}}}))?", text.strip())
-    first, last = (0, -1) if found is None else (int(found[1]), int(found[2] or found[1]))
-    if last < first:
-        raise BadArgument(
-            f"seeds are numbers and ranges such as 20261126,0-19; {quoted(text)} is neither a number nor a range"
-        )
-    return _seeds(first, last)
-
-
-def _seeds(first: int, last: int) -> range:
-    """The seeds of a range; raises BadArgument if it is empty or too long."""
-    checked_seed(first)
-    checked_seed(last)
-    positive(last - first + 1, "trial")
-    return range(first, last + 1)
 
 
 def _numbers(count: int, only: int | None) -> range:

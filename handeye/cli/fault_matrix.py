@@ -1,14 +1,20 @@
 """The command that tries faults, one per run: the outcome of each, and whether the program notices it."""
 
+from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+import msgspec
 from cyclopts import Parameter
 
 from handeye.cli.common import Camera, WholeNumber, camera_here, positive, put, screen
 from handeye.cli.programs import plan_or_own
+from handeye.cli.seeds import Seeds, following, seeds_of
 from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
+from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions, stage_of
 from handeye.core.errors import BadArgument
+from handeye.runs.setup import Setup
 
 if TYPE_CHECKING:
     from handeye.core.faults import Catalogue, FaultKind
@@ -30,9 +36,20 @@ def faults(
         str | None, Parameter(help="Start the faults that can begin during work at this stage.")
     ] = None,
     n: Annotated[
-        WholeNumber,
-        Parameter(name="--n", help="Number of worlds, from --seed on; each fault is tried in each world."),
-    ] = 1,
+        WholeNumber | None,
+        Parameter(
+            name="--n",
+            help="Number of worlds, from --seed on; each fault is tried in each world. Default: 1.",
+        ),
+    ] = None,
+    seeds: Seeds = None,
+    checkpoints: Annotated[
+        Path | None,
+        Parameter(
+            help="Folder for a run without faults in each world, created when missing and kept: a fault that begins at "
+            "a stage starts from there. By default each fault takes a whole run. The outcome is the same."
+        ),
+    ] = None,
     world: WorldOptions = ANY_WORLD,
     camera: Camera = "auto",
     options: SweepOptions = ANY,
@@ -43,24 +60,27 @@ def faults(
     Good outcomes: the program `recovered`, or it `stopped` in the right stage, with the brakes on, and named the
     fault. Less good: it stopped but named another fault (`misnamed`). Bad outcomes, counted as undetected: the program
     ought to notice and did not (`unnoticed`), it stopped without brakes (`unbraked`), or it reported success with a
-    wrong pump (`silent`). A run takes up to one CPU minute; the time left is shown on standard error. Ctrl-C stops the
-    command and prints the runs that have finished; with --out the same command continues from there.
+    wrong pump (`silent`).
+
+    A whole run takes one to three CPU minutes; the time left is shown on standard error. Ctrl-C stops the command and
+    prints the runs that have finished; with --out the same command continues from there, and other faults in the same
+    worlds join them.
 
     Exit code 0: every fault was detected; 1: no trial finished; 3: a fault was undetected; 2: bad input; 130:
     interrupted.
     """
     from handeye.trials.faults import FAULTS, FaultWork, chosen, usual, with_panic
     from handeye.trials.folder import head_of
-    from handeye.trials.sweep import cases
+    from handeye.trials.sweep import Case
 
-    spec = world.spec
+    chosen_seeds = seeds_of(n, world.seed, seeds, usual=1)
+    spec = world.errors.spec(chosen_seeds[0])
     catalogue = with_panic(world.work.faults(spec))
     if every and only:
         raise BadArgument("--all cannot be given with --only")
     if listed and (stage is not None or options.out is not None):
         raise BadArgument("--list runs nothing: leave out --stage and --out")
     positive(options.jobs, "worker")
-    positive(n, "world")
     everything = every or (listed and not only)
     kinds = chosen(catalogue, tuple(catalogue.kinds) if everything else only or ())
     if listed:
@@ -69,16 +89,33 @@ def faults(
     plan, camera = plan_or_own(None, world.task), camera_here(camera)
     first = None if stage is None else stage_of(plan.program)(stage)
     given = usual(catalogue, kinds, first, len(plan.program.stages))
+    if checkpoints is not None:
+        _sound(Setup(plan=plan, world=spec, camera=camera), checkpoints, chosen_seeds, options.jobs)
     return carry_out_sweep(
         FAULTS,
-        FaultWork(plan=plan, world=spec, faults=given, camera=camera),
-        cases(spec.seed, range(n), [*given]),
-        head_of(FAULTS, spec, plan, camera=camera),
+        FaultWork(plan=plan, world=spec, faults=given, camera=camera, sound=checkpoints),
+        [
+            Case(trials=(k,), seed=each, condition=name)
+            for name in given
+            for k, each in enumerate(chosen_seeds)
+        ],
+        head_of(
+            FAULTS, spec, plan, camera=camera, seeds=() if following(chosen_seeds) else tuple(chosen_seeds)
+        ),
         options,
         title=f"{plan.program.name} with one fault at a time, in worlds from {spec} on",
         plan=plan,
         anew=overwrite,
     )
+
+
+def _sound(setup: Setup, folder: Path, seeds: Sequence[int], jobs: int) -> None:
+    """Run what a folder lacks of runs without faults."""
+    from handeye.trials.sound_run import sound_runs
+
+    worlds = [msgspec.structs.replace(setup.world, seed=seed) for seed in seeds]
+    for _ in Tally(len(worlds), "worlds finished").counting(sound_runs(setup, folder, worlds, jobs)):
+        pass
 
 
 def _list(catalogue: "Catalogue", kinds: "list[FaultKind]", *, json: bool) -> int:

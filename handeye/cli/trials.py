@@ -272,9 +272,9 @@ def _own_setup(words: str | None, camera: str) -> Setup:
 def _drawn(setup: Setup, folder: Path, seed: int, count: int, worlds: int, jobs: int) -> "list[Schedule]":
     """Schedules, once the runs that they start from exist."""
     from handeye.trials.chaos import trials
+    from handeye.trials.sound_run import sound_runs
 
     specs = trials.worlds(seed, worlds, levels="levels" in entry_named(setup.system).can)
-    ended = trials.sound_runs(setup, folder, specs, jobs)
     tally = Tally(len(specs), "worlds finished")
-    runs = sorted(tally.counting(ended), key=lambda run: run.world.seed)
+    runs = sorted(tally.counting(sound_runs(setup, folder, specs, jobs)), key=lambda run: run.world.seed)
     return list(trials.schedules(seed, count, runs, any_task(setup.task)))

@@ -53,7 +53,6 @@ def run_plan(
 
     Raises InvalidInput if arm, limits or camera do not fit, and Halted if the button was hit before the working phase.
     """
-    metered = meter or Meter()
     setup = Setup(
         plan=plan,
         world=world,
@@ -62,8 +61,29 @@ def run_plan(
         replaced=parts.names,
         without=without,
     )
+    return run_on(
+        Checkpoint(setup=setup), meter=meter, referee=referee, parts=parts, own_referee=own_referee,
+        observers=observers, viewed=viewed, calibrate=calibrate, halt=halt, operator=operator,
+    )  # fmt: skip
+
+
+def run_on(
+    start: Checkpoint,
+    *,
+    meter: Meter | None = None,
+    referee: bool = True,
+    parts: Parts = OWN,
+    own_referee: Referee | None = None,
+    observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
+    viewed: Callable[[int, int], None] = lambda *_: None,
+    calibrate: bool = False,
+    halt: Callable[[], bool] = lambda: False,
+    operator: Operator = NOBODY,
+) -> FinishedRun:
+    """Carry a run out from its beginning or from a state that was kept, and have it judged; see `run_plan`."""
+    metered = meter or Meter()
     runner = Runner(
-        Checkpoint(setup=setup),
+        start,
         halt=halt,
         viewed=viewed,
         observers=observers,

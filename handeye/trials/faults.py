@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Final, Literal
 
 import msgspec
@@ -17,8 +18,11 @@ from handeye.program.events import AnyEvent, StageStarted, StepStarted
 from handeye.results.result import Result
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
 from handeye.tasks import task
-from handeye.trials.assembly import brakes_hold, run_plan
+from handeye.trials.assembly import brakes_hold, run_on
+from handeye.trials.sound_run import sound_run, with_faults
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
 Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "silent"]
@@ -124,23 +128,31 @@ class FaultWork:
     world: WorldSpec  # World of every case, but for its seed and fault
     faults: Mapping[str, Fault]
     camera: str
+    sound: Path | None = None
+    """Folder of the sound runs in which faults that set in with a stage begin; None: each run is a whole one."""
 
     def __call__(self, case: Case) -> list[FaultRow]:
         """Carry out one run with its fault, or with the panic button hit in it."""
         fault = self.faults[case.condition]
-        world = msgspec.structs.replace(self.world, seed=case.seed, faults=(fault,))
+        world = msgspec.structs.replace(self.world, seed=case.seed)
         catalogue = with_panic(task(self.plan.task).faults(world))
         if fault.name == PANIC.name:
             button = PanicInStage((fault.stage or 1) - 1)
-            sound = msgspec.structs.replace(world, faults=())
-            done = run_plan(
-                self.plan, world=sound, camera=self.camera, halt=button.down, observers=button.watching
-            )
+            done = run_on(self._start(world, (), fault.stage), halt=button.down, observers=button.watching)
         else:
-            done = run_plan(self.plan, world=world, camera=self.camera)
+            done = run_on(self._start(world, (fault,), fault.stage))
         braked = brakes_hold(done.runner.arm_cell)
         tried = trial_of(fault, catalogue, done.result, done.runner.events, braked=braked)
         return [FaultRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
+
+    def _start(self, world: WorldSpec, faults: tuple[Fault, ...], stage: int | None) -> Checkpoint:
+        """The beginning of a run with these faults: that of the stage with which they set in, where it is kept."""
+        setup = Setup(plan=self.plan, world=world, camera=self.camera)
+        if self.sound is None or stage is None:
+            return Checkpoint(
+                setup=msgspec.structs.replace(setup, world=msgspec.structs.replace(world, faults=faults))
+            )
+        return with_faults(sound_run(self.sound, setup, world).before(stage), faults)
 
 
 def usual(

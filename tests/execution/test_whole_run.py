@@ -33,7 +33,7 @@ from handeye.runs.folder import CHECKPOINTS
 from handeye.runs.runner import Runner
 from handeye.tasks import task
 from handeye.tasks.water_pump.referee.findings import judge
-from handeye.trials.chaos.sound_run import with_faults
+from handeye.trials.sound_run import with_faults
 
 pytestmark = [pytest.mark.slow, pytest.mark.render]
 

@@ -17,8 +17,8 @@ from handeye.systems.stanford.executor_run import RunningPlan
 from handeye.tasks import task
 from handeye.trials.chaos import trials as trial
 from handeye.trials.chaos.schedule import Break, Schedule, draw, parse_schedule
-from handeye.trials.chaos.sound_run import SoundRun, sound_run
 from handeye.trials.chaos.trials import ScheduleResult, Violation, shrunk, try_schedule, wrong
+from handeye.trials.sound_run import SoundRun, sound_run
 
 SCHEDULE = Schedule(
     seed=3,

@@ -1,6 +1,8 @@
 """What a run with a fault came to is judged by the error that should name it."""
 
 import json
+from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
@@ -9,6 +11,7 @@ import numpy as np
 import pytest
 from conftest import Command
 from results import result
+from short_runs import plan_of
 
 from handeye.core.errors import InvalidInput
 from handeye.core.faults import Catalogue, ExpectedDetection, Fault, FaultKind
@@ -33,6 +36,7 @@ from handeye.trials.faults import (
     with_panic,
 )
 from handeye.trials.figures import figures
+from handeye.trials.folder import read_batch
 from handeye.trials.sweep import Case
 
 STOPPED = result(completed=False, assembled=None, message="the gasket is not on properly")  # with error 32
@@ -136,7 +140,7 @@ def unnoticed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
             raise KeyboardInterrupt
         tried.append(case.condition)
         (row,) = rows_of("picture.frozen", ended=RIGHT)
-        return [msgspec.structs.replace(row, condition=case.condition)]
+        return [msgspec.structs.replace(row, trial=case.trials[0], seed=case.seed, condition=case.condition)]
 
     monkeypatch.setattr(FaultWork, "__call__", work)
     return tried
@@ -154,6 +158,35 @@ def test_the_matrix_that_is_interrupted_tells_what_has_ended_and_goes_on_there(
     unnoticed.clear()
     assert command(*words)[0] in (3, 130)
     assert not {*first} & {*unnoticed}
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("unnoticed")
+def test_the_matrix_takes_worlds_by_name_and_slices_of_it_share_a_folder(
+    command: Command, unnoticed: list[str]
+) -> None:
+    words = ("faults", "--jobs", "1", "--out", "kept", "--only", "picture.dark", "--seeds")
+    assert command(*words, "7,3")[0] == 3
+    unnoticed.clear()
+    assert command(*words, "7,3", "--only", "lamp.dead")[0] == 3
+    kept = [(row.condition, row.trial, row.seed) for row in read_batch(Path("kept"))[1]]
+    assert kept == [
+        (name, k, seed) for name in ("lamp.dead", "picture.dark") for k, seed in enumerate((7, 3))
+    ]
+
+
+@pytest.mark.slow
+def test_a_fault_that_sets_in_with_a_stage_ends_alike_in_a_whole_run_and_from_a_sound_one(
+    tmp_path: Path,
+) -> None:
+    world = WorldSpec(seed=3)
+    stuck = task().faults(world).kind("gap_potentiometer.stuck").usual(2)
+    plan = plan_of('  STAGE "a"\n  OPEN 1\n  STAGE "b"\n  OPEN 2\n')
+    whole = FaultWork(plan=plan, world=world, faults={"stuck": stuck}, camera="ray")
+    case = Case(trials=(0,), seed=3, condition="stuck")
+    (row,) = whole(case)
+    assert (row.stage, row.verdict) == ("b", "stopped")
+    assert replace(whole, sound=tmp_path)(case) == [row]
 
 
 @pytest.mark.usefixtures("unnoticed")

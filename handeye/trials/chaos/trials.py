@@ -3,7 +3,6 @@
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Final
 
@@ -29,9 +28,8 @@ from handeye.trace.eventlist import effective, read_events
 from handeye.trace.reading import read_trace
 from handeye.trials.chaos.carrying_out import ReachedPosition, ScheduleRun, ScheduleRunner
 from handeye.trials.chaos.schedule import MOST_STEPS, Schedule, draw, parse_schedule
-from handeye.trials.chaos.sound_run import SoundRun, sound_run, with_faults
+from handeye.trials.sound_run import SoundRun, sound_run, with_faults
 from handeye.trials.sweep import Case, Sweep, TrialRow
-from handeye.trials.workers import in_processes
 
 
 def on_disk(carried: ScheduleRun) -> Iterator[str]:
@@ -243,11 +241,6 @@ def worlds(seed: int, count: int, *, levels: bool = True) -> list[WorldSpec]:
     """Worlds for the schedules of a seed: its own and those after it, one level after the other if there are levels."""
     chosen = LEVELS if levels else LEVELS[:1]
     return [WorldSpec(seed=seed + number, level=chosen[number % len(chosen)]) for number in range(count)]
-
-
-def sound_runs(setup: Setup, folder: Path, specs: Sequence[WorldSpec], jobs: int) -> Iterator[SoundRun]:
-    """The sound runs of some worlds in a folder, carried out now where it does not have them, in the order they end."""
-    yield from in_processes(partial(sound_run, folder, setup), specs, jobs)
 
 
 def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: AnyTask) -> Iterator[Schedule]:

@@ -10,8 +10,8 @@ from handeye.core.entries import entry_named
 from handeye.systems.trig.run.running_job import RunningJob
 from handeye.systems.trig.run.state import TaughtState
 from handeye.trials.chaos.schedule import parse_schedule
-from handeye.trials.chaos.sound_run import NEAR_END, SoundRun, sound_run
 from handeye.trials.chaos.trials import try_schedule
+from handeye.trials.sound_run import NEAR_END, SoundRun, sound_run
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,8 @@
-"""Sound runs: one of each world, with checkpoints close to each other, from which schedules begin."""
+"""Sound runs: one of each world, with checkpoints close to each other, from which trials begin."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Final
 
@@ -19,6 +20,7 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import listing_of
 from handeye.tasks import task
+from handeye.trials.workers import in_processes
 
 EVERY: Final = 3  # Steps from one checkpoint to the next
 NEAR_END: Final = 36  # Steps before the end of a program of one stage where no schedule begins any more
@@ -42,6 +44,18 @@ class SoundRun:
                 f"a schedule cannot begin with {counted(position, 'step')} done: there is no such state"
             )
         return found
+
+    def before(self, stage: int) -> Checkpoint:
+        """The state before the first step of a stage, by its number from 1; raises InvalidInput if there is none."""
+        begun = [start for start, number in zip(self.starts, self.stages, strict=True) if number == stage]
+        if not begun:
+            raise Refused(f"the program has no stage {stage}")
+        return self.at(begun[0])
+
+
+def sound_runs(of: Setup, folder: Path, worlds: Sequence[WorldSpec], jobs: int) -> Iterator[SoundRun]:
+    """The sound runs of some worlds, in the order they end; a folder keeps them, and those it lacks run now."""
+    yield from in_processes(partial(sound_run, folder, of), worlds, jobs)
 
 
 def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
