@@ -1,4 +1,4 @@
-"""The pages name commands and options that exist, and the README counts the plan as it is."""
+"""README, docs and help name the same commands and options, and docs/plan.md counts the plan as it is."""
 
 import re
 from collections.abc import Iterator
@@ -62,16 +62,67 @@ def test_every_option_a_page_names_exists(page: Path) -> None:
     assert named - OPTIONS - WITH_PYTEST - OF_CLUSTERS == set()
 
 
-def test_the_readme_names_every_command() -> None:
-    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "README.md").read_text(encoding="utf-8"))
-    named = {word for text in quoted for word in re.findall(r"\w+", text)}
-    assert {word for word in app if not word.startswith("-")} - named == set()
+def leaves(commands: App, before: tuple[str, ...] = ()) -> Iterator[tuple[str, App]]:
+    """Each command that does something, with the words that call it."""
+    for word in commands:
+        if word.startswith("-"):
+            continue
+        if commands[word].default_command is not None:
+            yield " ".join((*before, word)), commands[word]
+        yield from leaves(commands[word], (*before, word))
 
 
-def test_the_readme_counts_steps_stages_and_motions_as_the_plan_has_them() -> None:
+LEAVES = dict(leaves(app))
+
+
+def test_the_page_of_commands_names_every_command_of_the_help() -> None:
+    page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    assert [name for name in LEAVES if not re.search(rf"`handeye {name}\b", page)] == []
+
+
+@pytest.mark.parametrize("name", LEAVES)
+def test_the_help_says_what_each_option_of_a_command_does(name: str) -> None:
+    arguments = LEAVES[name].assemble_argument_collection(parse_docstring=True)
+    shown = [argument for argument in arguments if argument.show]
+    assert [argument.name for argument in shown if not (argument.parameter.help or "").strip()] == []
+
+
+TYPED = re.compile(r"^(?:\$ )?(?:handeye|\.venv/bin/handeye|python3 run\.py) (?P<words>[^#|;>]*)")
+"""A command as it is typed, up to a comment or a pipe."""
+
+
+def typed(text: str) -> Iterator[str]:
+    """The commands of a page: those between backquotes, and the lines of its blocks."""
+    for line in [*re.findall(r"`([^`\n]+)`", text), *text.replace("\\\n", " ").splitlines()]:
+        if found := TYPED.match(line):
+            yield found["words"].strip()
+
+
+def strange(words: str) -> set[str]:
+    """Options that the command which begins with these words does not have."""
+    named = {name for name in LEAVES if f"{words} ".startswith(f"{name} ")}
+    if not named:
+        return set()
+    collection = LEAVES[max(named, key=len)].assemble_argument_collection(parse_docstring=True)
+    known = {name for argument in collection for name in argument.names}
+    return {*OPTION.findall(words.partition(" -- ")[0])} - known - {"--help"}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_a_command_on_a_page_has_the_options_it_is_shown_with(page: Path) -> None:
+    commands = [*typed(page.read_text(encoding="utf-8"))]
+    assert {words: strange(words) for words in commands if strange(words)} == {}
+
+
+def test_an_option_of_another_command_is_strange() -> None:
+    assert strange("trace show pump --seed 3") == {"--seed"}
+    assert strange("report pump -o x.html --overwrite") == set()
+
+
+def test_the_page_of_the_plan_counts_steps_stages_and_motions_as_the_plan_has_them() -> None:
     counted = re.search(
         r"(\d+) steps in (\d+) stages, with (\d+) planned motions",
-        (ROOT / "README.md").read_text(encoding="utf-8"),
+        (ROOT / "docs" / "plan.md").read_text(encoding="utf-8"),
     )
     assert counted is not None
     plan = read_plan(ROOT / "plans" / "water_pump.plan.json")

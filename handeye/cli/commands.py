@@ -10,6 +10,7 @@ from cyclopts.command_spec import CommandSpec
 from handeye.core.entries import loaded
 
 COMMANDS: Final = """
+demo = demo:demo: Show a recorded assembly of the pump: replay it in 3D beside its program, with what it saw and felt.
 assemble = runs:assemble: Assemble the water pump, or do another task with its own program: plan, run, judge.
 run = runs:run: Run a plan, or some of its stages, in the work cell of its task, at once or step by step.
 resume = runs:resume: Resume an interrupted run.
@@ -27,6 +28,7 @@ plan = scripts:plan: Compile a script into a plan.
 stages = scripts:stages: List the stages of a plan and their steps, with their source lines.
 fmt = editing:fmt: Format scripts in columns, like a listing of the period; comments stay.
 explain = editing:explain: Explain a diagnostic code, an error number or an instruction; without an argument, list the codes.
+docs = docs:docs: List the pages of the documentation, or print one.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
 export: Export a world, or the end of a run, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.

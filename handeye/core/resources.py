@@ -1,5 +1,5 @@
-"""Finds what is shipped with the package, the folders `scenes`, `plans` and `demo` and pages of the docs, and the
-user's cache folder."""
+"""Finds what is shipped with the package, the folders `scenes`, `plans`, `demo` and `docs`, and the user's cache
+folder."""
 
 import os
 import sys
@@ -14,7 +14,7 @@ _ROOTS = (_PACKAGE / "_data", _PACKAGE.parent)  # in an installed wheel, and in 
 
 
 def folder(name: str) -> Path:
-    """The folder `scenes`, `plans` or `demo`; raises BadFile in an incomplete installation."""
+    """The folder `scenes`, `plans`, `demo` or `docs`; raises BadFile in an incomplete installation."""
     for root in _ROOTS:
         if (root / name).is_dir():
             return root / name
@@ -34,6 +34,11 @@ def plans() -> Path:
 def demo() -> Path:
     """A recorded run of the water pump: a thinned trace, its result, and a picture of its end."""
     return folder("demo")
+
+
+def docs() -> Path:
+    """The pages of the documentation."""
+    return folder("docs")
 
 
 def page(name: str) -> str:

@@ -25,7 +25,8 @@ from handeye.video.request import FOLLOW, LONGEST, ORBIT, SECONDS, VideoRequest
 View = str | Near
 _FAR: Final = 0.95  # eye distance from the cell's middle, over the cell's size
 _SWAY_DEG: Final = 34.0
-_CLOSE, _WIDE = 0.42, 2.3  # Distance from where the hand works: m, and m for each m of the hand's range
+_CLOSE, _WIDE = 0.4, 0.6  # Distance from where the hand works: m, and m for each m of its range there
+_AROUND: Final = 0.15  # m: places as near as this to one another are one place of work
 _AMID: Final = np.array([0.5, 0.5, -0.1])
 """Aim within the hand's range: below its middle, as the hand works low."""
 _STILL_M: Final = 0.05
@@ -81,11 +82,16 @@ def _hands(trace: Trace, stage: Stage) -> list[tuple[float, float, float]]:
 
 
 def _target(hands: Array) -> Array | None:
-    """Aim and distance for hand positions, shape (n, 3); None if they hardly differ."""
+    """Aim and distance for hand positions, shape (n, 3): the place where most of them are; None if they hardly differ.
+
+    Later ones count for more: a part is put down after it is fetched.
+    """
     if not len(hands) or np.ptp(hands, axis=0).max() < _STILL_M:
         return None
-    low, size = hands.min(axis=0), np.ptp(hands, axis=0)
-    return np.array([*low + _AMID * size, _CLOSE + _WIDE * np.linalg.norm(size) / 2])
+    near = np.linalg.norm(hands[:, None] - hands, axis=2) < _AROUND
+    work = hands[near[(near @ np.arange(1, len(hands) + 1)).argmax()]]
+    low, size = work.min(axis=0), np.ptp(work, axis=0)
+    return np.array([*low + _AMID * size, _CLOSE + _WIDE * np.linalg.norm(size)])
 
 
 def _nearest(found: Sequence[Array | None], number: int, trace: Trace) -> Array:

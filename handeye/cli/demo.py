@@ -1,0 +1,61 @@
+"""The command that shows a recorded run: the first one to try."""
+
+import os
+import sys
+from pathlib import Path
+from typing import Annotated, Final
+
+from cyclopts import Parameter
+
+from handeye.cli.common import note, say
+
+PAGE: Final = "demo.html"
+
+
+def demo(
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The page to write, .html.")] = Path(
+        PAGE
+    ),
+    overwrite: Annotated[bool, Parameter(help="Replace another page of that name.")] = False,
+    no_browser: Annotated[bool, Parameter(help="Write the page only.")] = False,
+) -> int:
+    """Show a recorded assembly of the pump: replay it in 3D beside its program, with what it saw and felt.
+
+    Writes the report of a run that comes with handeye, as `report --demo` does, and prints its path. A browser opens
+    if there is one and standard output is a terminal. Nothing is simulated, and the page needs no network.
+
+    Exit code 0: the page is there; 2: bad input.
+    """
+    from handeye.cli.reports import page_of
+    from handeye.core import resources
+    from handeye.core.files import check_free, check_place, write_over
+    from handeye.report.page.document import REPORT
+
+    check_place(output, REPORT)
+    page = page_of(resources.demo())
+    if not (output.exists() and output.read_bytes() == page):
+        check_free(output, "report", overwrite=overwrite)
+        write_over(output, page, REPORT)
+    say(str(output), whole=True)
+    shown = not no_browser and sys.stdout.isatty() and opened(output)
+    note(f"{'Opened' if shown else 'Open'} {output} in a browser.")
+    note("Step through a run yourself: handeye view --demo. Carry one out: handeye assemble.")
+    return 0
+
+
+def opened(page: Path) -> bool:
+    """Open a page in a graphical browser; False if there is none. $BROWSER names another."""
+    import webbrowser
+
+    named = os.environ.get("BROWSER")
+    displays = ("DISPLAY", "WAYLAND_DISPLAY")
+    if sys.platform.startswith("linux") and not (named or any(map(os.environ.get, displays))):
+        return False
+    try:
+        found = webbrowser.get()
+        if type(found) is webbrowser.GenericBrowser and not named:  # one that takes over the terminal
+            return False
+        return found.open(page.resolve().as_uri())
+    except (webbrowser.Error, OSError):
+        return False
