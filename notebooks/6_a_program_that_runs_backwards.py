@@ -90,7 +90,7 @@ told
 
 # %% [markdown]
 # Nothing that a camera sees. This world has no errors; in others blocks come back some tenths of a millimetre off,
-# which a referee measures ([TRIG](../docs/trig.md#jobs-in-drawn-worlds)).
+# which a referee measures ([TRIG](../docs/trig.md#jobs-in-seeded-worlds)).
 #
 # ## What cannot be taken back
 #

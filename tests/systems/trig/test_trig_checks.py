@@ -55,9 +55,9 @@ def test_tests_that_are_named_exist() -> None:
 def test_the_summary_counts_the_rows() -> None:
     states = [line[3] for line in LINES]
     assert (states.count("fully"), len(NEED_PHYSICS), len(FEWER)) == (36, 12, 4)
-    assert "28 need no physics and are shown" in DOC
-    assert "12 are about touch, speed and things that are carried: 8 of these are shown fully" in DOC
-    assert "and 4, the palletiser with all its blocks, with fewer" in DOC
+    assert "28 need no physics and are demonstrated fully" in DOC
+    assert "12 concern touch, speed and carried blocks. 8 of these are demonstrated fully" in DOC
+    assert "4, the palletiser with all its blocks, are tested with two blocks and none" in DOC
 
 
 @pytest.mark.parametrize("row", sorted(NEED_PHYSICS))
