@@ -242,7 +242,8 @@ def test_only_tasks_and_systems_name_their_robots() -> None:
 
 
 def test_no_system_is_named_outside_of_its_folder() -> None:
-    name = re.compile(r"\bTRIG\b|\btrig\b|Trig[A-Z]|[Tt]aught job|[Pp]alletis|\bbucket\b|systems\.stanford")
+    trig = r"\bTRIG\b|\btrig\b|Trig[A-Z]|[Tt]aught job|[Pp]alletis|\bbucket\b"
+    name = re.compile(rf"{trig}|SUPERSIGMA|\bMAL\b|systems\.(stanford|sigma)")
     found = {m for m in MODULES if room(m) != "systems" and name.search(source(m))}
     assert found == {"__init__", "core.entries"}  # a name of the Python API, and where entries are found
 

@@ -77,6 +77,7 @@ class Job:
     details: bool = False
     report: bool = False
     referee: bool = False
+    listening: Sequence[Observer] = ()  # Observers that the system's own command adds
     then: Sequence[Then] = ()
     """Actions after work that the referee finds right, in order."""
     planning_cpu_s: float = 0.0
@@ -229,7 +230,8 @@ class _Work:
         return self.panic() or (self.job.server is not None and self.job.server.link.panic())
 
     def _observers(self, runner: Runner) -> list[Observer]:
-        looking: list[Observer] = [] if self.job.step else [self.progress]
+        looking: list[Observer] = [*self.job.listening]
+        looking += [] if self.job.step else [self.progress]
         if self.job.start.stage is not None:
             self.progress.goes_on(self.job.start.stage)
         with self.keeping() as folder:

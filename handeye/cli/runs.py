@@ -86,7 +86,7 @@ def assemble(
 
     if any(part != ("dismantle", "assemble")[n % 2] for n, part in enumerate(then or ())):
         raise BadArgument("--then dismantle and --then assemble alternate, beginning with dismantle")
-    _check_kept(no_keep, out)
+    check_kept(no_keep, out)
     if report and no_keep:
         raise BadArgument("--report leaves a page in the folder of the run; --no-keep leaves none")
     started = time.process_time()
@@ -172,7 +172,7 @@ def run(
     from handeye.runs.snapshot import Checkpoint
 
     _check_live(live, step)
-    _check_kept(no_keep, out)
+    check_kept(no_keep, out)
     plan, judge = plan_at(file, world.task), is_program(file) if judge is None else judge
     wanted = world
     world, spared = world.of(plan.task).apart(plan.program.calls)
@@ -299,7 +299,7 @@ def resume(
     )
 
 
-def _check_kept(no_keep: bool, out: Path | None) -> None:
+def check_kept(no_keep: bool, out: Path | None) -> None:
     """Raises InvalidInput if a run is to be kept and not to be kept."""
     if no_keep and out is not None:
         raise BadArgument("--no-keep and --out do not go together")

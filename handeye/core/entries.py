@@ -18,7 +18,11 @@ from handeye.core.errors import BadFile, HandeyeError, NoSuchName, Refused
 from handeye.core.record import Record
 
 GROUP: Final = "handeye.systems"  # the entry-point group in which packages from elsewhere name their entries
-OWN: Final = ("handeye.systems.stanford:ENTRY", "handeye.systems.trig:ENTRY")  # need no installed metadata
+OWN: Final = (
+    "handeye.systems.stanford:ENTRY",
+    "handeye.systems.trig:ENTRY",
+    "handeye.systems.sigma:ENTRY",
+)  # need no installed metadata
 PLANNED: Final = "program"  # the system that carries out plans of motions, which is meant where none is named
 
 Capability = Literal[

@@ -16,7 +16,7 @@ from handeye.core.errors import BadArgument, CannotWrite, NoSuchName, Refused
 from handeye.core.files import check_place
 from handeye.core.plain_text import counted
 from handeye.debugger.breakpoints import breakpoint, meant
-from handeye.debugger.listing import named_place, text_of
+from handeye.debugger.listing import lines_of, named_place
 from handeye.debugger.live import factor
 from handeye.debugger.reply import Break, CommandResult
 from handeye.debugger.session import DebugSession
@@ -148,7 +148,7 @@ def script(session: DebugSession, rest: str) -> CommandResult:
     if not rest:
         return CommandResult(source=session.source(None, LISTED_AROUND))
     file, line = named_place(rest, session.program) or ("", 0)
-    last = text_of(session.program, file).removesuffix("\n").count("\n") + 1
+    last = max(lines_of(session.program, file))
     if not 1 <= line <= last:
         raise BadArgument(f"list takes a line from 1 to {last}, not {quoted(rest)}")
     return CommandResult(source=session.source((file, line), LISTED_AROUND))

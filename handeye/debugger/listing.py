@@ -1,7 +1,8 @@
 """The program as people see it: its stages and steps, the source around a line, and places that they name."""
 
 import re
-from collections.abc import Sequence
+from bisect import bisect_left
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
@@ -93,17 +94,18 @@ def excerpt(
     for each in tasks:
         if each.file == file:
             standing.setdefault(each.line, []).append(each.task)
-    text = text_of(program, file).removesuffix("\n")
-    source, last = Source(name=program.name, text=text), text.count("\n") + 1
+    lines = lines_of(program, file)
+    numbers = [*lines]
+    at = bisect_left(numbers, line)
     return tuple(
         SourceLine(
             file=file,
             line=number,
-            text=printable(source.line(number).expandtabs()),
+            text=printable(lines[number].expandtabs()),
             here=number == here,
             tasks=tuple(standing.get(number, ())),
         )
-        for number in range(max(1, line - around), min(last, line + around) + 1)
+        for number in numbers[max(0, at - around) : at + around + 1]
     )
 
 
@@ -132,9 +134,13 @@ def _stage(number: int, name: str, steps: list[ListedStep], own: set[int]) -> Li
     return ListedStage(number=number, name=name, file=file, lines=extent, steps=tuple(steps))
 
 
-def text_of(program: Listing, file: str) -> str:
-    """The text of a required file, or of the script itself."""
-    return program.required[file] if file else program.source
+def lines_of(program: Listing, file: str) -> Mapping[int, str]:
+    """The lines of a required file, or of the script itself, by their numbers."""
+    if program.numbered and not file:
+        return program.numbered
+    text = program.required[file] if file else program.source
+    source = Source(name=program.name, text=text.removesuffix("\n"))
+    return {number: source.line(number) for number in range(1, source.text.count("\n") + 2)}
 
 
 def named_place(text: str, program: Listing) -> Place | None:

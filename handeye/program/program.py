@@ -4,8 +4,8 @@ This is the first waist: every arm language ends here, and the planner starts he
 joined by planned motions, make the plan.
 """
 
-from collections.abc import Collection
-from typing import Annotated
+from collections.abc import Collection, Mapping
+from typing import Annotated, ClassVar
 
 from msgspec import Meta, field
 
@@ -140,6 +140,7 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
     parts: dict[str, Part]
     fixtures: dict[str, Fixture] = field(default_factory=dict)  # obstacles
     held: dict[str, Held] = field(default_factory=dict)  # carried objects by name
+    numbered: ClassVar[Mapping[int, str]] = {}  # lines have no numbers of their own
 
     @property
     def whole(self) -> Source:

@@ -51,7 +51,7 @@ class StepFacts(Protocol):
 
     @property
     def line(self) -> int:
-        """Line of that text, from 1."""
+        """Line of that text, from 1, or by its own number."""
 
     @property
     def text(self) -> str:
@@ -116,6 +116,10 @@ class Listing(Protocol):
     @property
     def required(self) -> dict[str, str]:
         """Texts of the files that it requires."""
+
+    @property
+    def numbered(self) -> Mapping[int, str]:
+        """The lines of the text by numbers that it gives them itself; empty: they are counted from 1."""
 
     @property
     def stages(self) -> tuple[str, ...]:

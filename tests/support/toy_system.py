@@ -71,6 +71,7 @@ class Lines(Record, frozen=True, kw_only=True):
     """The step that each task begins with; none: all steps are of one."""
     task: str = "counting"
     required: ClassVar[dict[str, str]] = {}
+    numbered: ClassVar[dict[int, str]] = {}
     errors: ClassVar[tuple[int, ...]] = ()
 
     @property

@@ -1,1 +1,21 @@
 """SUPERSIGMA (Milan, 1981): a brain, microcomputers on a bus, and a language of tasks and flags."""
+
+from handeye.core.entries import Entry
+
+ENTRY = Entry(
+    name="sigma",
+    title="SUPERSIGMA",
+    help="Write parallel tasks in MAL, and try every order in which they may go (Milan, 1981).",
+    system="handeye.systems.sigma.run.system:SIGMA",
+    can=("console", "chaos"),
+    reasons={
+        "plans": "`handeye sigma run FILE.mal` carries its programs out",
+        "undo": "its motors know no way back; `back` in the stepper takes the run itself back",
+    },
+    commands="""
+sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.
+""",
+    tasks={"mal": "handeye.systems.sigma.run.task:MAL_TASK"},
+    languages={".mal": "handeye.systems.sigma.mal.language:LANGUAGE"},
+    events="handeye.systems.sigma.mal.happenings:EVENTS",
+)

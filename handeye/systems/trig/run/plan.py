@@ -54,6 +54,7 @@ class TaughtListing:
     steps: Sequence[TaughtStep]
     stages: tuple[str, ...]
     required: ClassVar[dict[str, str]] = {}
+    numbered: ClassVar[Mapping[int, str]] = {}
     errors: ClassVar[tuple[int, ...]] = ()
 
     @property

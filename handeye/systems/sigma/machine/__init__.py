@@ -1,0 +1,1 @@
+"""Machines behind the bus that need no physics."""

@@ -1,0 +1,1 @@
+"""MAL, Multipurpose Assembly Language: scanner, parser, checks, compiler, and the virtual machine with its tasks."""

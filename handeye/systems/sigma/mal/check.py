@@ -1,0 +1,310 @@
+"""What is wrong with a program whose lines are well formed: names, jumps, loops, flags, axes."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Final
+
+from handeye.core.diagnostics import Diagnostic, Label, alternatives, arranged, has_errors, quoted
+from handeye.core.source import Source
+from handeye.systems.sigma.mal.codes import mistake
+from handeye.systems.sigma.mal.parser import parsed
+from handeye.systems.sigma.mal.scanner import Token
+from handeye.systems.sigma.mal.syntax import (
+    MAIN,
+    Binary,
+    Call,
+    Expression,
+    Line,
+    Number,
+    Statement,
+    Text,
+    Unary,
+    Variable,
+)
+
+TRAVEL_MM: Final = {"X": 600.0, "Y": 400.0, "Z": 200.0}
+
+
+def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
+    """The lines of a program in the order of their numbers, and all its mistakes, by place."""
+    lines, found = parsed(source)
+    form = has_errors(found)
+    kept: dict[int, Line] = {}
+    for line in lines:
+        if line.number in kept:
+            first = Label(span=kept[line.number].span, text="it is here already")
+            found.append(mistake("line-twice", f"there are two lines {line.number}", line.span, first))
+        else:
+            kept[line.number] = line
+    ordered = in_order([*kept.values()])
+    found += _Check(ordered, complete=not form).found()
+    return ordered, arranged(found)
+
+
+def in_order(lines: Sequence[Line]) -> list[Line]:
+    """Lines by their numbers, each with the task that it then belongs to."""
+    ordered, task = [], MAIN
+    for line in sorted(lines, key=lambda line: line.number):
+        if line.statement.word == "TASK":
+            task = line.statement.names[0].text
+        ordered.append(Line(number=line.number, task=task, statement=line.statement, row=line.row,
+                            text=line.text, span=line.span))  # fmt: skip
+    return ordered
+
+
+def within(statement: Statement) -> Iterator[Statement]:
+    """A statement, and those behind its THEN and ELSE."""
+    yield statement
+    for branch in (statement.then, statement.otherwise):
+        if branch is not None:
+            yield from within(branch)
+
+
+def expressions(statement: Statement) -> Iterator[Expression]:
+    """The expressions that a statement evaluates, those of its branches not counted."""
+    yield from statement.values
+    yield from (goal.distance for goal in statement.goals)
+    if statement.slow is not None:
+        yield statement.slow
+    for item in statement.items:
+        if not isinstance(item, str | Text):
+            yield item
+
+
+def parts(expression: Expression) -> Iterator[Expression]:
+    """An expression and all that it is made of."""
+    yield expression
+    match expression:
+        case Unary(_, operand):
+            yield from parts(operand)
+        case Binary(_, left, right):
+            yield from parts(left)
+            yield from parts(right)
+        case Call(_, argument) if argument is not None and not isinstance(argument, Token):
+            yield from parts(argument)
+
+
+def reads(statement: Statement) -> Iterator[Token]:
+    """The variables that a statement reads, those of its branches not counted."""
+    for expression in expressions(statement):
+        for part in parts(expression):
+            if isinstance(part, Variable):
+                yield part.name
+
+
+def writes(statement: Statement) -> Iterator[Token]:
+    """The variables that a statement sets."""
+    if statement.word in ("LET", "FOR", "INPUT"):
+        yield statement.names[0]
+
+
+def driven(statement: Statement) -> Iterator[Token]:
+    """The axes that a statement moves."""
+    if statement.word == "ORIGIN":
+        yield from statement.names
+    yield from (goal.axis for goal in statement.goals)
+
+
+@dataclass(slots=True)
+class _Task:
+    """What the lines of a task have."""
+
+    name: str
+    lines: list[Line] = field(default_factory=list)
+
+    def having(self, word: str) -> Iterator[tuple[Line, Statement]]:
+        """The statements of a word."""
+        for line in self.lines:
+            for statement in within(line.statement):
+                if statement.word == word:
+                    yield line, statement
+
+
+class _Check:
+    """All checks of a program; those on what is missing are left out where lines could not be read."""
+
+    def __init__(self, lines: list[Line], *, complete: bool) -> None:
+        self._lines, self._complete = lines, complete
+        self._tasks: dict[str, _Task] = {MAIN: _Task(MAIN)}
+        for line in lines:
+            self._tasks.setdefault(line.task, _Task(line.task)).lines.append(line)
+        self._all = [(line, statement) for line in lines for statement in within(line.statement)]
+
+    def found(self) -> Iterator[Diagnostic]:
+        """The mistakes, in no order."""
+        yield from self._task_names()
+        yield from self._shared_axes()
+        for line, statement in self._all:
+            yield from self._values(statement)
+            yield from self._axes(statement)
+            if self._complete:
+                yield from self._jump(line, statement)
+                yield from self._named_tasks(statement)
+        if self._complete:
+            for task in self._tasks.values():
+                yield from self._loops(task)
+                yield from self._pairs(task)
+            yield from self._flags()
+            yield from self._variables()
+
+    def _task_names(self) -> Iterator[Diagnostic]:
+        seen: dict[str, Token] = {}
+        started = {
+            name.text for _, statement in self._all if statement.word == "START" for name in statement.names
+        }
+        for _, statement in self._all:
+            if statement.word != "TASK":
+                continue
+            name = statement.names[0]
+            if name.text == MAIN:
+                told = "the task MAIN is that of the lines before the first TASK"
+                yield mistake("task-twice", told, name.span)
+            elif name.text in seen:
+                first = Label(span=seen[name.text].span, text="it begins here")
+                yield mistake("task-twice", f"there are two tasks {name.text}", name.span, first)
+            elif name.text not in started and self._complete:
+                yield mistake("task-never-started", f"no line starts the task {name.text}", name.span)
+            seen.setdefault(name.text, name)
+
+    def _named_tasks(self, statement: Statement) -> Iterator[Diagnostic]:
+        known = {*self._tasks} - {MAIN}
+        if statement.word == "KILL":
+            known.add(MAIN)
+        for name in statement.names if statement.word in ("START", "KILL") else ():
+            if name.text not in known:
+                told = f"no task is called {quoted(name.text)}"
+                yield mistake("task-missing", told, name.span, meant=alternatives(name.text, known))
+
+    def _jump(self, line: Line, statement: Statement) -> Iterator[Diagnostic]:
+        if statement.target is None:
+            return
+        number = int(statement.target.text)
+        goal = next((each for each in self._lines if each.number == number), None)
+        if goal is None:
+            own = [each.number for each in self._tasks[line.task].lines]
+            near = min(own, key=lambda each: (abs(each - number), each))
+            told = f"there is no line {number}"
+            yield mistake(
+                "line-missing", told, statement.target.span, help=f"the nearest line of {line.task} is {near}"
+            )
+        elif goal.task != line.task:
+            told = f"line {number} belongs to the task {goal.task}, and this one to {line.task}"
+            where = Label(span=goal.span, text=f"a line of {goal.task}")
+            yield mistake("other-task", told, statement.target.span, where)
+
+    def _loops(self, task: _Task) -> Iterator[Diagnostic]:
+        opened: dict[str, list[Statement]] = {}
+        begun: set[str] = set()
+        for line in task.lines:
+            for statement in within(line.statement):
+                name = statement.names[0].text if statement.names else ""
+                if statement.word == "FOR":
+                    opened.setdefault(name, []).append(statement)
+                    begun.add(name)
+                elif statement.word == "NEXT":
+                    opened.pop(name, None)
+                    if name not in begun:
+                        told = f"no FOR {name} stands before this"
+                        yield mistake("next-without-for", told, statement.span)
+        for name, loops in opened.items():
+            for statement in loops:
+                yield mistake(
+                    "for-without-next", f"no NEXT {name} follows in the task {task.name}", statement.span
+                )
+
+    def _pairs(self, task: _Task) -> Iterator[Diagnostic]:
+        for word, first, code in (
+            ("RETURN", "GOSUB", "return-without-gosub"),
+            ("RESUME", "ON", "resume-without-abort"),
+        ):
+            if next(task.having(first), None) is None:
+                named = "ON ABORT" if first == "ON" else first
+                for _, statement in task.having(word):
+                    yield mistake(code, f"the task {task.name} has no {named}", statement.span)
+
+    def _flags(self) -> Iterator[Diagnostic]:
+        set_somewhere = {s.names[0].text for _, s in self._all if s.word == "SET"}
+        for _, statement in self._all:
+            if statement.word not in ("WAIT", "TAKE"):
+                continue
+            for flag in statement.names:
+                if flag.text not in set_somewhere:
+                    told = f"no line sets the flag {flag.text}: this waits for ever"
+                    near = alternatives(flag.text, set_somewhere)
+                    yield mistake("flag-never-set", told, flag.span, meant=near)
+
+    def _variables(self) -> Iterator[Diagnostic]:
+        set_somewhere = {name.text for _, statement in self._all for name in writes(statement)}
+        seen = set[str]()
+        for _, statement in self._all:
+            for name in reads(statement):
+                if name.text not in set_somewhere | seen:
+                    seen.add(name.text)
+                    told = f"no line sets the variable {name.text}: it holds 0"
+                    near = alternatives(name.text, set_somewhere)
+                    yield mistake("variable-never-set", told, name.span, meant=near)
+            if statement.word == "NEXT" and statement.names[0].text in seen:
+                seen.discard(statement.names[0].text)
+
+    def _shared_axes(self) -> Iterator[Diagnostic]:
+        first: dict[str, tuple[str, Token]] = {}
+        told_of = set[tuple[str, str]]()
+        for line, statement in self._all:
+            for axis in driven(statement):
+                if statement.word == "ORIGIN":
+                    continue
+                task, where = first.setdefault(axis.text, (line.task, axis))
+                if task != line.task and (axis.text, line.task) not in told_of:
+                    told_of.add((axis.text, line.task))
+                    label = Label(span=where.span, text=f"{task} moves it here")
+                    told = f"the tasks {task} and {line.task} both move {axis.text}"
+                    yield mistake("axis-shared", told, axis.span, label)
+
+    def _axes(self, statement: Statement) -> Iterator[Diagnostic]:
+        seen: set[str] = set()
+        for axis in driven(statement):
+            if axis.text in seen:
+                yield mistake("axis-twice", f"{axis.text} stands here twice", axis.span)
+            seen.add(axis.text)
+        for goal in statement.goals:
+            most, place = TRAVEL_MM[goal.axis.text[0]], constant(goal.distance)
+            if goal.mode == "TO" and place is not None and not 0 <= place <= most:
+                told = f"{goal.axis.text} reaches from 0 to {most:g} mm, and not to {place:g}"
+                yield mistake("beyond-rail", told, goal.axis.span)
+
+    def _values(self, statement: Statement) -> Iterator[Diagnostic]:
+        for expression in expressions(statement):
+            for part in parts(expression):
+                if isinstance(part, Call) and part.function == "BEAM":
+                    arm = None if isinstance(part.argument, Token | None) else constant(part.argument)
+                    if arm not in (None, 1, 2):
+                        yield mistake("wrong-value", f"the arms are 1 and 2, and not {arm:g}", statement.span)
+        for word, (least, most, what) in _RANGES.items():
+            value = constant(statement.values[0]) if statement.word == word and statement.values else None
+            if value is not None and not least <= value <= most:
+                told = f"{what} is from {least:g} to {most:g}, and not {value:g}"
+                yield mistake("wrong-value", told, statement.span)
+        slow = None if statement.slow is None else constant(statement.slow)
+        if slow is not None and not SLOWEST <= slow <= FASTEST_SLOW:
+            told = f"a constant speed is from {SLOWEST:g} to {FASTEST_SLOW:g} mm/s, and not {slow:g}"
+            yield mistake("wrong-value", told, statement.span)
+
+
+SLOWEST: Final = 2.0  # mm/s
+FASTEST_SLOW: Final = 254.0
+_RANGES: Final = {
+    "CURVE": (0.0, 4.0, "a curve"),
+    "SPEED": (0.0, 2400.0, "a limit of speed, mm/s,"),
+    "LIMIT": (0.0, 655.0, "a limit of force, N,"),
+    "DELAY": (0.0, 86400.0, "a delay, s,"),
+}  # least and most that each takes
+
+
+def constant(expression: Expression) -> float | None:
+    """The value of an expression that is a number; None if it is not."""
+    match expression:
+        case Number(value):
+            return value
+        case Unary("-", Number(value)):
+            return -value
+    return None

@@ -1,0 +1,90 @@
+"""Events of MAL programs: what is sent and answered, which flags change, what is printed."""
+
+from typing import ClassVar
+
+from handeye.core.plain_text import printable
+from handeye.core.units import Measures
+from handeye.program.events import Importance, SystemEvent
+
+
+class TaskStarted(SystemEvent, frozen=True, kw_only=True):
+    """A task begins."""
+
+    task: str
+
+    def sentence(self, measures: Measures) -> str:
+        return f"the task {self.task} begins"
+
+
+class TaskEnded(SystemEvent, frozen=True, kw_only=True):
+    """A task has ended, or was killed."""
+
+    task: str
+    killed: bool = False
+
+    def sentence(self, measures: Measures) -> str:
+        return f"the task {self.task} {'is killed' if self.killed else 'has ended'}"
+
+
+class CommandSent(SystemEvent, frozen=True, kw_only=True):
+    """Five bytes went to a microcomputer."""
+
+    importance: ClassVar[Importance] = "debug"
+    task: str
+    to: str  # its name
+    frame: str  # the bytes, hexadecimal
+    means: str
+
+    def sentence(self, measures: Measures) -> str:
+        return f"{self.task} to {self.to}: {self.means} ({self.frame})"
+
+
+class Answered(SystemEvent, frozen=True, kw_only=True):
+    """A microcomputer answered."""
+
+    importance: ClassVar[Importance] = "debug"
+    task: str
+    to: str
+    answer: str  # the bytes, hexadecimal
+    means: str
+
+    def sentence(self, measures: Measures) -> str:
+        return f"{self.to} answers {self.task}: {self.means} ({self.answer})"
+
+
+class FlagChanged(SystemEvent, frozen=True, kw_only=True):
+    """A flag was set, cleared, or taken."""
+
+    task: str
+    flag: str
+    change: str  # sets, clears or takes
+
+    def sentence(self, measures: Measures) -> str:
+        return f"{self.task} {self.change} the flag {self.flag}"
+
+
+class Printed(SystemEvent, frozen=True, kw_only=True):
+    """A line was printed."""
+
+    task: str
+    text: str
+
+    def sentence(self, measures: Measures) -> str:
+        return f"{self.task} prints: {printable(self.text)}"
+
+
+class MotorAborted(SystemEvent, frozen=True, kw_only=True):
+    """A motor was stopped at the end of its rail, or by a force; the central computer has asked where it is."""
+
+    importance: ClassVar[Importance] = "warning"
+    task: str  # that had sent it on its way
+    axis: str
+    cause: str  # RAIL or FORCE
+    at: float  # mm
+
+    def sentence(self, measures: Measures) -> str:
+        why = "at the end of its rail" if self.cause == "RAIL" else "by a force"
+        return f"{self.axis} was stopped {why}, at {self.at:.2f} mm; {self.task} had sent it"
+
+
+EVENTS = (TaskStarted, TaskEnded, CommandSent, Answered, FlagChanged, Printed, MotorAborted)

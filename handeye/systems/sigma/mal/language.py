@@ -1,0 +1,100 @@
+"""The language service for MAL: diagnostics, explanations, completion, the usual form."""
+
+import re
+from typing import Final
+
+from handeye.core.diagnostics import Diagnostic, render
+from handeye.core.source import Source
+from handeye.program.language import OwnLanguage
+from handeye.systems.sigma import ENTRY
+from handeye.systems.sigma.mal.check import checked, in_order
+from handeye.systems.sigma.mal.codes import CODES
+from handeye.systems.sigma.mal.parser import parsed
+from handeye.systems.sigma.mal.syntax import MAIN
+from handeye.systems.sigma.mal.words import MAL_DEVICES, STATEMENTS, WORDS, explained
+from handeye.systems.sigma.protocol import AXES
+
+_AXIS_NEXT: Final = {"MOVE", "ORIGIN", "SPEED", "CURVE", "LIMIT", "ABORT"}
+_FLAG_NEXT: Final = {"SET", "RESET", "WAIT", "TAKE"}
+_LINE_NEXT: Final = {"GOTO", "GOSUB", "THEN", "ELSE"}
+_TASK_NEXT: Final = {"START", "KILL"}
+
+
+class MalLanguage(OwnLanguage):
+    """MAL for editors and commands."""
+
+    system = ENTRY.name
+
+    def check(self, source: Source) -> list[Diagnostic]:
+        return checked(source)[1]
+
+    def explanation(self, word: str) -> str | None:
+        """What a code or a word of MAL means; words that the arm language has too are explained by `sigma words`."""
+        return code_explained(word) or explained(word)
+
+    def words(self, source: Source, offset: int) -> list[tuple[str, str]]:
+        """Statements behind the number of a line; behind a word what fits it."""
+        row, column = source.position(offset)
+        before = source.line(row)[: column - 1].upper()
+        written = re.findall(r"[A-Z][A-Z0-9_]*|[0-9.]+|\S", before)
+        if before and (before[-1].isalnum() or before[-1] == "_"):
+            written = written[:-1]  # the word that is being typed
+        last = written[-1] if written else ""
+        statements = [(name, WORDS[name].help) for name in STATEMENTS]
+        if len(written) <= 1:
+            return statements
+        lines, _ = parsed(source)
+        if last in _LINE_NEXT:
+            jumps = [(str(line.number), line.text) for line in in_order(lines)]
+            return jumps + (statements if last in ("THEN", "ELSE") else [])
+        if last in _TASK_NEXT:
+            return [(name, "a task") for name in dict.fromkeys(line.task for line in lines) if name != MAIN]
+        if last in _FLAG_NEXT or (last == "AND" and "WAIT" in written):
+            flags = {
+                name.text
+                for line in lines
+                if line.statement.word in _FLAG_NEXT
+                for name in line.statement.names
+            }
+            return [(name, "a flag") for name in sorted(flags)]
+        if last == "ACTUATE":
+            return [(name, f"a device of arm {arm}") for name, (arm, _) in MAL_DEVICES.items()]
+        axes = [(axis, f"an axis of arm {axis[1]}") for axis in AXES]
+        if last in _AXIS_NEXT:
+            return axes
+        names = sorted(
+            {line.statement.names[0].text for line in lines if line.statement.word in ("LET", "FOR")}
+        )
+        rest = [(name, word.help) for name, word in WORDS.items() if word.kind != "statement"]
+        return [*((name, "a variable") for name in names), *rest, *axes]
+
+    def formatted(self, text: str) -> str:
+        """Lines in the order of their numbers, in capitals, with one blank between words; texts and remarks stay."""
+        lines, _ = parsed(Source(name="text", text=text))
+        return "".join(f"{line.number} {tidy(line.text)}\n" for line in in_order(lines))
+
+
+def tidy(text: str) -> str:
+    """A statement in capitals, but for texts in quotes and for remarks."""
+    if text.upper().startswith("REM"):
+        return f"REM{text[3:]}"
+    return "".join(part if part.startswith('"') else part.upper() for part in re.split(r'("[^"]*")', text))
+
+
+def code_explained(code: str) -> str | None:
+    """What a code of a mistake means, with an example and its cure; None if it is none."""
+    known = CODES.get(code.casefold())
+    if known is None:
+        return None
+    source = Source(name="example.mal", text=known.example)
+    shown = next(each for each in checked(source)[1] if each.code == code.casefold())
+    text = "\n".join(
+        f"    {line}"[:100].rstrip()
+        for line in (*known.example.split("\n"), "", *render(shown, source).split("\n"))
+    )
+    return (
+        f"{known.severity}[{code.casefold()}]: {known.meaning}\ncure: {known.cure}\n\nfor example\n\n{text}"
+    )
+
+
+LANGUAGE: Final = MalLanguage()

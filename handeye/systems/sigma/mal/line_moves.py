@@ -1,0 +1,47 @@
+"""Straight paths of axes that know nothing of each other: by constant speeds, and by waiting for each other."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+from handeye.systems.sigma.mal.memory import Outgoing
+from handeye.systems.sigma.protocol import SLOW_STEP_MM, STEP_MM
+
+FASTEST_CODE: Final = 18  # 36 mm/s, below start/stop speed, so that no axis has a ramp
+_STRAIGHT_MM: Final = 0.4  # by how much the path of a part may be off
+
+
+def line_moves(goals: Sequence[tuple[str, int]], counts: Mapping[str, int]) -> list[Outgoing]:
+    """Commands that take axes to their places (steps) along a straight line, within half a millimetre.
+
+    Speeds come in steps of 2 mm/s, so that their ratio is only nearly that of the distances: the way is divided into
+    parts, behind each of which the axes wait for each other.
+    """
+    ways = {axis: target - counts.get(axis, 0) for axis, target in goals}
+    moved = {axis: way for axis, way in ways.items() if way}
+    if not moved:
+        return []
+    longest = max(map(abs, moved.values()))
+    codes, off = min(
+        (_codes(moved, longest, fastest) for fastest in range(FASTEST_CODE, FASTEST_CODE // 2, -1)),
+        key=lambda found: found[1],
+    )
+    parts = max(1, math.ceil(off / _STRAIGHT_MM))
+    axes = tuple(moved)
+    return [
+        Outgoing(
+            to=axis,
+            target=counts.get(axis, 0) + round(way * part / parts),
+            slow=float(codes[axis] * SLOW_STEP_MM),
+            after=axes if axis == axes[0] and part > 1 else (),
+        )
+        for part in range(1, parts + 1)
+        for axis, way in moved.items()
+    ]
+
+
+def _codes(moved: Mapping[str, int], longest: int, fastest: int) -> tuple[dict[str, int], float]:
+    """Speed codes with the longest way at `fastest`, and by how much the path is off then, mm."""
+    codes = {axis: max(1, round(fastest * abs(way) / longest)) for axis, way in moved.items()}
+    off = max(abs(codes[axis] / fastest - abs(way) / longest) for axis, way in moved.items())
+    return codes, off * longest * STEP_MM

@@ -1,0 +1,111 @@
+"""All that the virtual machine remembers between two statements, as one record."""
+
+from typing import Annotated, Literal
+
+from msgspec import Meta, field
+
+from handeye.core.mutable_records import MutableRecord
+from handeye.core.record import Record
+from handeye.ports.microbus import Command
+
+Address = Annotated[int, Meta(ge=0)]
+
+
+class Flags(Record, frozen=True, kw_only=True, tag=True):
+    """Wait until flags are set; with `take` the one is cleared in the same act."""
+
+    names: tuple[str, ...]
+    take: bool
+
+
+class Motors(Record, frozen=True, kw_only=True, tag=True):
+    """Wait until axes and devices are not busy."""
+
+    names: tuple[str, ...]
+
+
+class Moment(Record, frozen=True, kw_only=True, tag=True):
+    """Wait until a time, microseconds of the machine."""
+
+    until: int
+
+
+class TypedNumber(Record, frozen=True, kw_only=True, tag=True):
+    """Wait for a number from the console, for a variable."""
+
+    name: str
+
+
+Waiting = Flags | Motors | Moment | TypedNumber
+
+
+class Loop(Record, frozen=True, kw_only=True):
+    """A FOR under way: its variable, last value, step, and where its lines begin."""
+
+    name: str
+    last: float
+    step: float
+    begin: Address
+
+
+class Outgoing(Record, frozen=True, kw_only=True):
+    """A command that waits for its turn on the bus: for a motor, by the place it is to reach, or as it is."""
+
+    to: str  # the axis or device that has to be free
+    target: int | None = None  # steps
+    slow: float = 0.0  # mm/s; 0: the profile of the motor
+    command: Command | None = None
+    after: tuple[str, ...] = ()  # these have to be free, too
+
+
+class TaskMemory(MutableRecord, kw_only=True):
+    """A task."""
+
+    pc: Address
+    amid: bool = False  # in the middle of a statement, which waits
+    stack: list[float] = field(default_factory=list)
+    returns: list[int] = field(default_factory=list)  # addresses behind each GOSUB under way
+    loops: list[Loop] = field(default_factory=list)
+    waits: Waiting | None = None
+    outgoing: list[Outgoing] = field(default_factory=list)
+    handlers: dict[str, int] = field(default_factory=dict)  # addresses, by axis; empty: for all axes
+    resume: int | None = None  # address behind the statement that was aborted last
+
+
+class Fault(Record, frozen=True, kw_only=True):
+    """Why a program stands."""
+
+    kind: Literal["trap", "abort", "deadlock", "input", "break"]
+    task: str
+    address: Address  # of the statement
+    told: str
+
+
+class Owner(Record, frozen=True, kw_only=True):
+    """The task and statement that sent an axis on its way."""
+
+    task: str
+    address: Address
+
+
+class MalMemory(MutableRecord, kw_only=True):
+    """A program under way."""
+
+    tasks: dict[str, TaskMemory] = field(default_factory=dict)  # those not ended, in the order of their start
+    turn: str = ""  # the task that goes on next; empty: none
+    last: str = ""  # the task that had its turn last
+    flags: tuple[str, ...] = ()  # those set, in order of names
+    variables: dict[str, float] = field(default_factory=dict)
+    counts: dict[str, int] = field(default_factory=dict)  # steps, by axis
+    originated: tuple[str, ...] = ()
+    curves: dict[str, int] = field(default_factory=dict)
+    owners: dict[str, Owner] = field(default_factory=dict)
+    stopped: dict[str, int] = field(
+        default_factory=dict
+    )  # status of axes that were aborted, until they move again
+    printed: str = ""  # the line of the console that is not ended
+    fault: Fault | None = None
+    began: int = 0  # microseconds of the machine as the program began
+    worked: int = 0  # microseconds in which the central computer had something to do
+    commands: int = 0
+    questions: int = 0  # counted among the commands, too

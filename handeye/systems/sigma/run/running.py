@@ -1,0 +1,232 @@
+"""A MAL run under way: a step is one statement of the task whose turn it is."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from handeye.core.entries import refusal
+from handeye.core.errors import BadFile, Refused
+from handeye.core.mutable_records import put_back
+from handeye.core.plain_text import printable
+from handeye.core.versions import versions
+from handeye.execution.servo import Halted
+from handeye.execution.state import ReversalOrder
+from handeye.planfile.store import written_digest
+from handeye.ports.camera import Renderer
+from handeye.program.events import (
+    AnyEvent,
+    Choice,
+    LineTyped,
+    OperatorAnswered,
+    OperatorCalled,
+    RunFinished,
+    RunStarted,
+    StageFinished,
+    StageStarted,
+    StepFinished,
+    StepStarted,
+    SystemEvent,
+)
+from handeye.program.system_state import SystemState, TaskPlace
+from handeye.runs.setup import Setup
+from handeye.runs.system import RunCallbacks, RunningSystem, Settable
+from handeye.systems.sigma import ENTRY
+from handeye.systems.sigma.machine.perfect import PerfectMotors
+from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
+from handeye.systems.sigma.protocol import STEP_MM
+from handeye.systems.sigma.run.plan import MalPlan, encode, listing
+from handeye.systems.sigma.run.state import MalState
+
+
+class RunningMal(RunningSystem):
+    """Carries a program out on the machine of its plan."""
+
+    cell = None
+    trouble = None
+
+    def __init__(self, setup: Setup, around: RunCallbacks) -> None:
+        assert isinstance(setup.plan, MalPlan)
+        self._setup, self._around, self._plan = setup, around, setup.plan
+        self._listing = listing(setup.plan)
+        self._early: list[SystemEvent] = []
+        self._begun = False
+        self._machine = PerfectMotors()
+        self.vm = VirtualMachine(
+            setup.plan.program,
+            self._machine,
+            self._tell,
+            poll=self._poll,
+            statement_us=setup.plan.statement_us,
+        )
+        self._state = MalState(memory=self.vm.memory, machine=self._machine.memory)
+
+    @property
+    def state(self) -> MalState:
+        return self._state
+
+    @property
+    def time(self) -> float:
+        return self.vm.time
+
+    def _tell(self, event: SystemEvent) -> None:
+        if self._begun:
+            self._around.emit(event)
+        else:
+            self._early.append(event)
+
+    def _poll(self) -> None:
+        if self._around.halt():
+            raise Halted
+
+    # -- going on -------------------------------------------------------------------------------------
+
+    def begin(self) -> Sequence[AnyEvent]:
+        plan = self._plan
+        started = RunStarted(
+            system=ENTRY.name, time=0.0, program=plan.name, steps=len(self._listing.steps),
+            plan=written_digest(encode(plan)), arm="", arm_digest="", world=self._setup.world,
+            camera=Renderer(method="none"), versions=versions(), task=self._setup.task,
+        )  # fmt: skip
+        self.vm.begin()
+        self._stand()
+        self._begun = True
+        return [started, *self._early]
+
+    def step(self) -> None:
+        state = self._state
+        assert state.at is not None
+        number, step = state.at, self._listing.steps[state.at]
+        if state.stage is None:
+            state.stage = 0
+            self._around.emit(StageStarted(time=self.time, stage=self._plan.name))
+        self._poll()
+        self._around.emit(StepStarted(time=self.time, step=number, line=step.line, text=step.text))
+        self.vm.statement()
+        self._around.emit(StepFinished(time=self.time, step=number, hand=None, planned=None, gap=None))
+        self.vm.settle()
+        self._stand()
+        self._call()
+
+    def _stand(self) -> None:
+        """Note where each task stands."""
+        state, memory, program = self._state, self.vm.memory, self.vm.program
+        turn = self.vm.turn
+        names = sorted(memory.tasks, key=lambda name: name != turn)
+        state.standing = [
+            TaskPlace(name, program.line_at[memory.tasks[name].pc], self.vm.waits_for(name)) for name in names
+        ]
+        state.at = program.line_at[memory.tasks[turn].pc] if turn else None
+        if not memory.tasks and memory.fault is None:
+            self._close("done")
+
+    def _call(self) -> None:
+        """Call the operator if the program stands."""
+        state, fault = self._state, self.vm.memory.fault
+        if fault is None:
+            return
+        state.stopped = OperatorCalled(time=self.time, message=printable(fault.told))
+        state.at, state.onward = None, self.vm.program.line_at[fault.address]
+        self._around.emit(state.stopped)
+
+    def _close(self, status: str) -> None:
+        if self._state.stage is not None:
+            self._around.emit(StageFinished(time=self.time, stage=self._plan.name, status=status))  # type: ignore[arg-type]
+            self._state.stage = None
+
+    def answer(self, choice: Choice) -> None:
+        """Go on: behind the statement at which the program stands, with it once more, or not at all."""
+        state = self._state
+        state.stopped, state.onward = None, None
+        if choice == "skip":
+            self.vm.end()
+        elif choice == "retry":
+            self.vm.retry()
+        else:
+            self.vm.proceed()
+        turn = self.vm.turn
+        at = self.vm.program.line_at[self.vm.memory.tasks[turn].pc] if turn else None
+        self._around.emit(OperatorAnswered(time=self.time, choice=choice, step=at))
+        if choice == "skip":
+            self._close("skipped")
+        self._stand()
+        self._call()
+
+    def reverse(self, undoing: ReversalOrder) -> None:
+        raise refusal(ENTRY.name, "undo")
+
+    def type_line(self, text: str, task: str) -> None:
+        """Give the task that waits for it a number."""
+        self.vm.type_number(text, task)
+        state = self._state
+        state.stopped, state.onward = None, None
+        self._around.emit(LineTyped(time=self.time, text=text, task=task))
+        self.vm.settle()
+        self._stand()
+        self._call()
+
+    def finish(self) -> bool:
+        completed = not self.vm.memory.tasks and self.vm.memory.fault is None
+        if not completed:
+            self._close("stopped")
+        self._around.emit(RunFinished(time=self.time, completed=completed))
+        return completed
+
+    def restore(self, state: SystemState) -> None:
+        lines = len(self._listing.steps)
+        if (
+            not isinstance(state, MalState)
+            or not self.vm.fits(state.memory)
+            or any(number is not None and number >= lines for number in (state.at, state.onward, state.stage))
+            or any(not 0 <= place.step < lines for place in state.standing)
+        ):
+            raise BadFile("the state of the run does not fit this program")
+        self._machine.remember(state.machine)
+        put_back(self._state, state)
+        self._begun = True
+
+    # -- what people see ------------------------------------------------------------------------------
+
+    @property
+    def shown(self) -> Mapping[str, Any]:
+        memory = self.vm.memory
+        return {
+            "tasks": {name: self.vm.waits_for(name) or "its turn" for name in memory.tasks},
+            "flags": list(memory.flags),
+            "variables": dict(sorted(memory.variables.items())),
+            "axes": {axis: round(count * STEP_MM, 4) for axis, count in sorted(memory.counts.items())},
+            "commands": memory.commands,
+            "idle": round(self.vm.idle, 3),
+        }
+
+    def settables(self) -> Mapping[str, Settable]:
+        memory, program = self.vm.memory, self.vm.program
+        words = {"variable": ("PUSHV", "POPV", "FOR", "IN"), "flag": ("SETF", "CLRF", "TAKEF", "WAITF")}
+        found: dict[str, tuple[str, ...]] = {}
+        for noun, ops in words.items():
+            names: set[str] = set()
+            for each in program.code:
+                if each.op in ops:
+                    names |= {each.operand} if isinstance(each.operand, str) else {*(each.operand or ())}  # type: ignore[misc]
+            found[noun] = tuple(sorted(names))
+        return {
+            "variable": Settable(
+                noun="variable", usage="NAME n", names=found["variable"], units=(1.0,), fewest=1,
+                present=lambda name: (memory.variables.get(name, 0.0),),
+            ),
+            "flag": Settable(
+                noun="flag (1 sets it, 0 clears it)", usage="NAME n", names=found["flag"], units=(1.0,), fewest=1,
+                present=lambda name: (float(name in memory.flags),),
+            ),
+        }  # fmt: skip
+
+    def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
+        settable = self.settables().get(what)
+        if settable is None or name not in settable.names or len(value) != 1:
+            raise Refused(f"{what} {name} cannot be set")
+        memory = self.vm.memory
+        if what == "variable":
+            memory.variables[name] = value[0]
+        elif value[0] in (0.0, 1.0):
+            flags = {*memory.flags} - {name}
+            memory.flags = tuple(sorted(flags | {name} if value[0] else flags))
+        else:
+            raise Refused(f"a flag is set by 1 and cleared by 0, not by {value[0]:g}")

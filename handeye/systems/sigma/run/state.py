@@ -1,0 +1,20 @@
+"""The state of a MAL run between two statements: the virtual machine's memory, and that of the machine."""
+
+from msgspec import field
+
+from handeye.program.system_state import SystemState, TaskPlace
+from handeye.systems.sigma.machine.perfect import PerfectMemory
+from handeye.systems.sigma.mal.memory import MalMemory
+
+
+class MalState(SystemState, kw_only=True):
+    """Everything but the program."""
+
+    memory: MalMemory = field(default_factory=MalMemory)
+    machine: PerfectMemory = field(default_factory=PerfectMemory)
+    standing: list[TaskPlace] = field(default_factory=list)
+    """The place of each unfinished task, that whose turn it is first."""
+
+    @property
+    def places(self) -> tuple[TaskPlace, ...]:
+        return tuple(self.standing)

@@ -1,0 +1,61 @@
+"""SUPERSIGMA as a system: how its runs are built, and how they are spoken of."""
+
+from collections.abc import Mapping
+from typing import Final
+
+from handeye.program.events import Choice
+from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.system import Listing, RunCallbacks, StepperWords, System
+from handeye.systems.sigma import ENTRY
+from handeye.systems.sigma.run.plan import MalPlan, decode, encode, listing, sound
+from handeye.systems.sigma.run.running import RunningMal
+from handeye.systems.sigma.run.state import MalState
+
+
+class SigmaSystem(System):
+    """MAL programs."""
+
+    name = ENTRY.name
+    plan = MalPlan
+    state = MalState
+    words = StepperWords(
+        about=(
+            "A step is one statement of the task whose turn it is. Each task has its own place; the arrow",
+            "stands before the statement that comes next. `back` takes all tasks back together.",
+        ),
+        places=(
+            "PLACE is the number of a line (160), a task (FEEDER), or the first word of a statement (TAKE).",
+            "WHAT is one of",
+        ),
+        units="millimetres, newtons, seconds",
+        commands={
+            "proceed": "go on behind the statement at which the program stands",
+            "retry": "carry out that statement once more",
+            "skip": "end the program here",
+        },
+    )
+
+    def encode(self, plan: MalPlan) -> bytes:
+        return encode(plan)
+
+    def decode(self, data: bytes, name: str) -> MalPlan:
+        return decode(data, name)
+
+    def listing(self, plan: MalPlan) -> Listing:
+        return listing(plan)
+
+    def build(self, setup: Setup, around: RunCallbacks) -> RunningMal:
+        self.check(setup)
+        sound(setup.plan)  # type: ignore[arg-type]  # as `check` has found
+        return RunningMal(setup, around)
+
+    def choices(self, runner: Runner) -> Mapping[Choice, str]:
+        return {
+            "proceed": "proceed: go on behind this statement",
+            "retry": "retry: carry it out once more",
+            "skip": "skip: end the program here",
+        }
+
+
+SIGMA: Final = SigmaSystem()
