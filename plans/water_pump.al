@@ -63,6 +63,7 @@ R:      SKIPN   6               ;all places tried
 ; meets no torque, or stops high is driven again, four times in all, from where its hole was felt.
 DEFINE SCREW S H ACROSS NR
         ASSIGN  TAKEN 2
+        ASSIGN  STAYS 2
         FETCH   S
 TRY:    ASSIGN  N 4
         SEARCH  .05
@@ -84,7 +85,9 @@ K:      SKIPN   6
         JUMP    DOWN
         CHANGE  [0 0 1] 1       ;no resistance: it has stayed in the dispenser, or is lost
         SOJG    TAKEN ANEW
-        WAIT    "SCREW {NR} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE"
+        SOJG    STAYS LOST
+        WAIT    "SCREW {NR} STAYS IN ITS HOLE WITHOUT TORQUE: ITS POINT, ITS THREAD, OR NO TOP IS UNDER IT"
+LOST:   WAIT    "SCREW {NR} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE"
 ANEW:   REFETCH S NR
         JUMP    TRY
 DOWN:   HEIGHT  DS -.02 .22     ;a screw stands .1 in higher at the mouth of its thread than in the dispenser
@@ -116,6 +119,7 @@ TURN:   SAVE    HS
         JUMP    HOME
 LOOSE:  TOOL    0
         ASSIGN  TAKEN 1         ;it was on the bit; if it stays in its hole, there is none to fetch
+        ASSIGN  STAYS 1
         CHANGE  [0 0 1] .6
         SEARCH  .05
         SOJG    N K
@@ -137,7 +141,7 @@ TT:     SKIPN   6               ;all places tried
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .6 .4
         SKIPN   23
-        WAIT    "SCREW {NR} IS GONE: NO HEAD IS UNDER THE SOCKET"
+        WAIT    "SCREW {NR} IS GONE: NO HEAD IS UNDER THE SOCKET, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
@@ -151,7 +155,7 @@ TT:     SKIPN   6               ;all places tried
 TIGHT:  TOOL    0
         HEIGHT  H -.05 .05      ;as high as when it was driven, within a turn of the thread?
         SKIPN   9
-        WAIT    "SCREW {NR} DOES NOT STAND AS IT WAS DRIVEN"
+        WAIT    "SCREW {NR} DOES NOT STAND AS IT WAS DRIVEN, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
         SAVE    HS
         CHANGE  [0 0 1] 1
 
@@ -429,10 +433,10 @@ DEFINE NUDGE SPOT PUSH WAY
         STOP    PUSH
         CHANGE  WAY .8 .2
         SKIPN   23
-        WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: NOTHING STANDS THERE"
+        WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: NOTHING STANDS THERE, OR A JOINT READS WRONG"
         TRAVEL  .2 .4
         SKIPN   8
-        WAIT    "THE PUMP IS NOT WHERE IT WAS PUT"
+        WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED, OR A JOINT READS WRONG"
 
 ; Does it still stand in its place? Closed fingers come down on its end, .3 in away.
 DEFINE STANDS END
@@ -500,15 +504,15 @@ DEFINE LAYERS
         FEEL    FLANGE
         HEIGHT  BARE .33 .39
         SKIPN   9
-        WAIT    "THE TOP DOES NOT LIE FLAT: ITS NARROW END"
+        WAIT    "THE TOP DOES NOT LIE FLAT AT ITS NARROW END, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
         FEEL    SIDE
         HEIGHT  BARE .33 .39
         SKIPN   9
-        WAIT    "THE TOP DOES NOT LIE FLAT: ITS BROAD SIDE"
+        WAIT    "THE TOP DOES NOT LIE FLAT AT ITS BROAD SIDE, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
         FEEL    WAIST
         HEIGHT  BARE .33 .39
         SKIPN   9
-        WAIT    "THE TOP DOES NOT LIE FLAT: ITS WAIST"
+        WAIT    "THE TOP DOES NOT LIE FLAT AT ITS WAIST, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
         CHANGE  [0 0 1] 1
 
 ; The pump against its blocks.
@@ -798,7 +802,12 @@ LOOKS:  LOOK    AFTER HOLD
         SOJG    TRIES ANEW
         WAIT    "THE GASKET IS NOT ON PROPERLY, OR THE CAMERA OR THE LIGHT HAS CHANGED"
         JUMP    RIGHT
-ANEW:   LIFT                    ;both pictures again, the arm elsewhere: its shadow may have lain on the pump
+ANEW:   FEEL    FACE            ;both pictures again, the arm elsewhere: its shadow may have lain on the pump
+        HEIGHT  BARE .04 1
+        SKIPN   9
+        WAIT    "NO GASKET LIES ON THE BASE, OR TWO, OR ONE OF ANOTHER THICKNESS"
+        CHANGE  [0 0 1] 1
+        LIFT
         MOVE    ASIDE
         LOOK    BEFORE
         LAY
@@ -893,7 +902,7 @@ TOPPED: OPEN    2.2             ;for the screwdriver
         ASSIGN  TRIES 2
         JUMP    ALL
 MOVED:  SOJG    TRIES ALL       ;by the inspection itself? All of it once more
-        WAIT    "THE PUMP HAS MOVED SINCE IT WAS FELT"
+        WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED SINCE IT WAS FELT"
 ALL:    BLOCKS                  ;home, before it is felt
         ROTATION
         HEADS

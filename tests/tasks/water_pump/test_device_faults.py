@@ -96,6 +96,19 @@ def test_something_is_in_the_way_only_where_the_hand_is_pushed_or_the_crank_turn
     assert found == ["arm.pushed.x", "arm.pushed.y", "arm.pushed.z", "rotor.turned"]
 
 
+def test_what_is_not_felt_where_it_was_on_the_pump_may_be_a_pump_that_has_moved() -> None:
+    moved = WATER_PUMP.faults(WorldSpec(seed=0)).kind("base.moved.x").expected
+    felt = (
+        "IS GONE: NO HEAD",
+        "DOES NOT STAND AS IT WAS DRIVEN",
+        "NOT LIE FLAT AT ITS",
+        "NOT WHERE IT WAS PUT: ",
+    )
+    told = [message for message in CALLS if any(words in message for words in felt) and "PIN" not in message]
+    assert len(told) == 2 * len(SCREWED) + 6
+    assert all(moved.called(message) for message in told)
+
+
 def test_a_call_stands_for_all_parts_where_it_leaves_the_part_open() -> None:
     assert is_call("NO SCREW AT S{number}", "NO SCREW AT S4")
     assert not is_call("NO SCREW AT S{number}", "NO SCREW")

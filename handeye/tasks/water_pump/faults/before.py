@@ -225,7 +225,7 @@ def _holes(count: int) -> Iterator[PartFault]:
              ExpectedDetection(calls=(high,)), None),
             (f"thread.{number}.stripped",
              f"The thread of tapped hole {number} is worn away: a screw slides in and holds nothing.",
-             partial(_strip, hole), ExpectedDetection(calls=(loose, detect.lost_screw(screw))), None),
+             partial(_strip, hole), ExpectedDetection(calls=(loose, detect.driven_loose_screw(screw))), None),
             (f"thread.{number}.full",
              f"The shank of a broken screw fills tapped hole {number} up to its mouth.",
              partial(_block, hole, "stub"), full, None),

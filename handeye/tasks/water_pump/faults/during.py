@@ -115,7 +115,7 @@ def _base() -> Iterator[MishapFault]:
     size = Size(unit="in", usual=1.0, limits=(-6.0, 6.0))
     expected = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED, NOTHING_HELD),
-        calls=(detect.NOT_WHERE_SEEN, detect.NOT_AT_BLOCKS, detect.MOVED),
+        calls=(detect.NOT_WHERE_SEEN, detect.PUMP_ASTRAY, detect.OR_PUMP),
         harmless="The hand feels for the base around where it was seen.",
     )
     for number, axis in enumerate("xy"):
@@ -123,7 +123,7 @@ def _base() -> Iterator[MishapFault]:
         yield declared(f"base.moved.{axis}", meaning, partial(_moved, number), expected, size, stage=2)
     meaning = "Somebody takes the base away, and all that stands on it."
     gone = ExpectedDetection(
-        errors=(SEARCH_EXHAUSTED,), calls=(detect.NO_BASE, detect.NOT_AT_BLOCKS, detect.MOVED)
+        errors=(SEARCH_EXHAUSTED,), calls=(detect.NO_BASE, detect.PUMP_ASTRAY, detect.OR_PUMP)
     )
     yield declared("base.removed", meaning, always(Mishap(_take_away)), gone, stage=4)
 

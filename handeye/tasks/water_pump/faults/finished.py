@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from handeye.cell.physics_stepper import wake
-from handeye.core.errors import FORCE_WRONG, GASKET_WRONG, NOTHING_HELD, SERVO_LAG
+from handeye.core.errors import FORCE_WRONG, GASKET_WRONG, NOTHING_HELD, SERVO_LAG, WRONG_HEIGHT
 from handeye.core.faults import ExpectedDetection, Size
 from handeye.tasks.water_pump.faults import shared_expectations as detect
 from handeye.tasks.water_pump.faults.before import METAL
@@ -145,8 +145,12 @@ def _taken() -> Iterator[MishapFault]:
         "driver.fallen", meaning, always(Mishap(partial(_take, "driver"))), expected, stage=LAST_STAGE
     )
     for part, expected, stage in (
-        ("gasket", ExpectedDetection(errors=(GASKET_WRONG,), calls=(detect.NOT_ON,)), 6),
-        ("top", ExpectedDetection(calls=(detect.loose_screw(1),)), 8),
+        (
+            "gasket",
+            ExpectedDetection(errors=(GASKET_WRONG, WRONG_HEIGHT), calls=(detect.NOT_ON, detect.THICKNESS)),
+            6,
+        ),
+        ("top", ExpectedDetection(calls=(detect.driven_loose_screw(1), detect.loose_screw(1))), 8),
     ):
         meaning = f"Somebody takes the {part} away, if nothing holds it."
         yield declared(

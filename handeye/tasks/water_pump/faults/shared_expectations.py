@@ -52,8 +52,9 @@ NOT_IN_HOLDER: Final = (
     "PIN {number} IS NOT IN ITS HOLDER: IT IS MISSING, OR THE HOLDER HAS MOVED, OR A JOINT READS WRONG"
 )
 NO_BASE: Final = "NO BASE STANDS UNDER PIN {number}"
-NOT_AT_BLOCKS: Final = "THE PUMP IS NOT WHERE IT WAS PUT"
-MOVED: Final = "THE PUMP HAS MOVED SINCE IT WAS FELT"
+PUMP_ASTRAY: Final = "THE PUMP IS NOT WHERE IT WAS PUT: {how}"
+OR_PUMP: Final = "{what}, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
+"""All calls of a part of the pump that is not felt where it was: the part, the pump, or the arm."""
 SCREW_IN_NO_HOLE: Final = (
     "SCREW {number} FINDS NO HOLE AT {hole}: POINT OR HOLE IS WRONG, OR A JOINT READS WRONG"
 )
@@ -88,10 +89,6 @@ def names(expected: ExpectedDetection) -> set[int | str]:
     return {*expected.calls, *told}
 
 
-def lost_screw(number: int) -> str:
-    return f"SCREW {number} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE"
-
-
 def misfit_screw(number: int) -> str:
     return f"SCREW {number} STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
 
@@ -100,12 +97,18 @@ def loose_screw(number: int) -> str:
     return f"SCREW {number} MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
 
 
+def driven_loose_screw(number: int) -> str:
+    return f"SCREW {number} STAYS IN ITS HOLE WITHOUT TORQUE: ITS POINT, ITS THREAD, OR NO TOP IS UNDER IT"
+
+
 def high_screw(number: int) -> str:
     return f"SCREW {number} STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
 
 
 def missing_head(number: int) -> str:
-    return f"SCREW {number} IS GONE: NO HEAD IS UNDER THE SOCKET"
+    return (
+        f"SCREW {number} IS GONE: NO HEAD IS UNDER THE SOCKET, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
+    )
 
 
 def untight_screw(number: int) -> str:
@@ -113,7 +116,7 @@ def untight_screw(number: int) -> str:
 
 
 def shifted_head(number: int) -> str:
-    return f"SCREW {number} DOES NOT STAND AS IT WAS DRIVEN"
+    return f"SCREW {number} DOES NOT STAND AS IT WAS DRIVEN, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
 
 
 def missing_pin(number: int) -> str:
