@@ -1,5 +1,6 @@
 """Markup for pages: elements of HTML and of drawings. Text that goes into one is data, and is escaped."""
 
+import re
 from base64 import b64encode
 from collections.abc import Iterable
 from html import escape
@@ -43,6 +44,16 @@ def section(name: str, heading: str, *children: Content) -> Markup:
     """A section of the page, which its heading names."""
     title = element("h2", heading, id=f"{name}-heading")
     return element("section", title, *children, id=name, aria_labelledby=f"{name}-heading")
+
+
+_HEADING: Final = re.compile(r'<h2 id="([a-z-]+)-heading">(.*?)</h2>')
+
+
+def contents(sections: Iterable[Markup]) -> Markup:
+    """A list of links to sections, by their headings."""
+    found = (match for each in sections if (match := _HEADING.search(each)) is not None)
+    links = (element("a", Markup(match[2]), href=f"#{match[1]}") for match in found)
+    return element("nav", *links, aria_label="contents", class_="contents")
 
 
 def region(*children: Content, label: str, **attributes: str | None) -> Markup:

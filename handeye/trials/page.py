@@ -34,12 +34,12 @@ def _heading(sweep: Sweep[R], found: Figures) -> str:
 
 
 def _sections(sweep: Sweep[R], rows: Sequence[R], found: Figures) -> Iterator[Markup]:
-    yield section("rate", "How often, and how sure", *_rates(found))
+    yield section("rate", "Success rate", *_rates(found))
     for each in sweep.details(rows):
         if each.rows:
             yield section(each.name, each.title, _details(each))
     if found.measures:
-        yield section("measures", "What was measured", _measures(rows, found))
+        yield section("measures", "Measurements", _measures(rows, found))
     if found.failures:
         yield section("failures", "Failures", _failures(found))
 
@@ -57,8 +57,8 @@ def _rates(found: Figures) -> Iterator[Markup]:
         label="Success with its intervals",
     )  # fmt: skip
     yield note(
-        "Intervals hold the probability of success with 95 %; “at least” is the exact one-sided bound. What was taken "
-        "for a success and is none counts as a silent failure."
+        "Wilson’s intervals, 95 %; “at least” is the exact one-sided bound. A silent failure is a trial that the "
+        "program took for a success."
     )
 
 
@@ -97,7 +97,7 @@ def _spans(details: Details) -> list[Markup]:
     low, high = min([0.0, *known]), max([0.0, *known]) or 1.0
     at = Scale(low, high, 4, _WIDE - 4)
     return [
-        drawing(wide=_WIDE, high=_HIGH, label="nothing")
+        drawing(wide=_WIDE, high=_HIGH, label="no trials")
         if None in (first, middle, last)
         else _span(at, first, middle, last, f"{first:.3g} to {last:.3g}")
         for first, middle, last in values
@@ -138,7 +138,7 @@ def _measures(rows: Sequence[R], found: Figures) -> Markup:
 
 def _failures(found: Figures) -> Markup:
     return table(
-        [*figure_heads("seed"), *heads("", "how", "stage", "what", "again")],
+        [*figure_heads("seed"), *heads("", "how", "stage", "cause", "command that repeats it")],
         [
             [figure_cell(str(f.seed)), cell(f.condition), cell(f.verdict), cell(f.stage), cell(f.detail),
              cell(element("code", f.command))]

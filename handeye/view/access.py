@@ -11,7 +11,7 @@ from urllib.parse import parse_qs
 HOST: Final = "127.0.0.1"  # the only interface that the server listens on
 PAGE: Final = "/"
 LIVE: Final = "/live"
-NOTHING: Final = "there is nothing here"
+NOTHING: Final = "no such page"
 _NAMES: Final = (HOST, "localhost")
 
 
@@ -43,7 +43,7 @@ class Access:
         path, _, query = target.partition("?")
         own = [f"{name}:{self.port}" for name in _NAMES]
         if [*hosts] not in ([host] for host in own):
-            return Refusal(HTTPStatus.FORBIDDEN, "this server goes by another name")
+            return Refusal(HTTPStatus.FORBIDDEN, "this server has another name")
         if [*origins] not in ([f"http://{host}"] for host in own) and (origins or path == LIVE):
             return Refusal(HTTPStatus.FORBIDDEN, "another page cannot use this server")
         if not self._has_token(query):

@@ -1,4 +1,4 @@
-// The cell and the talk with the server; what is said there, and what comes of it, is for another script to know.
+// The cell and the messages of the server; another script gives them their meaning.
 const live = (() => {
   "use strict";
   const byId = (id) => document.getElementById(id);
@@ -76,12 +76,12 @@ const live = (() => {
     refused: (sentence) => tell(sentence),
     viewers: (count, { drives: mine, free }) => {
       drives = mine;
-      byId("looking").textContent = `${count} looking; ${mine ? "you drive" : free ? "nobody drives" : "somebody else drives"} `;
+      byId("looking").textContent = `${count === 1 ? "1 viewer" : `${count} viewers`}; ${mine ? "you have control" : free ? "control is free" : "another viewer has control"} `;
       byId("drive").hidden = mine;
       const driven = ".controls :is(button, select, input):not(#panic), .jogs button, #line";
       for (const each of document.querySelectorAll(driven)) each.disabled = !mine;
     },
-    left: () => { left = true; byId("state").textContent = "the run has been left"; },
+    left: () => { left = true; byId("state").textContent = "the run has ended"; },
   };
 
   /** Markup of the server, which has escaped all text in it. */
@@ -107,14 +107,14 @@ const live = (() => {
     socket.addEventListener("open", () => { byId("told").textContent = ""; byId("state").textContent = ""; });
     socket.addEventListener("close", () => {
       if (left) return;
-      byId("state").textContent = "the connection is lost; trying again";
+      byId("state").textContent = "connection lost; trying again";
       setTimeout(listen, 1000);
     });
   }
 
   // -- beginning --------------------------------------------------------------------------------------
 
-  /** Begin, with what is to be done when something is told: functions by the names of its fields. */
+  /** Begin, with handlers for messages, by the names of their fields. */
   function begin(more) {
     Object.assign(heard, more);
     for (const button of document.querySelectorAll(".say")) button.addEventListener("click", () => say(button.value));

@@ -1,4 +1,4 @@
-"""The page of a live cell: view and script of the report, fed by the server; what was told; a line to say something."""
+"""The page of a live cell: view and script of the report, fed by the server; a log of replies; a command line."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -24,7 +24,7 @@ _POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Face:
-    """The controls of a live page, and what stands beside the cell."""
+    """The controls of a live page, and the region next to the cell."""
 
     title: str
     controls: Sequence[Markup]
@@ -51,9 +51,9 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
     television = element("section", id="television", aria_label="television", hidden=True)
     aside = element("div", television, face.aside, class_="aside")
     state = element("p", "connecting", id="state", role="status")
-    drive = element("button", "Take the drive", id="drive", type="button")
+    drive = element("button", "Take control", id="drive", type="button")
     looking = element("p", element("span", id="looking"), drive)
-    header = element("header", element("h1", face.title), state, looking, class_="title")
+    header = element("header", element("h1", f"{face.title}, live"), state, looking, class_="title")
     body = element(
         "body",
         header,
@@ -81,7 +81,7 @@ def source_region(label: str, *content: Markup, id: str | None = None) -> Markup
 def _viewer(face: Face) -> Markup:
     canvas = element(
         "canvas", id="view", tabindex="0", role="img",
-        aria_label="the cell as it now is; arrows walk round it, plus and minus come nearer and go farther",
+        aria_label="the live cell; arrow keys turn the view, plus and minus zoom",
     )  # fmt: skip
     figures = element("p", id="figures", class_="caption")
     views = element("div", id="views", role="group", aria_label="view", class_="views")
@@ -92,10 +92,10 @@ def _viewer(face: Face) -> Markup:
 
 
 def _talk(listener: str) -> Markup:
-    told = element("pre", id="told", role="log", aria_label=f"what the {listener} tells", tabindex="0")
-    label = f"command of the {listener}"
+    told = element("pre", id="told", role="log", aria_label=f"replies of the {listener}", tabindex="0")
+    label = f"command for the {listener}"
     line = element("input", id="line", type="text", maxlength="1000", aria_label=label, autocomplete="off")
-    say = element("button", "Say", type="submit")
+    say = element("button", "Send", type="submit")
     return element("div", told, element("form", line, say, id="form"), class_="talk")
 
 

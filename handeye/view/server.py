@@ -43,7 +43,7 @@ class Panic(msgspec.Struct, tag_field="do", tag="panic", forbid_unknown_fields=T
 
 
 class Drive(msgspec.Struct, tag_field="do", tag="drive", forbid_unknown_fields=True):
-    """Take the drive, from whoever has it."""
+    """Take control from the present viewer."""
 
 
 Wish = Say | Panic | Drive
@@ -196,7 +196,7 @@ class Server:
         try:
             wish = _WISHES.decode(message)
         except (msgspec.DecodeError, UnicodeDecodeError):
-            self._send(viewer, _message(refused="this message cannot be understood"))
+            self._send(viewer, _message(refused="this message cannot be read"))
             return
         refused = self._carried_out(viewer, wish)
         if refused is not None:
@@ -209,12 +209,12 @@ class Server:
                 self._driver = viewer
                 self._tell_drive()
             case Panic():
-                return None if self.link.press() else "nothing goes that the panic button could stop"
+                return None if self.link.press() else "nothing is moving: the panic button has no effect"
             case Say(line=line):
                 if self._driver is not viewer:
-                    return "somebody else drives: take the drive first"
+                    return "another viewer has control: take control first"
                 if not self.link.say(line):
-                    return "the run does not hear so many lines at once"
+                    return "too many lines at once"
         return None
 
 
@@ -227,8 +227,8 @@ def _taken(port: int) -> socket.socket:
         taken.listen()
     except (OSError, OverflowError) as error:
         taken.close()
-        why = error.strerror if isinstance(error, OSError) else "it is no number from 0 to 65535"
-        raise Refused(f"port {port} cannot be had: {why}") from None
+        why = error.strerror if isinstance(error, OSError) else "it is not a number from 0 to 65535"
+        raise Refused(f"port {port} is not available: {why}") from None
     return taken
 
 

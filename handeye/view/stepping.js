@@ -1,4 +1,4 @@
-// Stepping: where the run stands in the script, breakpoints, and the answers when the operator is called.
+// Stepping: the current line of the script, breakpoints, and the operator's answers.
 (() => {
   "use strict";
   const { byId, facts, say, tell } = live;

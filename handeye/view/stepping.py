@@ -21,7 +21,7 @@ from handeye.view.page import Face, buttons, live_page, source_region
 _GO: Final = (("continue", "Run"), ("pause", "Pause"), ("step", "Step"), ("stage", "Next stage"))
 _BUTTONS: Final = (*_GO, ("back", "Back"), ("back stage", "Back a stage"))
 _ANSWERS: Final = (("proceed", "Proceed"), ("retry", "Retry"), ("skip", "Skip"), ("abort", "Abort"))
-_PACES: Final = (("1x", "1 ×"), ("4x", "4 ×"), ("free", "as fast as it goes"))
+_PACES: Final = (("1x", "1 ×"), ("4x", "4 ×"), ("free", "as fast as possible"))
 
 
 def stepping_page(runner: Runner, newest: Newest) -> bytes:

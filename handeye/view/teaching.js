@@ -1,4 +1,4 @@
-// Teaching: buttons that move the arm by a step, and the name that records where it is.
+// Teaching: buttons that move the arm by a step, and the form that records its place.
 (() => {
   "use strict";
   const { byId, say, tell } = live;
@@ -16,11 +16,11 @@
     say(`here ${byId("name").value}${part ? ` of ${part}` : ""}${again ? " again" : ""}`);
   });
   live.begin({
-    begun: (line) => { tell(`> ${line}`); byId("state").textContent = "the arm moves"; },
+    begun: (line) => { tell(`> ${line}`); byId("state").textContent = "the arm is moving"; },
     answer: (shown, { afloat, unsaved, taught }) => {
       if (shown) tell(shown);
       live.fill("taught", taught);
-      const held = afloat ? "The brakes are off: the arm goes where it is pushed." : "The arm is held.";
+      const held = afloat ? "The brakes are off: push the arm where you want it." : "The arm is held.";
       byId("state").textContent = unsaved.length ? `${held} Not saved: ${unsaved.join(", ")}.` : held;
     },
   });

@@ -146,5 +146,5 @@ def _told(session: TeachSession, answer: Answer | None) -> str:
 
 
 def _refused(line: str) -> str:
-    sentence = f"`{line.strip()}` was not carried out: while the arm moves, only the panic button works"
+    sentence = f"`{line.strip()}` was refused: while the arm moves, only the panic button works"
     return msgspec.json.encode({"refused": sentence}).decode()

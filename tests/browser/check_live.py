@@ -126,7 +126,7 @@ def test_others_look_on_take_the_drive_and_reload(browser: Browser, tmp_path: Pa
             "2 looking; somebody else drives",
             second.evaluate("document.getElementById('looking').textContent"),
         )
-        press(second, "Take the drive")
+        press(second, "Take control")
         first.wait("/somebody else drives/.test(document.getElementById('looking').textContent)")
         press(second, "Run")
         for page in (first, second):
@@ -137,7 +137,7 @@ def test_others_look_on_take_the_drive_and_reload(browser: Browser, tmp_path: Pa
         first.wait(f"document.getElementById('told') && /> skip/.test({TOLD})")
         second.ask("Page.navigate", url="about:blank")
         first.wait("/1 looking; nobody drives/.test(document.getElementById('looking').textContent)")
-        press(first, "Take the drive")
+        press(first, "Take control")
         first.wait("/you drive/.test(document.getElementById('looking').textContent)")
         press(first, "Run")
         first.wait(f"/the program has ended/.test({TOLD})")

@@ -81,10 +81,15 @@ def test_a_call_that_was_answered_stops_nothing(run: RecordedRun) -> None:
 def test_a_run_that_failed_leads_with_the_reason_the_line_and_its_stage(run: RecordedRun) -> None:
     head = tree(page_of(ending(run, STOPPED))).all("header")[0]
     assert head.all("h1")[0].text == "Stopped in “open”."
-    assert reasons(head) == ["The program calls the operator: “THE GASKET LIES OFF ITS PLACE”."]
-    assert head.all("h2")[0].text == "Line 4, 0:02.0 after it began, 0 of 3 stages done"
+    assert reasons(head) == ["The program called the operator: “THE GASKET LIES OFF ITS PLACE”."]
+    assert head.all("h2")[0].text == "Line 4, 0:02.0 into the run, 0 of 3 stages done"
     (lit,) = (node for node in head.all("li") if node.attributes.get("class") == "on")
     assert (lit.text.strip(), lit.attributes["value"]) == ("CLOSE .1", "4")
+
+
+def test_the_last_guarded_motions_of_a_run_that_failed_are_unfolded(run: RecordedRun) -> None:
+    folds = tree(page_of(ending(run, STOPPED))).one("felt").all("details")
+    assert ["open" in fold.attributes for fold in folds] == [*[False] * (len(folds) - 1), True]
 
 
 @pytest.mark.parametrize(
@@ -95,7 +100,7 @@ def test_a_run_that_failed_leads_with_the_reason_the_line_and_its_stage(run: Rec
             {"cause": NothingBetween(gap=0.0254)},
             "The fingers do not both touch anything; the gap is 1.00 in.",
         ),
-        ({}, "The program calls the operator."),
+        ({}, "The program called the operator."),
     ],
 )
 def test_a_call_without_a_message_is_told_by_its_error_or_its_cause(
@@ -115,8 +120,8 @@ def test_work_that_is_not_right_leads_with_what_is_wrong(run: RecordedRun) -> No
 
 def test_the_panic_button_is_told_where_it_was_hit(run: RecordedRun) -> None:
     head = tree(page_of(ending(run, [STARTED, happened.PanicStopped(time=2.0)]))).all("header")[0]
-    assert head.all("h1")[0].text == "The panic button was hit in “open”."
-    assert reasons(head)[0].startswith("A person stopped the run, not the program.")
+    assert head.all("h1")[0].text == "The panic button stopped the run in “open”."
+    assert reasons(head)[0].startswith("The user stopped the run.")
 
 
 def test_figures_of_which_there_are_none_are_not_told(run: RecordedRun) -> None:

@@ -111,9 +111,24 @@ def test_every_figure_that_leads_somewhere_has_a_name(page: Node) -> None:
 
 
 def test_the_figures_lead_to_moments_of_the_run(run: RecordedRun, page: Node) -> None:
-    moments = [float((node.attributes["href"] or "")[3:]) for node in page.all("a")]
+    links = [node.attributes["href"] or "" for node in page.all("a")]
+    moments = [float(link[3:]) for link in links if link.startswith("#t=")]
     assert moments
     assert all(0 <= moment <= run.ends + 0.01 for moment in moments)
+
+
+def test_the_contents_link_every_section(page: Node) -> None:
+    (contents,) = [nav for nav in page.all("nav") if nav.attributes.get("aria-label") == "contents"]
+    named = [node for node in page.all("section") if "aria-labelledby" in node.attributes]
+    assert [(link.attributes["href"], link.text) for link in contents.all("a")] == [
+        (f"#{node.attributes['id']}", next(iter(node.all("h2"))).text) for node in named
+    ]
+
+
+def test_guarded_motions_of_a_run_without_failure_are_folded_by_stage(page: Node) -> None:
+    folds = page.one("felt").all("details")
+    assert [fold.all("h3")[0].text for fold in folds] == ["open", "close", "again"]
+    assert not [fold for fold in folds if "open" in fold.attributes]
 
 
 def test_a_guarded_motion_has_a_figure_with_its_line_and_its_trip(page: Node) -> None:
@@ -141,25 +156,25 @@ def test_a_run_without_pictures_says_so(tmp_path: Path) -> None:
 
 def test_a_trace_without_motion_gives_a_page(tmp_path: Path) -> None:
     page = beginning(tmp_path / "trace.mcap", 2)
-    assert page.all("h1")[0].text == "The run pauses before its end."
+    assert page.all("h1")[0].text == "The run is paused."
     assert "No motion of this run had a guard" in page.one("felt").text
 
 
 def test_a_trace_that_was_cut_short_says_so(tmp_path: Path) -> None:
     page = beginning(tmp_path / "trace.mcap", 12, whole=False)
-    assert page.all("h1")[0].text == "The trace breaks off at line 2."
-    assert "cut short" in page.all("header")[0].text
+    assert page.all("h1")[0].text == "The recording breaks off at line 2."
+    assert "is truncated" in page.all("header")[0].text
 
 
 def test_a_run_taken_up_from_a_checkpoint_says_what_it_has_not_seen(tmp_path: Path) -> None:
     taken_up = BOUNDARIES[2]
     Recording(tmp_path / "trace.mcap").resume(taken_up).play(taken_up).close()
     page = tree(page_of(RecordedRun(trace=read_trace(tmp_path / "trace.mcap"))))
-    assert "taken up from a checkpoint" in page.all("header")[0].text
+    assert "resumed from a checkpoint" in page.all("header")[0].text
     told = [bar.attributes["aria-label"] or "" for bar in page.one("stages").all("a")]
     assert [bar.endswith("not recorded") for bar in told] == [True, True, False]
-    assert "1 picture taken before this trace begins" in page.one("seen").text
-    assert "6 guards met before this trace begins" in page.one("felt").text
+    assert "1 picture from before this trace begins" in page.one("seen").text
+    assert "6 guards tripped before this trace begins" in page.one("felt").text
     assert len(page.one("felt").all("figure")) == 3
 
 

@@ -116,9 +116,7 @@ def test_the_panic_button_stops_the_arm_and_lines_that_come_meanwhile_are_refuse
 
     lesson.watch.newest.tick = meanwhile  # type: ignore[method-assign]  # somebody at a page, while the arm moves
     lesson.go(("table x -5", "quit"))
-    assert lesson.all("refused") == [
-        "`open 3` was not carried out: while the arm moves, only the panic button works"
-    ]
+    assert lesson.all("refused") == ["`open 3` was refused: while the arm moves, only the panic button works"]
     assert "stopped by the panic button; the brakes are set" in lesson.all("answer")
 
 

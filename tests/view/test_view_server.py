@@ -130,13 +130,17 @@ def test_it_listens_on_this_computer_alone(theatre: Theatre) -> None:
 
 
 def test_a_port_in_use_is_told_at_once(theatre: Theatre) -> None:
-    with pytest.raises(InvalidInput, match=rf"^port {theatre.port} cannot be had: Address already in use$"):
+    with pytest.raises(
+        InvalidInput, match=rf"^port {theatre.port} is not available: Address already in use$"
+    ):
         Server(Link(), theatre.port)
 
 
 @pytest.mark.parametrize("port", [-1, 70000])
 def test_a_port_that_cannot_be_is_told(port: int) -> None:
-    with pytest.raises(InvalidInput, match=rf"^port {port} cannot be had: it is no number from 0 to 65535$"):
+    with pytest.raises(
+        InvalidInput, match=rf"^port {port} is not available: it is not a number from 0 to 65535$"
+    ):
         Server(Link(), port)
 
 
@@ -165,11 +169,11 @@ def test_what_whoever_drives_says_reaches_the_run(theatre: Theatre) -> None:
 def test_one_drives_and_the_drive_can_be_taken_over(theatre: Theatre) -> None:
     first, second = theatre.viewer(), theatre.viewer()
     say(second, do="say", line="step")
-    assert heard(second, "refused")["refused"] == "somebody else drives: take the drive first"
+    assert heard(second, "refused")["refused"] == "another viewer has control: take control first"
     say(second, do="drive")
     assert heard(second, "viewers") == {"viewers": 2, "drives": True, "free": False}
     say(first, do="say", line="step")
-    assert heard(first, "refused")["refused"] == "somebody else drives: take the drive first"
+    assert heard(first, "refused")["refused"] == "another viewer has control: take control first"
 
 
 def test_a_drive_is_free_when_whoever_had_it_has_gone(theatre: Theatre) -> None:
@@ -207,7 +211,7 @@ def test_when_the_run_has_been_left_everybody_is_told() -> None:
 def test_nothing_goes_that_panic_could_stop(theatre: Theatre) -> None:
     viewer = theatre.viewer()
     say(viewer, do="panic")
-    assert heard(viewer, "refused")["refused"] == "nothing goes that the panic button could stop"
+    assert heard(viewer, "refused")["refused"] == "nothing is moving: the panic button has no effect"
 
 
 # -- the run does not wait ------------------------------------------------------------------------------
@@ -260,7 +264,7 @@ def test_what_cannot_be_understood_is_refused_and_changes_nothing(
 ) -> None:
     viewer = theatre.viewer()
     viewer.send(message)
-    assert heard(viewer, "refused")["refused"] == "this message cannot be understood"
+    assert heard(viewer, "refused")["refused"] == "this message cannot be read"
     assert theatre.server.link.come() is None
 
 
@@ -277,7 +281,7 @@ def test_a_flood_of_lines_is_answered_line_by_line_and_fills_nothing(theatre: Th
     viewer = theatre.viewer()
     for _ in range(150):
         say(viewer, do="say", line="step")
-    assert heard(viewer, "refused")["refused"] == "the run does not hear so many lines at once"
+    assert heard(viewer, "refused")["refused"] == "too many lines at once"
 
 
 def test_rubbish_in_the_place_of_a_request_is_survived(theatre: Theatre) -> None:

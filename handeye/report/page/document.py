@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from handeye.core.files import Kind
-from handeye.core.markup import Markup, element, section
+from handeye.core.markup import Markup, contents, element, section
 from handeye.core.plain_text import printable
 from handeye.report import player
 from handeye.report.animation import Animation
@@ -38,14 +38,16 @@ def report_page(run: RecordedRun, photographs: Album, animated: Animation | None
     cannot be understood.
 
     Args:
-        animated: what is shown to walk round in; None: photographs only.
+        animated: the 3D view; None: photographs only.
     """
     came, heard = outcome(run), told(run)
+    sections = tuple(_sections(run, photographs, failed=came.failed))
     scripts = [*([] if animated is None else [player.script()]), resource("page.js")]
     body = element(
         "body",
         verdict(run, came, heard, photographs.leading),
-        element("main", *_sections(run, photographs)),
+        contents(sections),
+        element("main", *sections),
         moments(run, came, heard),
         *([] if animated is None else [packed("scene", animated.scene), packed("tracks", animated.tracks)]),
         *(element("script", Markup(script)) for script in scripts),
@@ -55,13 +57,16 @@ def report_page(run: RecordedRun, photographs: Album, animated: Animation | None
     return (MARK + page + "\n").encode()
 
 
-def _sections(run: RecordedRun, photographs: Album) -> Iterator[Markup]:
+def _sections(run: RecordedRun, photographs: Album, *, failed: bool) -> Iterator[Markup]:
     felt, stages = guarded_motions(run), run.trace.stages
     yield view_section(run, photographs.stages)
     yield timing_section(run)
     yield seen_section(seen_pictures(run), lost=lost_pictures(run))
     yield felt_section(
-        felt, how=How.THINNED if run.trace.thinned else How.RECORDED, lost=lost_trips(run, felt)
+        felt,
+        how=How.THINNED if run.trace.thinned else How.RECORDED,
+        lost=lost_trips(run, felt),
+        failed=failed,
     )
     yield channels_section(run.trace)
     yield planned_section(ends(run), corrections(run), searches(run), stages)

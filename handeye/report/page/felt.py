@@ -24,34 +24,48 @@ class How(StrEnum):
 
     RECORDED = ""
     THINNED = (
-        f" This trace is thinned: the curves lie within {FELT[GuardKind.FORCE]:g} N and {FELT[GuardKind.MOMENT]:g} N m "
-        "of what was recorded, and what was felt most is kept."
+        f" This trace is thinned: the curves are within {FELT[GuardKind.FORCE]:g} N and {FELT[GuardKind.MOMENT]:g} N m "
+        "of the recorded ones, and keep the maximum."
     )
 
 
-def felt_section(motions: Sequence[GuardedMotion], *, how: How, lost: int) -> Markup:
-    """The section; `lost`: guards that were met before the trace begins."""
-    return section("felt", "What the hand felt", *_content(motions, how=how, lost=lost))
+def felt_section(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: bool = False) -> Markup:
+    """The section, a fold for each stage.
+
+    Args:
+        lost: guards that tripped before the trace begins.
+        failed: the run failed, so that its last stage is shown unfolded.
+    """
+    return section("felt", "What the hand felt", *_content(motions, how=how, lost=lost, failed=failed))
 
 
-def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int) -> Iterator[Markup]:
+def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: bool) -> Iterator[Markup]:
     if lost:
         yield note(
-            f"{counted(lost, 'guard')} met before this trace begins, which does not tell what was felt there."
+            f"{counted(lost, 'guard')} tripped before this trace begins; the forces there were not recorded."
         )
     if not motions:
         if not lost:
-            yield note("No motion of this run had a guard: the hand felt for nothing.")
+            yield note("No motion of this run had a guard.")
         return
     met = sum(motion.trip is not None for motion in motions)
     yield note(
-        f"{counted(len(motions), 'guarded motion')}; the guards of {met} were met. Each curve is what the guard looked "
-        "at: the force of the hand along its axis, a moment, or the torque of the screwdriver. The dashed line is what "
-        f"it allows; the dot, where it tripped and the motion ended.{how} A figure leads to its moment in the view."
+        f"{counted(len(motions), 'guarded motion')}, of which a guard stopped {met}. Each curve is the guarded "
+        "quantity: the force of the hand along an axis, a moment, or the torque of the screwdriver. The dashed line "
+        f"is the limit; the dot is where the guard tripped and ended the motion.{how} Click a figure to see its moment."
     )
-    for stage, those in groupby(motions, lambda motion: motion.stage):
-        yield element("h3", stage)
-        yield element("div", *map(_figure, those), class_="figures")
+    stages = [(stage, list(those)) for stage, those in groupby(motions, lambda motion: motion.stage)]
+    for number, (stage, those) in enumerate(stages):
+        yield _stage(stage, those, shown=len(stages) == 1 or (failed and number == len(stages) - 1))
+
+
+def _stage(stage: str, motions: Sequence[GuardedMotion], *, shown: bool) -> Markup:
+    """The figures of a stage, folded unless they are to be shown at once."""
+    met = sum(motion.trip is not None for motion in motions)
+    said = f"{counted(len(motions), 'guarded motion')}, {met} stopped by a guard"
+    summary = element("summary", element("h3", stage), " ", element("span", said))
+    figures = element("div", *map(_figure, motions), class_="figures")
+    return element("details", summary, figures, open=shown, class_="stage")
 
 
 def _figure(motion: GuardedMotion) -> Markup:
@@ -76,15 +90,15 @@ def _said(motion: GuardedMotion) -> str:
     if motion.trip is not None:
         return f"{_short(motion.guard, motion.trip.value)}; guard {limit}"
     known = motion.values[np.isfinite(motion.values)]
-    most = _short(motion.guard, float(known.max())) if len(known) else "nothing was estimated"
-    return f"not met: {most} at most; guard {limit}"
+    most = _short(motion.guard, float(known.max())) if len(known) else "no estimate"
+    return f"not stopped: {most} at most; guard {limit}"
 
 
 def _drawn(motion: GuardedMotion) -> Markup:
     known = np.isfinite(motion.values)
     times, values = motion.times[known], motion.values[known]
     if not len(times):
-        return drawing(label="nothing was estimated")
+        return drawing(label="no estimate")
     highs = [float(values.max()), motion.limit, *([] if motion.trip is None else [motion.trip.value])]
     x = Scale(float(times[0]), max(float(times[-1]), float(times[0]) + 1e-9), 2.0, WIDE - 2.0)
     y = Scale(min(0.0, float(values.min())), max(highs), _BOTTOM, _TOP)
@@ -115,7 +129,7 @@ def channels_section(trace: Trace) -> Markup:
     if not trace.channels:
         return Markup("")
     figures = map(_channel_figure, trace.channels)
-    about = note("What machines sensed besides where their axes were, in the course of the run.")
+    about = note("Sensor values of the machines during the run, except the positions of their axes.")
     return section("channels", "Channels of the machines", about, element("div", *figures, class_="figures"))
 
 

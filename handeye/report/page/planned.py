@@ -37,9 +37,9 @@ _CLASSES: Final = {
 }
 _MEANING: Final = {
     EndReason.PLANNED: "ended as planned",
-    EndReason.MOVED: "its goal had been moved by what was sensed before",
+    EndReason.MOVED: "its goal was moved by earlier measurements",
     EndReason.GUARD: "a guard ended it",
-    EndReason.CARRIED: "began off its plan, and went on so",
+    EndReason.CARRIED: "began off its plan, and stayed off",
 }
 _DECADES: Final = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)  # mm
 
@@ -62,11 +62,11 @@ def planned_section(
 
 def _ends(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Iterator[Markup]:
     if not ends:
-        yield note("No motion of this run came to an end.")
+        yield note("No motion of this run ended.")
         return
     yield note(
-        f"How far from its planned end each of {counted(len(ends), 'motion')} ended, in millimetres, by the arm’s own "
-        "sensors. The plan is made before the arm has seen or felt anything; the working phase moves its goals."
+        f"The distance of {counted(len(ends), 'motion end')} from the plan, in millimetres, by the arm’s own sensors. "
+        "The plan is made before any measurement; the working phase then moves its goals."
     )
     yield region(_chart(ends, stages), label="chart", class_="chart")
     counts = {why: sum(end.why is why for end in ends) for why in EndReason}
@@ -126,10 +126,10 @@ def _dot(end: MotionEnd, x: Scale, y: _Decades) -> Markup:
 def _corrections(corrections: Sequence[Correction]) -> Iterator[Markup]:
     if not corrections:
         return
-    yield element("h3", "What moved goals")
+    yield element("h3", "Moved goals")
     figures = figure_heads("at", "x, mm", "y, mm", "z, mm")
     yield table(
-        [*figure_heads("line"), *heads("motion"), *figures, *heads("because of")],
+        [*figure_heads("line"), *heads("motion"), *figures, *heads("moved by")],
         map(_correction, corrections),
         label="corrections",
     )
@@ -146,7 +146,7 @@ def _correction(correction: Correction) -> list[Markup]:
         cell(element("code", one_line(correction.step.text))),
         figure_cell(to_moment(correction.time, clock(correction.time))),
         *shifts,
-        element("td", joined(causes, ", ") if correction.causes else "what the program did", class_="wide"),
+        element("td", joined(causes, ", ") if correction.causes else "the program", class_="wide"),
     ]
 
 
@@ -157,15 +157,15 @@ def searched(searches: Sequence[Search]) -> Iterator[Markup]:
     """The searches of a run, each as the way through its places."""
     yield element("h3", "Searches")
     if not searches:
-        yield note("No search went on from its first place.")
+        yield note("No search needed a second place.")
         return
-    yield note("The places that were tried, seen from above: the ring is the first, the dot the last.")
+    yield note("The places that were tried, from above: the ring marks the first, the dot the last.")
     yield element("div", *map(_search, searches), class_="figures")
 
 
 def _search(search: Search) -> Markup:
     tried = counted(len(search.places), "place")
-    came = "there were no more" if search.exhausted else "the program went on from the last"
+    came = "no more places" if search.exhausted else "found at the last"
     told = f"{tried} tried, from {exact_clock(search.times[0]) if search.times else 'the first'}: {came}"
     caption = element("figcaption", element("b", search.step.place), " ", element("span", told))
     figure = element("figure", _spiral(search, told), caption)

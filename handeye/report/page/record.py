@@ -30,22 +30,20 @@ from handeye.trace.sentences import renderer_name
 def record_section(run: RecordedRun) -> Markup:
     """The section."""
     return section(
-        "record", "World, versions, and how to do it again", *_again(run), facts(run), *_world(run)
+        "record", "World, versions, and how to repeat the run", *_again(run), facts(run), *_world(run)
     )
 
 
 def _again(run: RecordedRun) -> Iterator[Markup]:
     typed = command(run)
     if typed is None:
-        yield note(
-            "Code of whoever began this run belongs to it; from Python, the same call carries it out again."
-        )
+        yield note("This run used Python code of its own; the same call from Python repeats it.")
         return
     yield element("pre", element("code", typed), class_="command")
     if any(isinstance(event, OperatorAnswered | ExperimentMade | LineTyped) for event in run.trace.events):
-        yield note("Somebody took a hand in this run; `handeye trace verify` repeats that, too.")
+        yield note("This run had commands from a user; `handeye trace verify` repeats them, too.")
     if "plan.json" in typed:
-        yield note("plan.json is the plan in the folder of the run.")
+        yield note("plan.json is in the folder of the run.")
 
 
 def facts(run: RecordedRun) -> Markup:
@@ -72,7 +70,7 @@ def _overrides(run: RecordedRun) -> Iterator[tuple[str, Content]]:
     """The faults and overrides of the run's world."""
     world = run.trace.head.world
     for name, meaning in told_faults(run):
-        yield "broken", joined([element("code", name), f" {meaning}"])
+        yield "fault", joined([element("code", name), f" {meaning}"])
     for name in world.overrides.without:
         yield "without", name
     for name, value in world.overrides.set.items():
@@ -85,7 +83,7 @@ def _world(run: RecordedRun) -> Iterator[Markup]:
     try:
         quantities = _quantities(run)
     except InvalidInput as fault:
-        yield note(f"The quantities of its world cannot be listed: {fault}.")
+        yield note(f"The quantities of this world cannot be listed: {fault}.")
         return
     if quantities:
         head = [
@@ -97,7 +95,7 @@ def _world(run: RecordedRun) -> Iterator[Markup]:
         ]
         listed = table(head, map(_quantity, quantities), label="quantities of the world")
         summary = element(
-            "summary", f"All {len(quantities)} quantities of this world, which the program never sees"
+            "summary", f"All {len(quantities)} quantities of this world (unknown to the program)"
         )
         yield element("details", summary, listed)
 

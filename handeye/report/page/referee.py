@@ -22,21 +22,18 @@ def referee_section(run: RecordedRun) -> Markup:
 def _content(run: RecordedRun) -> Iterator[Markup]:
     if run.result is None:
         yield note(
-            "Nobody knows: the referee measures the finished work, and the findings stand in the result of a run, "
-            "which a trace does not hold. Make the report of the folder of the run."
+            "The findings of the referee are in the folder of a run, not in its trace. Make the report from the folder."
         )
     elif not run.result.referee:
-        yield note(
-            "The referee was not called: that is done when a program has come to its end, if somebody asks for it."
-        )
+        yield note("The referee was not called: it judges a finished program, on request (--judge).")
     else:
         yield note(
-            "Measured on the finished work in the simulator’s truth, which the program never sees. A bar shows how "
-            "much of its limit a value uses; counts have none."
+            "Measured on the finished work in the simulator, where the program cannot look. A bar shows the used share "
+            "of a limit; counts have no bar."
         )
         yield findings_table(run.result.referee.values())
         for name, limit in (run.result.limits or {}).items():
-            yield note(f"The limit of {name} was set to {limit:g} by whoever began the run.")
+            yield note(f"The limit of {name} was set to {limit:g} for this run.")
 
 
 def findings_table(checks: Iterable[Check]) -> Markup:

@@ -26,17 +26,19 @@ def seen_section(pictures: Sequence[SeenPicture], *, lost: int) -> Markup:
 
 def _content(pictures: Sequence[SeenPicture], lost: int) -> Iterator[Markup]:
     if lost:
-        yield note(f"{counted(lost, 'picture')} taken before this trace begins, and not in it.")
+        yield note(f"{counted(lost, 'picture')} from before this trace begins.")
     if not pictures:
-        yield note("There is no other." if lost else "This run took no picture.")
+        yield note("There are no others." if lost else "This run took no picture.")
         return
     rows, columns = pictures[0].picture.shape
     yield note(
-        f"Every picture as the program had it: {rows} lines of {columns} points in 16 levels. What the program found "
-        "is drawn over it."
+        f"Every picture as the program had it: {columns} x {rows} pixels in 16 levels. The features that the program "
+        "detected are drawn over it."
     )
     box = element("input", type="checkbox", id="marks", checked=True, aria_keyshortcuts="m")
-    yield element("p", element("label", box, " show what was found ", element("kbd", "m")), class_="switch")
+    yield element(
+        "p", element("label", box, " show detected features ", element("kbd", "m")), class_="switch"
+    )
     yield element("div", *map(_figure, pictures), class_="pictures")
 
 

@@ -34,7 +34,7 @@ def timing_section(run: RecordedRun) -> Markup:
     then = run.period
     return section(
         "timing",
-        "What it took" if then is None else f"What it took, beside {then.year}",
+        "Times" if then is None else f"Times, compared with {then.year}",
         *_beside(run, figures.total, then),
         *_by_stage(run, figures.stages),
     )
@@ -70,7 +70,7 @@ def _row(
 
 def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
     """Remarks on what the table leaves out."""
-    yield "Minutes and seconds on the cell’s clock."
+    yield "Minutes and seconds of simulated time."
     friction = sum(event.seconds for event in run.trace.events if isinstance(event, FrictionMeasured))
     calibration = run.trace.head.prepared - friction
     before = [
@@ -86,8 +86,8 @@ def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
     if then is not None:
         yield (
             f" In {then.year} planning took {duration(then.times['planning'])} and vision "
-            f"{then.times['vision']:g} s of a processor; here they take well under a second, another each time, "
-            "which stands in the result of the run."
+            f"{then.times['vision']:g} s of a processor; here they take well under a second, recorded in the result of "
+            "the run."
         )
 
 
@@ -107,8 +107,8 @@ def _by_stage(run: RecordedRun, stages: list[StageFigures]) -> Iterator[Markup]:
         ]
         for number, name in enumerate(left, len(stages) + 1)
     ]
-    yield element("h3", "Stage by stage")
-    figures = figure_heads("begins", "took", "of it camera", "steps")
+    yield element("h3", "By stage")
+    figures = figure_heads("begins", "took", "camera", "steps")
     yield table([*figure_heads(""), *heads("stage", "ended"), *figures, *heads("")], rows, label="stages")
 
 
@@ -117,7 +117,7 @@ def _stage(number: int, stage: StageFigures, begin: float, longest: float) -> li
     bars = [bar(0, 1, arm, _HIGH, class_="here")]
     if stage.camera_s:
         bars.append(bar(arm, 1, stage.camera_s / longest * _WIDE, _HIGH, class_="camera"))
-    told = f"{stage.stage}: {duration(stage.seconds)}, {duration(stage.camera_s)} of it for the camera"
+    told = f"{stage.stage}: {duration(stage.seconds)}, {duration(stage.camera_s)} for the camera"
     return [
         figure_cell(str(number)),
         element("th", to_moment(begin, stage.stage), scope="row"),

@@ -46,21 +46,21 @@ def title(run: RecordedRun, outcome: Outcome) -> str:
         case "right":
             return words.apart if apart else words.done
         case "wrong" if apart is False:
-            return "The arm has undone what it did, but not everything is back."
+            return "The arm undid its work, but not everything is back in its place."
         case "wrong":
             return f"The program reported success, but {words.product} is not right."
         case "ended" if run.result is not None and run.result.apart is not UNSET:
-            return "What the arm was to undo is undone."
+            return "The undo is complete."
         case "ended":
-            return "The program came to its end."
+            return "The program finished."
         case "stopped":
             return f"Stopped in “{outcome.stage}”."
         case "panic":
-            return f"The panic button was hit in “{outcome.stage}”."
+            return f"The panic button stopped the run in “{outcome.stage}”."
         case "paused":
-            return f"The run pauses before its end{f', after {line}' if line else ''}."
+            return f"The run is paused{f' after {line}' if line else ''}."
         case "broken off":
-            return f"The trace breaks off{f' at {line}' if line else ''}."
+            return f"The recording breaks off{f' at {line}' if line else ''}."
 
 
 def verdict(
@@ -68,10 +68,10 @@ def verdict(
 ) -> Markup:
     """The head of the page."""
     head = run.trace.head
-    arm = f"the simulated {head.arm} arm carries out " if head.arm else ""
+    arm = f" on the simulated {head.arm} arm" if head.arm else ""
     words = element(
         "div",
-        element("p", f"Report of a run: {arm}{head.program} in the world of {head.world}", class_="name"),
+        element("p", f"Report of a run: {head.program}{arm}, {head.world}", class_="name"),
         element("h1", title(run, outcome)),
         *_said(run, outcome, told),
     )
@@ -95,18 +95,18 @@ def _unseen(run: RecordedRun) -> Iterator[Markup]:
     """The gaps of the page."""
     if run.begins > 0:
         yield note(
-            f"This run was taken up from a checkpoint: its trace begins at {clock(run.begins)}. What happened before "
-            "is told by the checkpoint; how the arm moved, and what was seen and felt, was not recorded."
+            f"This run was resumed from a checkpoint, and its trace begins at {clock(run.begins)}. Earlier events come "
+            "from the checkpoint; earlier motions, pictures and forces were not recorded."
         )
     if not run.whole:
-        yield note(f"The trace was cut short: it ends at {clock(run.ends)}.")
+        yield note(f"The trace is truncated: it ends at {clock(run.ends)}.")
 
 
 def _course(run: RecordedRun) -> Iterator[str]:
     """Progress and duration of the run."""
     steps = counted(sum(isinstance(event, StepStarted) for event in run.trace.events), "step")
     stages = counted(len(run.trace.stages), "stage")
-    yield f"{steps} in {stages}, {duration(run.ends)} min on the cell’s clock."
+    yield f"{steps} in {stages}, {duration(run.ends)} min of simulated time."
     then = run.period
     if then is not None:
         yield f" In {then.year} it took {clock(then.times['manipulation'] + then.times['lens'])}."
@@ -120,7 +120,7 @@ def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
     told = f"The referee made {counted(len(run.result.referee), 'measurement')}"
     if shares:
         share, check = max(shares, key=lambda each: each[0])
-        told += f"; nearest to its limit is the {check.subject}, which uses {100 * share:.0f} % of it"
+        told += f"; closest to its limit is the {check.subject}, with {100 * share:.0f} % of it"
     yield element("p", f"{told}.")
     for doubt in outcome.doubts:
         yield element("p", f"Caution: {doubt.told}.", class_="doubtful")
@@ -130,9 +130,7 @@ def _broken(run: RecordedRun) -> Iterator[Markup]:
     """The faults of the run's world."""
     for name, meaning in told_faults(run):
         told = element("code", name)
-        yield element(
-            "p", "Broken on purpose, unknown to the program: ", told, f". {meaning}", class_="broken"
-        )
+        yield element("p", "Injected fault, unknown to the program: ", told, f". {meaning}", class_="broken")
 
 
 def in_figures(run: RecordedRun) -> Iterator[Markup]:
@@ -146,12 +144,12 @@ def in_figures(run: RecordedRun) -> Iterator[Markup]:
 def _figures(run: RecordedRun) -> Iterator[tuple[int, str]]:
     kinds = Counter(type(event) for event in run.trace.events)
     yield kinds[happened.PictureTaken], "pictures taken"
-    yield kinds[happened.GuardTripped], "motions ended by what the hand felt"
-    yield kinds[happened.Adjusted], "goals moved by what was sensed"
-    yield kinds[happened.SearchAdvanced], "further places tried in searches"
-    yield kinds[happened.ErrorTested], "times the program tested for an error"
+    yield kinds[happened.GuardTripped], "motions stopped by a guard"
+    yield kinds[happened.Adjusted], "goals moved by measurements"
+    yield kinds[happened.SearchAdvanced], "extra places tried in searches"
+    yield kinds[happened.ErrorTested], "tests for an error"
     if run.result is not None and run.result.referee:
-        yield sum(check.ok for check in run.result.referee.values()), "findings of the referee right"
+        yield sum(check.ok for check in run.result.referee.values()), "referee measurements passed"
 
 
 _UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, CameraStarted, PictureTaken)
@@ -169,16 +167,16 @@ def _reasons(outcome: Outcome) -> Iterator[str]:
         yield _called(outcome.call)
     yield from map(_finding, outcome.wrong)
     if outcome.kind == "broken off":
-        yield "The file ends in the middle; this page shows what there is of it."
+        yield "The trace file is incomplete; this page shows what it holds."
     if outcome.kind == "panic":
-        yield "A person stopped the run, not the program. The drives are off and the brakes are set."
+        yield "The user stopped the run. The drives are off and the brakes are set."
 
 
 def _called(call: OperatorCalled) -> str:
     """Why the program called the operator, as a sentence."""
     reason = call_sentence(call.message, call.error, call.cause)
     if call.message or not reason:
-        return f"The program calls the operator{f': “{reason}”' if reason else ''}."
+        return f"The program called the operator{f': “{reason}”' if reason else ''}."
     return f"{_capital(reason)}." if call.error is None else f"Error {call.error}: {reason}."
 
 
@@ -198,7 +196,7 @@ def where(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) ->
     done = {stage.name for stage in run.trace.stages if stage.status == "done"}
     at = to_moment(outcome.time, exact_clock(outcome.time))
     stages = counted(len(run.program.stages), "stage")
-    yield element("h2", joined([line, at, f" after it began, {len(done)} of {stages} done"]))
+    yield element("h2", joined([line, at, f" into the run, {len(done)} of {stages} done"]))
     if outcome.step is not None:
         yield excerpt(run.program, outcome.step)
     yield from _senses(run, outcome, told)
@@ -213,7 +211,7 @@ def _senses(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) 
     if now is not None:
         rows.append((exact_clock(outcome.time), _now(now)))
     if rows:
-        yield element("h2", "What the senses said last")
+        yield element("h2", "Last sensor readings")
         items = (element("li", element("span", time, class_="time"), " ", said) for time, said in rows)
         yield element("ol", *items, class_="senses")
 
