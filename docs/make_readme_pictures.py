@@ -128,7 +128,7 @@ def replay() -> np.ndarray:
         write_report(demo(), report, overwrite=False)
         points = cv2.imdecode(np.frombuffer(screenshot(report, Path(folder)), np.uint8), cv2.IMREAD_COLOR)
     left, top, right, bottom = REPLAY
-    return cv2.resize(points[top:bottom, left:right], (840, 600), interpolation=cv2.INTER_AREA)
+    return cv2.resize(points[top:bottom, left:right], (420, 300), interpolation=cv2.INTER_AREA)
 
 
 if __name__ == "__main__":

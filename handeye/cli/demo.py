@@ -33,6 +33,7 @@ def demo(
     from handeye.report.page.document import REPORT
 
     check_place(output, REPORT)
+    note("Drawing a recorded run; this takes some seconds.")
     page = page_of(resources.demo())
     if not (output.exists() and output.read_bytes() == page):
         check_free(output, "report", overwrite=overwrite)
