@@ -177,13 +177,13 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
             ("trials", "assembly", "--seeds", f"0-{2**53 - 1}"),
             "the number of trials can be 1,000,000 at most",
         ),
-        (("trials", "base", "9" * 20), "the number of worlds can be 1,000,000 at most"),
+        (("trials", "base", "--n", "9" * 20), "the number of worlds can be 1,000,000 at most"),
         (("trials", "pallet", "--n", "9" * 20), "the number of trials can be 1,000,000 at most"),
         (("bench", "insertion", "--n", "9" * 20), "the number of trials can be 1,000,000 at most"),
         (("faults", "--list", "--only", "rotr"), "there is no fault `rotr`; there are `finger_switch`"),
         (("faults", "--list", "--stage", "pins"), "--list runs nothing: leave out --stage and --out"),
         (("faults", "--list", "--out", "it"), "--list runs nothing: leave out --stage and --out"),
-        (("faults", "--list", "--workers", "0"), "the number of workers must be at least 1, not 0"),
+        (("faults", "--list", "--jobs", "0"), "the number of workers must be at least 1, not 0"),
         (("frobnicate",), "there is no command `frobnicate`"),
     ],
 )
@@ -211,7 +211,7 @@ def test_no_more_errors_are_counted_than_are_told(command: Command, lines: int, 
 
 
 @pytest.mark.parametrize(
-    ("words", "size"), [(("--width", "3000"), "3000 x 960"), (("--height", "7"), "1280 x 7")]
+    ("words", "size"), [(("--size", "3000x960"), "3000 x 960"), (("--size", "1280x7"), "1280 x 7")]
 )
 def test_a_picture_that_cannot_be_is_told_by_the_size_that_was_typed(
     command: Command, words: tuple[str, str], size: str

@@ -1,12 +1,14 @@
 """Where a command writes: it replaces nothing but what it would have written itself."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from conftest import Command
+from cyclopts import App, ArgumentCollection
 
+from handeye import cli
 from handeye.core.files import Kind, check_place, write_over
 from handeye.trials.faults import FaultRow, FaultTrial, FaultWork
 from handeye.trials.sweep import Case
@@ -83,22 +85,80 @@ def test_trials_of_faults_are_dropped_only_where_that_is_asked_for(
         ("inspect", "job.plan.json", "--graph", "svg", "-o", "it.svg"),
     ],
 )
-def test_what_was_written_once_is_written_again(
+def test_what_was_written_once_is_replaced_only_where_that_is_asked_for(
     command: Command, planned: Planned, words: tuple[str, ...]
 ) -> None:
     planned("OPEN 1")
-    assert [command(*words)[0] for _ in range(2)] == [0, 0]
+    place = Path(words[-1])
+    assert command(*words)[0] == 0
+    place.write_bytes(before := place.read_bytes() + b"\n")
+    assert command(*words) == (2, "", f"handeye: {place} is there already; --overwrite replaces it\n")
+    assert place.read_bytes() == before
+    assert command(*words, "--overwrite")[0] == 0
+    assert place.read_bytes() == before[:-1]
 
 
 def test_a_plan_that_replaces_another_says_so(command: Command, planned: Planned) -> None:
     planned("OPEN 1")
-    told = [command("plan", "job.al", "-o", "it")[1] for _ in range(2)]
+    told = [command("plan", "job.al")[1]]
     Path("job.al").write_text("OPEN 2\n", encoding="utf-8")
-    told.append(command("plan", "job.al", "-o", "it")[1])
+    told.append(command("plan", "job.al")[1])
     assert told == [
-        *["it: 1 step, 0 motions, 1 stage\n"] * 2,
-        "it: 1 step, 0 motions, 1 stage, replacing another plan\n",
+        "job.plan.json: 1 step, 0 motions, 1 stage\n",
+        "job.plan.json: 1 step, 0 motions, 1 stage, replacing another plan\n",
     ]
+
+
+def leaves() -> Iterator[tuple[str, ArgumentCollection]]:
+    """Every command by its words, with its arguments."""
+
+    def walk(group: App, words: str) -> Iterator[tuple[str, ArgumentCollection]]:
+        for name in group:
+            if not name.startswith("-"):
+                yield from walk(group[name], f"{words} {name}".strip())
+        if words and group.default_command is not None:
+            yield words, group.assemble_argument_collection(parse_docstring=True)
+
+    yield from walk(cli.app, "")
+
+
+def options() -> dict[str, dict[str, str]]:
+    """The help of every option, by command and name."""
+    return {
+        words: {name: str(each.parameter.help) for each in arguments if each.parse for name in each.names}
+        for words, arguments in leaves()
+    }
+
+
+def test_an_option_means_the_same_wherever_it_is() -> None:
+    """`-o`, `--out` names what is written, `--overwrite` goes with it, and no command counts by another word."""
+    for words, named in options().items():
+        assert ("-o" in named) == ("--out" in named), words
+        assert not {"--output", "--workers", "--width", "--height", "--count", "COUNT"} & set(named) - (
+            {"--width"} if words == "trig show" else set()
+        ), words
+        if "--out" in named or "--keep" in named:
+            assert "--overwrite" in named, words
+        if "--jobs" in named:
+            assert "--n" in named, words
+        for name, told in {
+            "--jobs": "Number of processes at a time.",
+            "--size": "Width and height in pixels.",
+        }.items():
+            assert named.get(name, told) == told, words
+        if "--seed" in named:
+            assert "world" in named["--seed"].lower(), words
+        if "RUN" in named:
+            assert named["RUN"].startswith("The folder of a run"), words
+
+
+def test_what_is_typed_replaces_nothing(command: Command, planned: Planned) -> None:
+    plan = planned("OPEN 1")
+    Path("it.checkpoint").write_bytes(b"handeye-checkpoint 1 ours")
+    for typed in ("checkpoint it.checkpoint", "checkpoint job.al"):
+        code, out, _ = command("run", plan, "--camera", "ray", "--step", "--json", typed=f"{typed}\nquit\n")
+        assert (code, "nothing was written" in out) == (2, True)
+    assert Path("it.checkpoint").read_bytes() == b"handeye-checkpoint 1 ours"
 
 
 @pytest.mark.parametrize("words", [("teach",), ("view", "--teach")])

@@ -110,7 +110,7 @@ def test_a_pin_that_was_put_in_is_put_back_into_its_holder(command: Command) -> 
     [
         ("world --task palletise", ""),
         ("trials disturbed --list --task insertion", "this task has no disturbances"),
-        ("trials base 1 --task insertion", "the task `insertion` has no trial `base`"),
+        ("trials base --n 1 --task insertion", "the task `insertion` has no trial `base`"),
     ],
 )
 def test_what_a_task_does_not_have_is_told_and_no_traceback(command: Command, words: str, said: str) -> None:

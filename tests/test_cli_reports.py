@@ -59,10 +59,16 @@ def test_the_folder_of_a_run_of_one_step_gets_its_page(command: Command, kept: P
     assert "No photograph: OpenGL does not work on this machine." in page.text
 
 
-def test_a_report_is_replaced_only_if_somebody_says_so(command: Command, kept: Path) -> None:
-    assert command("report", "kept")[0] == 0
-    assert refused(command, "kept") == "kept/report.html holds a report already; --overwrite replaces it"
-    assert command("report", "kept", "--overwrite")[0] == 0
+def test_a_report_in_the_folder_of_its_run_is_renewed_and_one_elsewhere_only_on_request(
+    command: Command, kept: Path
+) -> None:
+    assert command("report", "kept")[1] == "kept/report.html\n"
+    assert command("report", "kept")[1] == "kept/report.html; the earlier one is replaced\n"
+    assert command("report", "kept", "-o", "page.html")[0] == 0
+    assert (
+        refused(command, "kept", "-o", "page.html") == "page.html is there already; --overwrite replaces it"
+    )
+    assert command("report", "kept", "-o", "page.html", "--overwrite")[0] == 0
 
 
 def test_a_run_that_goes_on_loses_the_report_of_what_it_was(command: Command, planned: Planned) -> None:

@@ -15,12 +15,19 @@ WRONG = {
     "trace photograph run": "`trace photograph` needs --at (see `handeye trace photograph --help`)",
     "run job.json --break": "--break needs a value (see `handeye run --help`)",
     "trace photograph run -o": "-o needs a value (see `handeye trace photograph --help`)",
+    "plan a.al --output b": "`plan` has no option `--output` any more: --out, or -o, names every file or folder that "
+    "is written (see `handeye plan --help`)",
+    "faults --workers 3": "`faults` has no option `--workers` any more: --jobs says how many processes work at a time "
+    "(see `handeye faults --help`)",
+    "render -o it.png --width 64": "`render` has no option `--width` any more: --size gives both, as 1280x960 "
+    "(see `handeye render --help`)",
+    "trials base 100": "`trials base` takes the number of trials as --n 100 (see `handeye trials base --help`)",
     "check a b": "`check` does not take `b` (see `handeye check --help`)",
     "assemble --seed 1 --seed 2": "--seed is given more than once (see `handeye assemble --help`)",
     "assemble --json=maybe": "--json takes no value, but `maybe` was given (see `handeye assemble --help`)",
     "run p --camera film": "--camera is one of auto, gl, ray, not `film` (see `handeye run --help`)",
-    "trials base 1.5": "COUNT: `1.5` is not a whole number (see `handeye trials base --help`)",
-    "trials base 1_0": "COUNT: `1_0` is not a whole number (see `handeye trials base --help`)",
+    "trials base --n 1.5": "--n: `1.5` is not a whole number (see `handeye trials base --help`)",
+    "trials base --n 1_0": "--n: `1_0` is not a whole number (see `handeye trials base --help`)",
     "assemble --seed ١": "--seed: `١` is not a whole number (see `handeye assemble --help`)",
     "trace photograph run --at noon -o it.png": "--at is a number; `noon` is not (see `handeye trace photograph "
     "--help`)",

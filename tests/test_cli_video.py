@@ -138,10 +138,14 @@ def test_what_there_cannot_be_is_told_in_a_sentence(
     assert refused(command, "kept", *words).startswith(REFUSALS[words])
 
 
-def test_a_video_is_replaced_only_if_somebody_says_so(command: Command, kept: Path) -> None:
+def test_a_video_in_the_folder_of_its_run_is_renewed_and_one_elsewhere_only_on_request(
+    command: Command, kept: Path
+) -> None:
     assert command("video", "kept", *SMALL)[0] == 0
-    assert refused(command, "kept", *SMALL) == "kept/video.webp is there already; --overwrite replaces it"
-    assert command("video", "kept", "--overwrite", *SMALL)[0] == 0
+    shutil.copy(kept / "video.webp", "it.webp")
+    assert command("video", "kept", *SMALL)[1].endswith("; the earlier one is replaced\n")
+    said = refused(command, "kept", "-o", "it.webp", *SMALL)
+    assert said == "it.webp is there already; --overwrite replaces it"
 
 
 def test_a_file_of_somebody_is_left_alone(command: Command, kept: Path) -> None:

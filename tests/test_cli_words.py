@@ -10,10 +10,8 @@ from conftest import Command
 NUMBERS = [
     ("assemble", "--seed"),
     ("run", "job.plan.json", "--seed"),
-    ("render", "-o", "it.png", "--width"),
-    ("trace", "photograph", "run", "--at", "1", "-o", "it.png", "--height"),
-    ("trials", "assembly", "--workers"),
-    ("trials", "base"),
+    ("trials", "assembly", "--jobs"),
+    ("trials", "base", "--n"),
     ("bench", "insertion", "--n"),
 ]
 """Commands that end with a whole number."""

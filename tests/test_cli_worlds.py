@@ -168,7 +168,7 @@ def test_what_cannot_be_chosen_is_refused_with_what_is_near(
 
 @pytest.mark.parametrize(
     "words",
-    ["assemble", "render -o it.png", "do PARK", "teach it.al", "trials base 1", "trials gasket 1",
+    ["assemble", "render -o it.png", "do PARK", "teach it.al", "trials base --n 1", "trials gasket --n 1",
      "trials assembly", "faults"],
 )  # fmt: skip
 def test_every_command_refuses_a_name_it_does_not_know(command: Command, words: str) -> None:

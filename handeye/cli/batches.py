@@ -19,8 +19,8 @@ from handeye.cli.common import (
 )
 from handeye.cli.programs import plan_or_own
 from handeye.cli.seeds import Seeds, following, seeds_of
-from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
-from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
+from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions, carry_out_sweep
+from handeye.cli.world_options import ANY_ERRORS, ErrorOptions, Faults, broken
 from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.plain_text import counted
@@ -45,10 +45,7 @@ PlanOption = Annotated[
 def assembly_trials(
     *,
     n: Annotated[WholeNumber | None, Parameter(help=f"Number of trials. Default: {COUNT}.")] = None,
-    seed: Annotated[
-        WholeNumber | None,
-        Parameter(group=WORLD, help="Seed of trial 0; trial K has this seed plus K. Default: 0."),
-    ] = None,
+    seed: FirstSeed | None = None,
     seeds: Seeds = None,
     errors: ErrorOptions = ANY_ERRORS,
     fault: Faults = None,
@@ -162,9 +159,7 @@ def _engine(name: str, jobs: int, scheduler: str | None, cpu_limit_s: float) -> 
 def dismantling_trials(
     *,
     n: Annotated[WholeNumber, Parameter(help="Number of trials.")] = COUNT,
-    seed: Annotated[
-        WholeNumber, Parameter(group=WORLD, help="Seed of trial 0; trial K has this seed plus K.")
-    ] = 0,
+    seed: FirstSeed = 0,
     errors: ErrorOptions = ANY_ERRORS,
     fault: Faults = None,
     plan: PlanOption = None,

@@ -14,7 +14,7 @@ from rich.console import Console
 from handeye.core.diagnostics import LIMIT, Diagnostic, as_json, quoted, visible
 from handeye.core.diagnostics import render as render_diagnostic
 from handeye.core.errors import BadArgument, InvalidInput
-from handeye.core.plain_text import folded
+from handeye.core.plain_text import counted, folded
 from handeye.core.source import Source
 
 MOST: Final = 1_000_000
@@ -62,24 +62,33 @@ def whole(_: type, tokens: Sequence[Token]) -> int:
     return int(typed)
 
 
+def width_and_height(size: str) -> tuple[int, int]:
+    """Width and height of a picture; raises BadArgument unless they are written as 480x360."""
+    found = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", size)
+    if found is None:
+        raise BadArgument(f"{quoted(size)} is not a size; write it as 480x360")
+    return int(found[1]), int(found[2])
+
+
 def positive(count: int, what: str) -> None:
     """See that a count is at least 1 and at most MOST; `what` is the singular of what is counted."""
+    many = counted(0, what).removeprefix("0 ")
     if count < 1:
-        raise BadArgument(f"the number of {what}s must be at least 1, not {count}")
+        raise BadArgument(f"the number of {many} must be at least 1, not {count}")
     if count > MOST:
-        raise BadArgument(f"the number of {what}s can be {MOST:,} at most; {count} is too large")
+        raise BadArgument(f"the number of {many} can be {MOST:,} at most; {count} is too large")
 
 
 WholeNumber = Annotated[int, Parameter(converter=whole)]
-PictureFile = Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")]
+PictureFile = Annotated[Path, Parameter(name=["--out", "-o"], help="The picture, PNG.")]
+Overwrite = Annotated[bool, Parameter(help="Replace what is there already.")]
 SceneCamera = Annotated[
     str | None,
     Parameter(
         help="A camera of the scene. Default: the one that shows the whole cell, `studio` for the pump."
     ),
 ]
-Width = Annotated[WholeNumber, Parameter(help="Width of the picture in pixels.")]
-Height = Annotated[WholeNumber, Parameter(help="Height of the picture in pixels.")]
+Size = Annotated[str, Parameter(help="Width and height in pixels.")]
 Camera = Annotated[
     CameraKind,
     Parameter(
@@ -95,7 +104,9 @@ Json = Annotated[
 ]
 Out = Annotated[
     Path | None,
-    Parameter(help="Folder to save plan, events, trace, checkpoints, pictures and result in."),
+    Parameter(
+        name=["--out", "-o"], help="Folder to save plan, events, trace, checkpoints, pictures and result in."
+    ),
 ]
 
 

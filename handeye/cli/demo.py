@@ -7,17 +7,15 @@ from typing import Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import note, say
+from handeye.cli.common import Overwrite, note, say
 
 PAGE: Final = "demo.html"
 
 
 def demo(
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The page to write, .html.")] = Path(
-        PAGE
-    ),
-    overwrite: Annotated[bool, Parameter(help="Replace another page of that name.")] = False,
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="The page to write, .html.")] = Path(PAGE),
+    overwrite: Overwrite = False,
     no_browser: Annotated[bool, Parameter(help="Write the page only.")] = False,
 ) -> int:
     """Show a recorded assembly of the pump: replay it in 3D beside its program, with what it saw and felt.
@@ -29,14 +27,14 @@ def demo(
     """
     from handeye.cli.reports import page_of
     from handeye.core import resources
-    from handeye.core.files import check_free, check_place, write_over
+    from handeye.core.files import check_place, write_over
     from handeye.report.page.document import REPORT
 
     check_place(output, REPORT)
     note("Drawing a recorded run; this takes some seconds.")
     page = page_of(resources.demo())
     if not (output.exists() and output.read_bytes() == page):
-        check_free(output, "report", overwrite=overwrite)
+        check_place(output, REPORT, overwrite=overwrite)
         write_over(output, page, REPORT)
     say(str(output), whole=True)
     shown = not no_browser and sys.stdout.isatty() and opened(output)

@@ -5,9 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Details, Json, Out, TaskWords, note
+from handeye.cli.common import Details, Json, Out, Overwrite, TaskWords, note
 from handeye.cli.programs import check_task, made_known
-from handeye.cli.runs import Overwrite
 from handeye.cli.trace_files import RunOrCheckpoint, run_or_newest
 from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.core.plain_text import counted

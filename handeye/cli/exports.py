@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, answer, note, say
+from handeye.cli.common import Json, Overwrite, answer, note, say
 from handeye.cli.programs import check_task, made_known
 from handeye.cli.reports import read_recorded
 from handeye.cli.trace_files import RunOrTrace, run_or_newest, trace_file
@@ -35,8 +35,8 @@ def mjcf(
     run: State = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write to.")],
-    overwrite: Annotated[bool, Parameter(help="Replace an export in the folder.")] = False,
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="The folder to write to.")],
+    overwrite: Overwrite = False,
     json: Json = False,
     world: WorldOptions = ANY_WORLD,
 ) -> int:
@@ -53,7 +53,8 @@ def glb(
     run: State = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The file, .glb.")],
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="The file, .glb.")],
+    overwrite: Overwrite = False,
     part: Annotated[str, Parameter(help="What to export: the whole `cell`, or the `pump`.")] = "cell",
     json: Json = False,
     world: WorldOptions = ANY_WORLD,
@@ -64,7 +65,7 @@ def glb(
     """
     from handeye.results.export import export_glb
 
-    return _told(export_glb(output, lambda: _exhibit(run, world), part=part), json=json)
+    return _told(export_glb(output, lambda: _exhibit(run, world), part=part, overwrite=overwrite), json=json)
 
 
 def _told(written: "Export", *, json: bool) -> int:
@@ -92,15 +93,15 @@ def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
     return exhibit
 
 
-Folder = Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write to.")]
-Overwrite = Annotated[bool, Parameter(help="Replace tables in the folder.")]
+Folder = Annotated[Path, Parameter(name=["--out", "-o"], help="The folder to write to.")]
 
 
 def plot(
     run: RunOrTrace = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The plot: .png, .svg or .pdf.")],
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="The plot: .png, .svg or .pdf.")],
+    overwrite: Overwrite = False,
     stage: Annotated[
         str | None, Parameter(help="Only this stage: its number, its name, or part of its name.")
     ] = None,
@@ -117,7 +118,7 @@ def plot(
         raise BadArgument(
             f"a plot is a file whose name ends in {', '.join(KINDS)}; {quoted(output.name)} does not"
         )
-    check_place(output, kind)
+    check_place(output, kind, overwrite=overwrite)
     recorded = read_recorded(run_or_newest(run))
     write_over(output, drawn(plot_of(recorded.trace, stage), output.suffix.lower()), kind)
     say(str(output))
@@ -168,14 +169,14 @@ def thin(
     run: RunOrTrace = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The thinned trace, .mcap.")],
-    overwrite: Annotated[bool, Parameter(help="Replace an existing trace.")] = False,
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="The thinned trace, .mcap.")],
+    overwrite: Overwrite = False,
 ) -> int:
     """Shrink a trace to about a tenth, for sharing: it keeps the motion that is needed to show the run.
 
     Every command can read it except `verify`, which needs the whole trace.
     """
-    from handeye.core.files import check_free, check_place
+    from handeye.core.files import check_place
     from handeye.trace.reading import TRACE, read_trace
     from handeye.trace.thinning import write_thinned
 
@@ -184,7 +185,7 @@ def thin(
     check_place(output, TRACE)
     if output.exists() and output.samefile(whole):
         raise CannotWrite(f"{output} is the trace to be thinned; choose another file")
-    check_free(output, "trace", overwrite=overwrite)
+    check_place(output, TRACE, overwrite=overwrite)
     kept = write_thinned(trace, output)
     say(f"{output}: {kept} of {counted(len(trace.times), 'servo period')}")
     return 0

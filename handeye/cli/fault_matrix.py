@@ -53,7 +53,6 @@ def faults(
     world: WorldOptions = ANY_WORLD,
     camera: Camera = "auto",
     options: SweepOptions = ANY,
-    overwrite: Annotated[bool, Parameter(help="Drop the trials in the folder.")] = False,
 ) -> int:
     """Assemble once with each fault of a matrix, at its usual size, and report which the program noticed.
 
@@ -105,7 +104,6 @@ def faults(
         options,
         title=f"{plan.program.name} with one fault at a time, in worlds from {spec} on",
         plan=plan,
-        anew=overwrite,
     )
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, TaskWords, answer, note, say, screen
+from handeye.cli.common import Json, Overwrite, TaskWords, answer, note, say, screen
 from handeye.cli.programs import made_known
 from handeye.cli.trace_files import (
     Run,
@@ -41,12 +41,12 @@ def report(
     output: Annotated[
         Path | None,
         Parameter(
-            name=["--output", "-o"],
+            name=["--out", "-o"],
             help="The page, .html; by default report.html in the folder of the run, or next to the trace; with "
             "`--demo`, demo.html in this folder.",
         ),
     ] = None,
-    overwrite: Annotated[bool, Parameter(help="Replace an existing report.")] = False,
+    overwrite: Overwrite = False,
     demo: Annotated[bool, Parameter(negative="", help="Use the recorded run included with handeye.")] = False,
 ) -> int:
     """Write one self-contained HTML page of a run, or of two: 3D replay, pictures, forces, and what happened and why.
@@ -57,11 +57,13 @@ def report(
     from handeye.runs.folder import REPORT
 
     made_known(task)
+    replaced = ""
     if demo and run is not None:
         raise BadArgument("--demo brings its own run; give a run or --demo")
     if demo:
         place = output or Path(DEMO)
-        write_report(resources.demo(), place, overwrite=overwrite)
+        replaced = "; the earlier one is replaced" if place.exists() else ""
+        write_report(resources.demo(), place, overwrite=overwrite or output is None)
         note(f"open {place} in a browser")
     elif run is not None and other is not None:
         if output is None:
@@ -71,18 +73,18 @@ def report(
     else:
         run = run_or_newest(run)
         place = output or (run / REPORT if run.is_dir() else run.with_name(REPORT))
-        write_report(run, place, overwrite=overwrite)
-    say(str(place))
+        replaced = "; the earlier one is replaced" if place.exists() else ""
+        write_report(run, place, overwrite=overwrite or output is None)
+    say(f"{place}{replaced}")
     return 0
 
 
 def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
     """Write the report of a run, by its folder or trace; raises InvalidInput if it cannot be made or written there."""
-    from handeye.core.files import check_free, check_place, write_over
+    from handeye.core.files import check_place, write_over
     from handeye.report.page.document import REPORT
 
-    check_place(place, REPORT)
-    check_free(place, "report", overwrite=overwrite)
+    check_place(place, REPORT, overwrite=overwrite)
     write_over(place, page_of(run), REPORT)
 
 
@@ -130,9 +132,9 @@ def compare(
     task: TaskWords = None,
     output: Annotated[
         Path | None,
-        Parameter(name=["--output", "-o"], help="A page with both views under one slider, .html."),
+        Parameter(name=["--out", "-o"], help="A page with both views under one slider, .html."),
     ] = None,
-    overwrite: Annotated[bool, Parameter(help="Replace an existing page.")] = False,
+    overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
     """Compare two runs, step by step: the first difference, and where each searched, felt and corrected.
@@ -157,10 +159,9 @@ def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comp
     """Write the page of two runs, by their folders or traces; raises InvalidInput if it cannot be written there."""
     from handeye.comparison.comparison import comparison
     from handeye.comparison.page import PAGE, comparison_page
-    from handeye.core.files import check_free, check_place, write_over
+    from handeye.core.files import check_place, write_over
 
-    check_place(place, PAGE)
-    check_free(place, "comparison", overwrite=overwrite)
+    check_place(place, PAGE, overwrite=overwrite)
     one, other = read_recorded(a), read_recorded(b)
     found = comparison(one, other)
     write_over(place, comparison_page(one, other, found, _animations(one, other)), PAGE)

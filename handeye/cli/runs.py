@@ -6,7 +6,18 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Calibrate, Camera, Details, Json, NoKeep, Out, PlanFile, TaskWords, note
+from handeye.cli.common import (
+    Calibrate,
+    Camera,
+    Details,
+    Json,
+    NoKeep,
+    Out,
+    Overwrite,
+    PlanFile,
+    TaskWords,
+    note,
+)
 from handeye.cli.programs import check_task, is_program, made_known, plan_at, plan_or_own
 from handeye.cli.trace_files import RunOrCheckpoint, run_or_newest
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
@@ -40,7 +51,6 @@ Live = Annotated[
         "run, as on a terminal. Send a command only after the answer to the last one."
     ),
 ]
-Overwrite = Annotated[bool, Parameter(help="Replace an existing run in the folder of --out.")]
 OnStop = Annotated[
     str | None,
     Parameter(
@@ -231,7 +241,8 @@ def resume(
     json: Json = False,
     details: Details = False,
     out: Annotated[
-        Path | None, Parameter(help="Folder to save the run in, if PATH is a checkpoint file.")
+        Path | None,
+        Parameter(name=["--out", "-o"], help="Folder to save the run in, if PATH is a checkpoint file."),
     ] = None,
     overwrite: Overwrite = False,
     to: To = None,

@@ -11,6 +11,7 @@ from cyclopts import Parameter
 from handeye.al import extensions
 from handeye.cli.common import (
     Json,
+    Overwrite,
     PlanFile,
     Script,
     TaskWords,
@@ -26,10 +27,10 @@ from handeye.cli.common import (
 from handeye.cli.programs import compiled, plan_at, script_at
 from handeye.core.diagnostics import arranged, has_errors
 from handeye.core.errors import BadArgument, InvalidInput
-from handeye.core.files import Kind, beside, read_whole, write_over
+from handeye.core.files import Kind, beside, check_place, read_whole, write_over
 from handeye.core.plain_text import counted
 from handeye.core.source import read_source
-from handeye.planfile.store import write_plan
+from handeye.planfile.store import PLAN, write_plan
 from handeye.program.language import language_of, own_language
 from handeye.runs.scripts import LANGUAGES, planned, taught_beside
 
@@ -144,7 +145,8 @@ def plan(
     /,
     *,
     task: TaskWords = None,
-    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    output: Annotated[Path | None, Parameter(name=["--out", "-o"])] = None,
+    overwrite: Overwrite = False,
 ) -> int:
     """Compile a script into a plan.
 
@@ -152,11 +154,12 @@ def plan(
     ----------
     output
         File for the plan. Default: next to the script, with the ending .plan.json; for a program given by name, in
-        this folder. An existing plan is replaced.
+        this folder. An earlier plan there is replaced, and the answer says so; elsewhere this takes --overwrite.
     """
     script, work = script_at(file, task)
     target = output or beside(file, ".plan.json")
     made = compiled(script, work)
+    check_place(target, PLAN, overwrite=overwrite or output is None)
     before = read_whole(target) if target.is_file() else b""
     write_plan(target, made)
     replaced = ", replacing another plan" if before not in (b"", read_whole(target)) else ""
@@ -190,8 +193,9 @@ def inspect(
     graph: Annotated[Literal["svg", "dot"] | None, Parameter(help="Draw the flow chart instead.")] = None,
     output: Annotated[
         Path | None,
-        Parameter(name=["--output", "-o"], help="File for the drawing. Default: standard output."),
+        Parameter(name=["--out", "-o"], help="File for the drawing. Default: standard output."),
     ] = None,
+    overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
     """Show what a plan does: stages, steps, times, guards, forces, and what each step depends on."""
@@ -206,9 +210,14 @@ def inspect(
     number = None if stage is None else stage_number(stage, plan.program) + 1
     if graph is not None:
         shown = flow(plan, number)
-        _write(flow_svg(shown) if graph == "svg" else flow_dot(shown), output, DRAWINGS[graph])
+        _write(
+            flow_svg(shown) if graph == "svg" else flow_dot(shown),
+            output,
+            DRAWINGS[graph],
+            overwrite=overwrite,
+        )
     elif output is not None:
-        raise BadArgument("--output needs --graph svg or --graph dot")
+        raise BadArgument("--out needs --graph svg or --graph dot")
     elif json:
         found = inspection(plan)
         kept = tuple(s for s in found.stages if number in (None, s.number))
@@ -236,18 +245,20 @@ def schema(
     *,
     output: Annotated[
         Path | None,
-        Parameter(name=["--output", "-o"], help="File for the schema. Default: standard output."),
+        Parameter(name=["--out", "-o"], help="File for the schema. Default: standard output."),
     ] = None,
+    overwrite: Overwrite = False,
 ) -> int:
     """Print the JSON schema of the plan format."""
     from handeye.planfile.schema import SCHEMA, plan_schema
 
-    _write(plan_schema(), output, SCHEMA)
+    _write(plan_schema(), output, SCHEMA, overwrite=overwrite)
     return 0
 
 
-def _write(text: str, output: Path | None, kind: Kind) -> None:
+def _write(text: str, output: Path | None, kind: Kind, *, overwrite: bool) -> None:
     if output is None:
         put(text.encode())
     else:
+        check_place(output, kind, overwrite=overwrite)
         write_over(output, text.encode(), kind)

@@ -9,6 +9,7 @@ from cyclopts import Parameter
 
 from handeye.cli.common import Json, WholeNumber, note, notes, positive, put_json, say, screen
 from handeye.cli.tally import Tally
+from handeye.cli.world_options import WORLD
 from handeye.core.errors import BadArgument
 from handeye.core.files import check_place, unguarded, write_over
 from handeye.core.host_time import HostTimer
@@ -24,26 +25,33 @@ FIGURES, TABLES = "figures.html", "tables"
 ROWS: Final = ".csv"
 
 
+FirstSeed = Annotated[
+    WholeNumber, Parameter(group=WORLD, help="Seed of the world of trial 0; trial K has this seed plus K.")
+]
+
+
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SweepOptions:
     """Options of every sweep, except number and seed."""
 
-    jobs: Annotated[
-        WholeNumber, Parameter(name=["--jobs", "--workers"], help="Number of processes at a time.")
-    ] = 2
+    jobs: Annotated[WholeNumber, Parameter(help="Number of processes at a time.")] = 2
     out: Annotated[
         Path | None,
         Parameter(
+            name=["--out", "-o"],
             help="Folder of the batch. Each trial is saved as it ends, so that the same command continues an "
             "interrupted batch; figures.html is written at the end. Or a file: only the page (.html) or only "
-            "the table of trials (.csv)."
+            "the table of trials (.csv).",
         ),
     ] = None
     tables: Annotated[
         Literal["csv", "parquet"] | None,
         Parameter(help="With --out: also write the figures as tables, to the folder `tables` in it."),
     ] = None
+    overwrite: Annotated[
+        bool, Parameter(help="Replace the file of --out; in its folder, drop the trials that are there.")
+    ] = False
     json: Json = False
 
     @property
@@ -63,7 +71,8 @@ class SweepOptions:
         if self.out is None:
             return
         if self.folder is None:
-            check_place(self.out, PAGE if self.out.suffix.lower() == ".html" else TABLE)
+            kind = PAGE if self.out.suffix.lower() == ".html" else TABLE
+            check_place(self.out, kind, overwrite=self.overwrite)
             return
         if not self.out.is_dir():
             return
@@ -86,7 +95,6 @@ def carry_out_sweep(
     plan: "Plan | None" = None,
     again: "Callable[[Any], str]" = lambda _: "",
     engine: "Engine | None" = None,
-    anew: bool = False,
     more: Mapping[str, object] | None = None,
 ) -> int:
     """Run a sweep: save and report each trial as it ends, then print the figures, even if interrupted; returns the
@@ -94,7 +102,6 @@ def carry_out_sweep(
 
     Args:
         again: the command that repeats the trial of a row.
-        anew: drop trials that are in the folder.
         more: further fields of the JSON.
     """
     from handeye.trials.figures import figures
@@ -102,7 +109,11 @@ def carry_out_sweep(
     from handeye.trials.sweep import carry_out, processes
 
     wanted = {(case.condition, number) for case in cases for number in case.trials}
-    folder = None if options.folder is None else BatchFolder(options.folder, sweep, head, plan, anew=anew)
+    folder = (
+        None
+        if options.folder is None
+        else BatchFolder(options.folder, sweep, head, plan, anew=options.overwrite)
+    )
     if folder is not None and folder.unlocked:
         note(unguarded(folder.path, folder.unlocked))
     timer = HostTimer()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Calibrate, Camera, Json, note, put_line, say
+from handeye.cli.common import Calibrate, Camera, Json, Overwrite, note, put_line, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
@@ -90,6 +90,7 @@ def do(
     *functions: str,
     cell: CellOptions = ANY_CELL,
     keep: Keep = None,
+    overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
     """Plan instructions and run them at once, one after the other: `handeye do "OPEN 3" PARK`.
@@ -108,7 +109,7 @@ def do(
     if not all(map(str.strip, functions or ("",))):
         raise BadArgument('give an instruction, such as `handeye do "OPEN 3"`')
     if keep is not None:
-        check_place(keep, CHECKPOINT)
+        check_place(keep, CHECKPOINT, overwrite=overwrite)
     with PanicButton() as panic:
         workplace = cell.workplace(panic, None if cell.taught is None else load_taught(cell.taught))
         lines = (f"DO {function}" for function in functions)

@@ -7,18 +7,19 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from handeye.cli.common import (
-    Height,
     Json,
+    Overwrite,
     PictureFile,
     SceneCamera,
+    Size,
     TaskWords,
-    Width,
     note,
     notes,
     put,
     put_json,
     say,
     screen,
+    width_and_height,
 )
 from handeye.cli.programs import check_task, made_known
 from handeye.cli.trace_files import RunOrEvents, RunOrTrace, run_or_newest, trace_file
@@ -72,8 +73,8 @@ def photograph(
     output: PictureFile,
     task: TaskWords = None,
     camera: SceneCamera = None,
-    width: Width = 1280,
-    height: Height = 960,
+    overwrite: Overwrite = False,
+    size: Size = "1280x960",
     how: FineOptions = PLAIN,
 ) -> int:
     """Photograph the cell at a moment of a recorded run, without simulating it again."""
@@ -81,7 +82,8 @@ def photograph(
     from handeye.cell.posed import posed
 
     wanted = made_known(task)
-    check_place(output, PNG)
+    width, height = width_and_height(size)
+    check_place(output, PNG, overwrite=overwrite)
     file = run_or_newest(run)
     trace, _ = _read(file)
     if trace is None:

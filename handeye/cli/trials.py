@@ -11,12 +11,12 @@ from cyclopts import Parameter
 
 from handeye.cli.common import Camera, TaskWords, WholeNumber, camera_here, positive, say
 from handeye.cli.programs import plan_or_own
-from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
+from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions, carry_out_sweep
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.entries import PLANNED, entries, entry_named, require
-from handeye.core.errors import BadArgument, NoSuchName, Refused
+from handeye.core.errors import NoSuchName, Refused
 from handeye.core.variation import WorldSpec, checked_seed
 from handeye.planfile.plan import Plan
 from handeye.runs.setup import Setup
@@ -39,10 +39,9 @@ Worldly = Annotated[
 class AttemptOptions:
     """Options for the number of trials, their worlds and the camera."""
 
-    n: Annotated[WholeNumber | None, Parameter(help="The same as COUNT.")] = None
     world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
     worlds: Annotated[
-        WholeNumber | None, Parameter(help="Number of worlds, from --seed on. Default: COUNT.")
+        WholeNumber | None, Parameter(help="Number of worlds, from --seed on. Default: --n.")
     ] = None
     eye: Annotated[
         Known,
@@ -53,14 +52,11 @@ class AttemptOptions:
     ] = "lamp"
     camera: Camera = "auto"
 
-    def carry_out(self, name: str, count: int | None, usual: int, options: SweepOptions) -> int:
-        """Run the trials of the task; raises BadArgument if COUNT and --n are both given."""
+    def carry_out(self, name: str, count: int, options: SweepOptions) -> int:
+        """Run `count` trials of the task; raises NoSuchName if it has none of that name."""
         from handeye.trials.eye import EyeWork, eye_cases, eye_sweep
         from handeye.trials.folder import head_of
 
-        if None not in (count, self.n):
-            raise BadArgument("COUNT means the same as --n: leave out one of them")
-        count = next((each for each in (count, self.n) if each is not None), usual)
         worlds = count if self.worlds is None else self.worlds
         for each, what in ((count, "world"), (worlds, "world"), (options.jobs, "process")):
             positive(each, what)
@@ -86,9 +82,10 @@ ATTEMPTS: Final = AttemptOptions()
 
 
 def base_vision_trials(
-    count: WholeNumber | None = None,
-    /,
     *,
+    n: Annotated[
+        WholeNumber, Parameter(help="Number of poses: first the pose of the world, then random ones.")
+    ] = 100,
     attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,
 ) -> int:
@@ -98,19 +95,13 @@ def base_vision_trials(
     a trial; with `--worlds`, several poses share a world and its calibration.
 
     Exit code 0: no wrong pose was accepted; 3: one was.
-
-    Parameters
-    ----------
-    count
-        Number of poses, by default 100: first the pose of the world, then random ones.
     """
-    return attempts.carry_out("base", count, 100, options)
+    return attempts.carry_out("base", n, options)
 
 
 def gasket_vision_trials(
-    count: WholeNumber | None = None,
-    /,
     *,
+    n: Annotated[WholeNumber, Parameter(help="Number of gaskets of each kind.")] = 50,
     attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,
 ) -> int:
@@ -119,13 +110,8 @@ def gasket_vision_trials(
     Two gaskets look like one and count as right here: in a run the hand finds them, by their height.
 
     Exit code 0: no shifted or absent gasket was accepted; 3: one was.
-
-    Parameters
-    ----------
-    count
-        Number of gaskets of each kind, by default 50.
     """
-    return attempts.carry_out("gasket", count, 50, options)
+    return attempts.carry_out("gasket", n, options)
 
 
 def disturbed_trials(
@@ -184,7 +170,7 @@ def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[D
 def chaos_trials(
     *,
     count: Annotated[WholeNumber, Parameter(name="--n", help="Number of schedules to draw.")] = 100,
-    seed: Annotated[WholeNumber, Parameter(help="Seed of the schedules, and of their first world.")] = 0,
+    seed: FirstSeed = 0,
     worlds: Annotated[
         WholeNumber, Parameter(help="Number of worlds: of nominal, low and high level in turn.")
     ] = 3,

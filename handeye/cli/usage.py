@@ -18,6 +18,15 @@ from handeye.core.diagnostics import quoted, suggestion
 _NOUNS: Final[dict[object, str]] = {float: "a number", int: "a whole number"}
 
 
+FORMER: Final = {
+    "--output": ("--out", "--out, or -o, names every file or folder that is written"),
+    "--workers": ("--jobs", "--jobs says how many processes work at a time"),
+    "--width": ("--size", "--size gives both, as 1280x960"),
+    "--height": ("--size", "--size gives both, as 1280x960"),
+}
+"""Options of earlier versions: the one that does the same today, and a sentence on it."""
+
+
 def usage_sentence(error: CycloptsError) -> str:
     """A sentence about the mistake in a command line, with a likely correction and where to read more."""
     command = " ".join(error.command_chain or ())
@@ -33,18 +42,30 @@ def _fault(error: CycloptsError, command: str) -> str:
             return f"there is no {'option' if option else 'command'} {quoted(word)}{_meant(word, alike)}"
         case UnknownOptionError(token=token, argument_collection=known):
             name = token.keyword or token.value
-            options = (each for one in known if one.parse for each in one.names if each.startswith("-"))
+            options = [each for one in known if one.parse for each in one.names if each.startswith("-")]
+            today, told = FORMER.get(name.partition("=")[0], ("", ""))
+            if today in options:
+                return f"{command} has no option {quoted(name)} any more: {told}"
             return f"{command} has no option {quoted(name)}{_meant(name, options)}"
         case RepeatArgumentError(token=token):
             return f"{token.keyword} is given more than once"
         case CoercionError():
             return _wrong_value(error)
         case UnusedCliTokensError(unused_tokens=[word, *_]):
+            if word.isdecimal() and "--n" in _options(error):
+                return f"{command} takes the number of trials as --n {word}"
             return f"{command} does not take {quoted(word)}"
         case MissingArgumentError(argument=argument, keyword=keyword) if argument is not None:
             return f"{keyword} needs a value" if keyword else f"{command} needs {argument.name}"
     error.verbose = False
     return str(error)
+
+
+def _options(error: CycloptsError) -> set[str]:
+    """The options of the command in question."""
+    if error.app is None or error.app.default_command is None:
+        return set()
+    return {name for each in error.app.assemble_argument_collection() for name in each.names}
 
 
 def _wrong_value(error: CoercionError) -> str:

@@ -1,6 +1,5 @@
 """Command that makes a video of a run."""
 
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -8,11 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import TaskWords, note, notes, say
+from handeye.cli.common import Overwrite, Size, TaskWords, note, notes, say, width_and_height
 from handeye.cli.programs import check_task, made_known
 from handeye.cli.trace_files import RunOrTrace, motion_file, run_or_newest
-from handeye.core.diagnostics import quoted
-from handeye.core.errors import BadArgument
 from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
@@ -28,18 +25,18 @@ def video(
     output: Annotated[
         Path | None,
         Parameter(
-            name=["--output", "-o"],
+            name=["--out", "-o"],
             help="The video, .webp or .webm. Default: video.webp in the folder of the run, or next to the trace.",
         ),
     ] = None,
-    overwrite: Annotated[bool, Parameter(help="Replace an existing video.")] = False,
+    overwrite: Overwrite = False,
     camera: Annotated[
         str,
         Parameter(
             help="`orbit` moves around the cell, `follow` moves close to the hand; or a camera of the scene."
         ),
     ] = "orbit",
-    size: Annotated[str, Parameter(help="Width and height in pixels.")] = "480x360",
+    size: Size = "480x360",
     seconds: Annotated[float | None, Parameter(help="Length of the video in seconds. Default: 14.")] = None,
     speed: Annotated[
         float | None, Parameter(help="Instead of a length: how many times faster than the run.")
@@ -73,10 +70,7 @@ def video(
     from handeye.video.request import VideoRequest
 
     wanted_task = made_known(task)
-    found = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", size)
-    if found is None:
-        raise BadArgument(f"{quoted(size)} is not a size; write it as 480x360")
-    width, height = int(found[1]), int(found[2])
+    width, height = width_and_height(size)
     wanted = VideoRequest(
         camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
         captions=captions,
@@ -85,10 +79,11 @@ def video(
     place = output or (run / VIDEO if run.is_dir() else run.with_name(VIDEO))
     trace = _trace(run)
     check_task(wanted_task, trace.head.task, run)
+    replaced = "; the earlier one is replaced" if place.exists() else ""
     with drawing() as told:
-        made = make_video(trace, place, wanted, overwrite=overwrite, told=told)
+        made = make_video(trace, place, wanted, overwrite=overwrite or output is None, told=told)
     how = f"{counted(made.frames, 'frame')} of {wanted.width} x {wanted.height}"
-    say(f"{made.path}: {made.seconds:.1f} s, {how}, {made.bytes / 1e6:.2f} MB")
+    say(f"{made.path}: {made.seconds:.1f} s, {how}, {made.bytes / 1e6:.2f} MB{replaced}")
     return 0
 
 

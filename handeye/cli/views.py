@@ -6,11 +6,10 @@ from typing import Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, CameraKind, Out, WholeNumber, note, say
+from handeye.cli.common import Camera, CameraKind, Out, Overwrite, WholeNumber, note, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.programs import compiled, made_known, plan_or_own
 from handeye.cli.reports import page_of
-from handeye.cli.runs import Overwrite
 from handeye.cli.teaching import CellOptions, left_unsaved, teacher_of
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.errors import BadArgument

@@ -6,16 +6,17 @@ from typing import TYPE_CHECKING, Annotated, Final, Literal
 from cyclopts import Group, Parameter
 
 from handeye.cli.common import (
-    Height,
     Json,
+    Overwrite,
     PictureFile,
     SceneCamera,
+    Size,
     WholeNumber,
-    Width,
     notes,
     put,
     say,
     screen,
+    width_and_height,
 )
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.core.files import check_place, write_over
@@ -85,8 +86,8 @@ def render(
     *,
     output: PictureFile,
     camera: SceneCamera = None,
-    width: Width = 1280,
-    height: Height = 960,
+    overwrite: Overwrite = False,
+    size: Size = "1280x960",
     how: FineOptions = PLAIN,
     world: WorldOptions = ANY_WORLD,
     fault: Faults = None,
@@ -97,7 +98,8 @@ def render(
     from handeye.cell.posed import posed as drawn
     from handeye.tasks.interface import Task
 
-    check_place(output, PNG)
+    width, height = width_and_height(size)
+    check_place(output, PNG, overwrite=overwrite)
     check_size(width, height)
     work = world.work
     spec = broken(world.spec, fault, work)

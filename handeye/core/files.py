@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from handeye.core.errors import BadFile, CannotWrite, InvalidInput
+from handeye.core.errors import BadFile, CannotWrite, InvalidInput, Taken
 from handeye.core.plain_text import counted
 
 LARGEST: Final = 1 << 30  # bytes: a hundred traces of a whole run
@@ -90,8 +90,13 @@ def settle(file: int) -> None:
             raise
 
 
-def check_place(path: Path, kind: Kind) -> None:
-    """Raise CannotWrite unless a file of this kind can be written here, replacing none of another kind."""
+def check_place(path: Path, kind: Kind, *, overwrite: bool = True) -> None:
+    """Raise CannotWrite unless a file of this kind can be written here, replacing none of another kind.
+
+    Raises:
+        CannotWrite: it cannot be written there.
+        Taken: one of this kind is there, and `overwrite` does not let it be replaced.
+    """
     if not path.name.lower().endswith(kind.ending):
         raise CannotWrite(f"{path}: the name of the {kind.name} must end in {kind.ending}")
     try:
@@ -101,6 +106,8 @@ def check_place(path: Path, kind: Kind) -> None:
                 front = file.read(_FRONT)
             if front and not re.match(kind.begins, front):
                 raise CannotWrite(f"{path} exists and is no {kind.name}; nothing was written")
+            if front and not overwrite:
+                raise Taken(f"{path} is there already; --overwrite replaces it")
         from tempfile import TemporaryFile  # slow to import, and nothing that only reads needs it
 
         with TemporaryFile(dir=Path(os.path.realpath(path)).parent):
@@ -109,10 +116,10 @@ def check_place(path: Path, kind: Kind) -> None:
         raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
 
 
-def check_free(path: Path, what: str, *, overwrite: bool) -> None:
-    """Raise CannotWrite if the path exists and may not be replaced; `what` names its content."""
-    if path.exists() and not overwrite:
-        raise CannotWrite(f"{path} holds a {what} already; --overwrite replaces it")
+def check_new(path: Path) -> None:
+    """Raise Taken if something is there: a typed command has no `--overwrite`."""
+    if path.exists():
+        raise Taken(f"{path} is there already; nothing was written, take another name")
 
 
 def write_over(path: Path, data: bytes, kind: Kind) -> None:

@@ -12,8 +12,8 @@ from typing import Final
 from msgspec import UNSET
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import BadArgument, CannotWrite, NoSuchName, Refused
-from handeye.core.files import check_place
+from handeye.core.errors import BadArgument, NoSuchName, Refused
+from handeye.core.files import check_new, check_place
 from handeye.core.plain_text import counted
 from handeye.debugger.breakpoints import breakpoint, meant
 from handeye.debugger.listing import lines_of, named_place
@@ -162,8 +162,7 @@ def picture(session: DebugSession, rest: str) -> CommandResult:
     if not rest:
         raise BadArgument("picture takes the name of a file to write")
     path = _file(rest)
-    if path.exists():
-        raise CannotWrite(f"{path} already exists; nothing was written")
+    check_new(path)
     name = write_picture(session.runner, path)
     return CommandResult(file=str(path), said=f"{name}, in {path}")
 
@@ -211,6 +210,7 @@ def checkpoint(session: DebugSession, rest: str) -> CommandResult:
     if rest:
         path = _file(rest)
         check_place(path, CHECKPOINT)
+        check_new(path)
         write_checkpoint(path, session.runner.checkpoint())
         return CommandResult(file=str(path), said=f"saved to {path}")
     kept = session.keep(session.runner.checkpoint())

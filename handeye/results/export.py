@@ -176,9 +176,9 @@ def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:
     )
 
 
-def export_glb(path: Path, shown: Shown, *, part: str = WHOLE) -> Export:
-    """Write the solids of a cell, or of a part of it, over any GLB file; raises InvalidInput if that is impossible."""
-    check_place(path, GLB)
+def export_glb(path: Path, shown: Shown, *, part: str = WHOLE, overwrite: bool = False) -> Export:
+    """Write the solids of a cell, or of a part of it; raises InvalidInput if they cannot be written there."""
+    check_place(path, GLB, overwrite=overwrite)
     exhibit = shown()
     made = exported_solids(exhibit, part)
     write_over(path, made.file, GLB)
@@ -200,7 +200,7 @@ def export_glb(path: Path, shown: Shown, *, part: str = WHOLE) -> Export:
 def export(path: Path, shown: Shown, *, part: str | None, overwrite: bool) -> Export:
     """Write solids to a file that ends in .glb, else a scene to a folder; raises InvalidInput if that is impossible."""
     if path.suffix == GLB.ending:
-        return export_glb(path, shown, part=WHOLE if part is None else part)
+        return export_glb(path, shown, part=WHOLE if part is None else part, overwrite=overwrite)
     if part is not None:
         raise BadArgument(f"a part goes into a file whose name ends in {GLB.ending}, not into {path}")
     return export_mjcf(path, shown, overwrite=overwrite)

@@ -13,8 +13,8 @@ from handeye.al.includes import read_script, sewn
 from handeye.al.instructions import EXPLAINED, INSTRUCTIONS
 from handeye.al.parser import parse
 from handeye.core.diagnostics import has_errors, quoted, suggestion
-from handeye.core.errors import BadArgument, CannotWrite, HandeyeError, NoSuchName, Refused
-from handeye.core.files import beside, write_whole
+from handeye.core.errors import BadArgument, HandeyeError, NoSuchName, Refused
+from handeye.core.files import beside, check_new, write_whole
 from handeye.core.source import Source, read_source
 from handeye.debugger.command import Command, check_bare, rows
 from handeye.debugger.views import show
@@ -126,8 +126,7 @@ def _write(repl: Repl, rest: str) -> Answer:
     if not rest:
         raise BadArgument("`WRITE` takes the name of a file")
     path = beside(Path(rest), ".al")
-    if path.exists():
-        raise CannotWrite(f"{path} already exists; nothing was written")
+    check_new(path)
     write_whole(path, ("\n".join(repl.functions) + "\n").encode())
     return answer(repl.workplace, file=str(path), said=f"written to {path}")
 

@@ -11,7 +11,7 @@ import numpy as np
 from handeye.cell.photograph import Photograph, Photographer
 from handeye.cell.posed import posed
 from handeye.core.entries import require
-from handeye.core.errors import BadFile, Taken
+from handeye.core.errors import BadFile
 from handeye.core.files import check_place, write_over
 from handeye.report.facts.seen import SeenPicture
 from handeye.report.recorded import RecordedRun, check_scene
@@ -44,9 +44,7 @@ def make_video(
     """Write a video of a recorded run, whole or not at all, without simulation; raises Taken unless `overwrite`."""
     require(trace.head.system, "video", trace.name)
     form = format_of(path)
-    check_place(path, form.kind)
-    if path.exists() and not overwrite:
-        raise Taken(f"{path} is there already; --overwrite replaces it")
+    check_place(path, form.kind, overwrite=overwrite)
     check_scene(RecordedRun(trace=trace))
     board = storyboard(trace, wanted)
     form.check(len(board.frames), wanted.width, wanted.height)

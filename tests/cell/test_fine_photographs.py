@@ -218,6 +218,6 @@ def test_an_interrupted_photograph_leaves_no_file(command: Command, monkeypatch:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Lens, "aim", interrupted)
-    code, _, err = command("render", "-o", "it.png", "--fine", "--width", "64", "--height", "48")
+    code, _, err = command("render", "-o", "it.png", "--fine", "--size", "64x48")
     assert (code, err) == (130, "\nhandeye: interrupted\n")
     assert not Path("it.png").exists()

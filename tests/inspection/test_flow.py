@@ -133,7 +133,7 @@ def test_inspect_draws_into_a_file_or_onto_standard_output(command: Command) -> 
 
 def test_an_output_without_a_drawing_is_refused(command: Command) -> None:
     code, _, err = command("inspect", PUMP, "-o", "x.txt")
-    assert (code, err) == (2, "handeye: --output needs --graph svg or --graph dot\n")
+    assert (code, err) == (2, "handeye: --out needs --graph svg or --graph dot\n")
 
 
 def test_a_drawing_as_json_is_refused(command: Command) -> None:

@@ -198,7 +198,7 @@ def test_a_fault_that_goes_undetected_has_an_exit_code_of_its_own(command: Comma
     assert {"name", "outcome", "stage", "message"} <= told["faults"][0].keys()
 
 
-@pytest.mark.parametrize("words", [("--only", "rotr"), ("--all", "--only", "rotor"), ("--workers", "0")])
+@pytest.mark.parametrize("words", [("--only", "rotr"), ("--all", "--only", "rotor"), ("--jobs", "0")])
 def test_what_cannot_be_tried_is_bad_input(command: Command, words: tuple[str, ...]) -> None:
     code, out, err = command("faults", *words)
     assert (code, out, err.count("\n")) == (2, "", 1)

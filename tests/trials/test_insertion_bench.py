@@ -263,8 +263,8 @@ def test_what_has_ended_is_told_when_it_is_broken_off(
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("--n", "0"), "at least one trial"),
-        (("--workers", "0"), "at least one process"),
+        (("--n", "0"), "the number of trials must be at least 1"),
+        (("--jobs", "0"), "the number of processes must be at least 1"),
         (("--clearance", "2"), "0.05 to 1 mm"),
         (("--sd", "-1"), "0 to 5 mm"),
         (("--sd", "nan"), "0 to 5 mm"),

@@ -54,8 +54,8 @@ def test_the_second_task_is_filmed_and_photographed(command: Command) -> None:
     told(command, "plan", *BLOCK, "block.al")
     told(command, "run", *BLOCK, PLAN, "--out", "whole", "--to", "1", *RAY)
     told(command, "video", "whole", *BLOCK, "--seconds", "1", "--size", "96x72")
-    told(command, "trace", "photograph", "whole", *BLOCK, "--at", "2", "-o", "at.png", "--width", "64")
-    told(command, "render", *BLOCK, "-o", "world.png", "--width", "64")
+    told(command, "trace", "photograph", "whole", *BLOCK, "--at", "2", "-o", "at.png", "--size", "64x960")
+    told(command, "render", *BLOCK, "-o", "world.png", "--size", "64x960")
 
 
 def test_its_world_is_listed_and_set(command: Command) -> None:

@@ -42,7 +42,7 @@ def test_a_gasket_accepted_that_the_eye_can_tell_ends_the_trials_with_three(
     command: Command, monkeypatch: pytest.MonkeyPatch, accepted: list[str], code: int
 ) -> None:
     gaskets(monkeypatch, *accepted)
-    ended, out, _ = command("trials", "gasket", "2", "--jobs", "1")
+    ended, out, _ = command("trials", "gasket", "--n", "2", "--jobs", "1")
     assert ended == code
     assert f"right        accepted {2 * (RIGHT in accepted)} of 2" in out.splitlines()
 
@@ -51,7 +51,7 @@ def test_something_else_taken_for_the_base_ends_the_trials_with_three(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bases(monkeypatch, error=(INCH, 0.0, 0.0), wrong=True)
-    code, out, _ = command("trials", "base", "2", "--jobs", "1")
+    code, out, _ = command("trials", "base", "--n", "2", "--jobs", "1")
     assert code == 3
     assert "found 2 of 2, 2 of them wrong" in out.splitlines()
 
@@ -61,14 +61,14 @@ def test_a_base_is_within_where_the_paper_says_and_not_farther(
 ) -> None:
     for error, within in (((0.33, -0.24), 3), ((0.34, 0.0), 0), ((0.0, 0.26), 0)):
         bases(monkeypatch, error=(error[0] * INCH, error[1] * INCH, DEGREE))
-        assert f"{within} within 0.33 x 0.25 in" in command("trials", "base", "3", "--jobs", "1")[1]
+        assert f"{within} within 0.33 x 0.25 in" in command("trials", "base", "--n", "3", "--jobs", "1")[1]
 
 
 def test_a_base_that_was_not_found_says_why_and_counts_as_tried(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bases(monkeypatch, error=None, failure="there is nothing")
-    code, out, _ = command("trials", "base", "1", "--seed", "7", "--jobs", "1")
+    code, out, _ = command("trials", "base", "--n", "1", "--seed", "7", "--jobs", "1")
     assert (code, out.splitlines()[:2]) == (
         0,
         ["seed    7  there is nothing", "found 0 of 1, 0 of them wrong"],
@@ -79,7 +79,9 @@ def test_poses_are_shared_out_among_worlds_and_told_as_json(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bases(monkeypatch, error=(0.0, 0.0, 0.0))
-    _, out, err = command("trials", "base", "5", "--worlds", "2", "--seed", "3", "--jobs", "1", "--json")
+    _, out, err = command(
+        "trials", "base", "--n", "5", "--worlds", "2", "--seed", "3", "--jobs", "1", "--json"
+    )
     told = json.loads(out)
     assert [(a["seed"], a["number"]) for a in told["attempts"]] == [(3, 0), (3, 1), (3, 2), (4, 0), (4, 1)]
     assert (told["worlds"], told["tried"], told["found"], told["eye"]) == (2, 5, 5, "lamp")

@@ -6,8 +6,8 @@ from typing import Annotated, Final
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Details, Json, NoKeep, Out, WholeNumber, note, say, show
-from handeye.cli.runs import Break, Live, OnStop, Overwrite, Step, check_kept
+from handeye.cli.common import Details, Json, NoKeep, Out, Overwrite, WholeNumber, note, say, show
+from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
 from handeye.core.diagnostics import has_errors, quoted, suggestion
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.source import Source, read_source

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Final
 from cyclopts import Parameter
 from rich.status import Status
 
-from handeye.cli.common import Json, WholeNumber, complain, note, notes, positive, put_json, say
+from handeye.cli.common import Json, Overwrite, WholeNumber, complain, note, notes, positive, put_json, say
 from handeye.cli.panic_button import PanicButton
-from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
+from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions, carry_out_sweep
 from handeye.cli.videos import drawing
 from handeye.cli.world_options import ANY_OWN_ERRORS, Faults, OwnErrorOptions, broken
 from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
@@ -42,17 +42,16 @@ class KeptOptions:
     out: Annotated[
         Path | None,
         Parameter(
+            name=["--out", "-o"],
             help="Folder for the run: trace, checkpoints, result, what came of the job (job.json), its program, and a "
-            "report (report.html). `handeye resume` and `handeye dismantle` go on from there."
+            "report (report.html). `handeye resume` and `handeye dismantle` go on from there.",
         ),
     ] = None
     video: Annotated[
         Path | None,
         Parameter(help="Video of the job, .webp or .webm, 20 s long at most."),
     ] = None
-    overwrite: Annotated[
-        bool, Parameter(help="Replace the run in the folder of --out, and the video that is there.")
-    ] = False
+    overwrite: Overwrite = False
 
 
 NOTHING: Final = KeptOptions()
@@ -236,7 +235,7 @@ def pallet_trials(
     n: Annotated[
         WholeNumber, Parameter(name="--n", help="Trials; number k is in the world of --seed + k.")
     ] = 10,
-    seed: Annotated[WholeNumber, Parameter(help="The first world.")] = 0,
+    seed: FirstSeed = 0,
     blocks: Annotated[WholeNumber, Parameter(help="In the stack, 0 to 20.")] = 7,
     interrupt: Annotated[
         bool, Parameter(help="Break each run off after a drawn number of steps, and undo it from there.")

@@ -3,13 +3,14 @@
 from pathlib import Path
 
 from handeye.core.errors import BadArgument, Refused
+from handeye.core.files import check_new, check_place
 from handeye.core.plain_text import counted
 from handeye.systems.trig.language.arguments import Arguments
 from handeye.systems.trig.language.graph import NONE, TOP
 from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.step_commands import ask_if_unsaved
-from handeye.systems.trig.language.storage import read_program, trig_file, write_program
+from handeye.systems.trig.language.storage import TRIG_FILE, read_program, trig_file, write_program
 from handeye.systems.trig.language.trig_arm import told_obstacle
 
 _MAX_DISTANCE = 100_000  # steps of the cursor
@@ -100,6 +101,9 @@ def write(session: Session, given: Arguments) -> None:
     file = session.file if given.file is None else trig_file(Path(given.file))
     if file is None:
         raise Refused("no file has been read or written yet; W takes a name")
+    check_place(file, TRIG_FILE)
+    if file != session.file:
+        check_new(file)
     write_program(file, session.program)
     session.file, session.program.changed = file, False
     session.desk.tell(f"written to {file}")

@@ -12,7 +12,7 @@ from handeye.cell.bench import Bench
 from handeye.cell.opengl import context
 from handeye.cell.photograph import Photograph, Photographer
 from handeye.cell.posed import standing
-from handeye.core.errors import Refused, Taken
+from handeye.core.errors import Refused
 from handeye.core.files import check_place, write_over
 from handeye.core.pose import Array
 from handeye.report.page.figures import clock
@@ -42,9 +42,7 @@ class JobVideo:
     def __init__(self, path: Path, *, overwrite: bool) -> None:
         """Check that the video can be written."""
         self._path, self._form = path, format_of(path)
-        check_place(path, self._form.kind)
-        if path.exists() and not overwrite:
-            raise Taken(f"{path} is there already; --overwrite replaces it")
+        check_place(path, self._form.kind, overwrite=overwrite)
         context()
         self._moments: list[_Moment] = []
 
