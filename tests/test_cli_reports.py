@@ -143,8 +143,9 @@ def test_a_trace_that_was_cut_short_is_shown_as_far_as_it_goes(command: Command,
 
 
 def test_a_report_of_an_assembly_needs_a_folder(command: Command) -> None:
-    code, _, err = command("assemble", "--report")
-    assert (code, err) == (2, "handeye: --report needs --out, the folder to write the page to\n")
+    code, _, err = command("assemble", "--report", "--no-keep")
+    sentence = "handeye: --report leaves a page in the folder of the run; --no-keep leaves none\n"
+    assert (code, err) == (2, sentence)
 
 
 def test_a_run_leaves_its_report(
@@ -195,9 +196,8 @@ def test_the_demo_takes_less_than_an_eighth_of_a_megabyte_for_a_minute_of_its_ru
     assert sum(file.stat().st_size for file in resources.demo().rglob("*")) < 125_000 * minutes
 
 
-@pytest.mark.parametrize("words", [(), ("kept", "--demo")])
-def test_a_report_is_of_one_run(command: Command, words: tuple[str, ...]) -> None:
-    assert refused(command, *words) == "name a run, by its folder or its trace, or give --demo"
+def test_the_demonstration_brings_its_own_run(command: Command) -> None:
+    assert refused(command, "kept", "--demo") == "--demo brings its own run; give a run or --demo"
 
 
 def test_a_picture_that_a_run_has_left_and_nobody_can_read_is_missing(
