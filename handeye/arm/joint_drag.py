@@ -44,6 +44,7 @@ class Stiffness:
     joint: int
     torque: float
     friction: float  # what it took at first
+    one_way: bool  # it slid one way only, so that a weight beside the model's would feel the same
 
 
 @dataclass(slots=True, kw_only=True)
@@ -86,7 +87,12 @@ class JointDrag:
         joint = int(np.argmax(drag / allowed))
         if drag[joint] <= allowed[joint]:
             return None
-        return Stiffness(joint=joint, torque=float(drag[joint]), friction=float(friction[joint]))
+        return Stiffness(
+            joint=joint,
+            torque=float(drag[joint]),
+            friction=float(friction[joint]),
+            one_way=not enough[:, joint].all(),
+        )
 
 
 def alone(arm: ArmModel, J: Array, spare: Array) -> int | None:

@@ -330,8 +330,9 @@ class ServoLoop(Servo):
         if stiff is None:
             return None
         cause = JointAlone(
-            joint=self._named(stiff.joint), torque=round(stiff.torque, 6), friction=round(stiff.friction, 6)
-        )
+            joint=self._named(stiff.joint), torque=round(stiff.torque, 6), friction=round(stiff.friction, 6),
+            one_way=stiff.one_way,
+        )  # fmt: skip
         return Outcome(error=errors.JOINT_STIFF, cause=cause)
 
     def _off_balance(self, balance: TorqueBalance) -> Outcome | None:

@@ -35,6 +35,16 @@ def test_a_joint_that_takes_five_times_its_friction_is_told(joint: int) -> None:
     told = dragged(takes, -takes)
     assert told is not None
     assert (told.joint, told.torque) == (joint, pytest.approx(5 * FRICTION[joint]))
+    assert not told.one_way
+
+
+def test_what_a_joint_takes_on_the_way_out_alone_may_be_a_weight() -> None:
+    drag = JointDrag(arm=STANFORD)
+    for _ in range(30):
+        drag.step(5 * FRICTION, np.zeros(6), SLIDES)
+    told = drag.stiff(FRICTION)
+    assert told is not None
+    assert told.one_way
 
 
 @pytest.mark.parametrize("joint", [0, 2, 3, 4, 5])  # the second lifts the hand as a force upwards would

@@ -96,7 +96,8 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
-        "by the weight that it bears a drive gives more or less torque than commanded: that of the wrist 1.30 times",
+        "by the weight that it bears a drive gives more or less torque than commanded, or the arm no longer stands "
+        "upright: that of the wrist 1.30 times",
     ),
     (c.MotorSlow(share=0.4), "the motor had started after 0.4 of its time: it turns slower than commanded"),
     (
@@ -127,6 +128,10 @@ WORDS: list[tuple[c.Cause, str]] = [
     (
         c.JointAlone(joint=ARM.joints[1], torque=150 * OUNCE_INCH, friction=30 * OUNCE_INCH),
         "wrist takes 150 oz-in to move; at first it took 30 oz-in",
+    ),
+    (
+        c.JointAlone(joint=ARM.joints[1], torque=9 * OUNCE_INCH, friction=3 * OUNCE_INCH, one_way=True),
+        "wrist takes 9 oz-in to move; at first it took 3 oz-in, or the arm no longer stands upright",
     ),
     (c.JointAlone(joint=ARM.joints[0], torque=-80 * OUNCE_FORCE), "rail: 80 oz do not move it on"),
     (c.CurrentSilent(torque=0.0), "it showed 0.0 oz-in at most, less than it takes to start"),

@@ -210,7 +210,10 @@ def doubt_sentence(cause: c.SenseCause) -> str:
         case c.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)
             gives = " and ".join(f"that of the {joint.name} {factor:.2f} times" for joint, factor in named)
-            return f"by the weight that it bears a drive gives more or less torque than commanded: {gives}"
+            return (
+                "by the weight that it bears a drive gives more or less torque than commanded, "
+                f"or the arm no longer stands upright: {gives}"
+            )
         case c.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
             times = f": {told / known:.1f} times as much" if known else ""
@@ -287,7 +290,8 @@ def _alone(cause: c.JointAlone) -> str:
     if cause.friction is None:
         return f"{cause.joint.name}: {abs(cause.torque) / unit:.0f} {name} do not move it on"
     took, takes = distinct_digits([cause.friction / unit, cause.torque / unit], 0)
-    return f"{cause.joint.name} takes {takes} {name} to move; at first it took {took} {name}"
+    tilted = ", or the arm no longer stands upright" if cause.one_way else ""
+    return f"{cause.joint.name} takes {takes} {name} to move; at first it took {took} {name}{tilted}"
 
 
 def _way(joint: c.JointName, way: float) -> str:

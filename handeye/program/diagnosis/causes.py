@@ -200,11 +200,12 @@ class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
 
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
     """A joint takes a torque (N m, N if prismatic) that no force at the hand explains; `friction` is what it took at
-    first, None where it does not get on at all."""
+    first, None where it does not get on at all; `one_way`: it moved one way only, and a weight would feel the same."""
 
     joint: JointName
     torque: float
     friction: float | None = None
+    one_way: bool = False
 
 
 class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
