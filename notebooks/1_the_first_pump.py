@@ -12,10 +12,10 @@
 # # 1. The first pump
 #
 # At the end you will know what a *script*, a *plan*, a *world* and a *run* are, what happens in each of the twelve
-# stages of the pump, where its minutes go, and how far that is from the five and a half of 1973.
+# stages of the pump, where the time goes, and how it compares with the five and a half minutes of 1973.
 #
-# Nothing here needs to be run to be read. Run, it takes a minute of a processor, nearly all of it for one assembly;
-# the photographs take OpenGL.
+# You can read this notebook without running it. Running it takes a minute of a processor, nearly all of it for one
+# assembly; the photographs need OpenGL.
 
 # %%
 import matplotlib.pyplot as plt
@@ -25,17 +25,17 @@ import handeye
 # %% [markdown]
 # ## A script becomes a plan
 #
-# The script is a text in the arm language of 1973. *Planning* compiles it and works out every motion that can be
-# known beforehand: no arm, no clock and no random number has a part in it, so the plan is the same each time. Shown
-# by itself it tells its stages, and how long the arm moves in each if nothing has to be done twice.
+# The script is a text in the arm language of 1973. *Planning* compiles it and computes every motion in advance,
+# without arm, clock or random numbers, so the plan is the same each time. A plan displays its stages, and the
+# duration of the arm's motions in each if no step is repeated.
 
 # %%
 plan = handeye.plan(handeye.scripts / "water_pump.al")
 plan
 
 # %% [markdown]
-# A step is a line of the script. What makes this program different from a recording is in the `conditions` of its
-# steps: most of the motions that touch something end when they *feel* something, and not at a place.
+# A step is a line of the script. The `conditions` of the steps distinguish this program from a recording: most
+# motions that touch something end when they *feel* something, not at a given place.
 
 # %%
 for_pins = [step for step in plan.stages[3].steps if step.conditions]
@@ -44,9 +44,9 @@ for_pins = [step for step in plan.stages[3].steps if step.conditions]
 # %% [markdown]
 # ## A plan meets a world
 #
-# A world is a cell with all its errors: where the base lies on the belt, by how much each joint reads wrong, how far
-# the holes were drilled beside their places. A seed draws it. The program is told nothing of these figures; it has to
-# find out with its senses what of them matters.
+# A world is a cell with its errors: the place of the base on the belt, the reading errors of each joint, the
+# position errors of the holes. A seed determines all of them. The program does not know these figures; it must
+# measure what it needs with its sensors.
 
 # %%
 world = handeye.World(0)
@@ -54,28 +54,27 @@ print(len(world.values), "quantities, among them")
 print("\n".join(f"{name:24} {world[name]:7.3f} {world.unit(name)}" for name in [*world.values][:8]))
 
 # %% [markdown]
-# Now the whole assembly. `out` keeps the run in a folder: what happened, every servo period of it, the pictures, the
-# result.
+# Now the whole assembly. `out` saves the run in a folder: events, every servo period, the pictures, the result.
 
 # %%
 run = handeye.assemble(world=world, out="pump", overwrite=True)
 run
 
 # %% [markdown]
-# The first line is the verdict of the *referee*, who measures the finished pump in the simulator, where the program
-# cannot look. His findings stand at the end, each with its limit.
+# The first line is the verdict of the *referee*, which measures the finished pump in the simulator, where the
+# program cannot look. Its findings are at the end, each with its limit.
 #
-# Between them is the timing table, beside the one that was printed in 1973. *Manipulation* is what the arm does; the
+# Between them is the timing table, with the times printed in 1973. *Manipulation* is the motion of the arm; for the
 # rest of the working phase it waits for the television camera, whose lens turret, pan, tilt and focus are slow
-# motors. The program of today lets the mechanism work while the arm moves, where it can; the paper of 1973 says that
-# this could be done. So the camera now costs less than it did then. The nearly three minutes that are lost are all in
-# manipulation: the arm is slower than that of 1973, and the program feels more. The last stage, in which it inspects
-# the pump, is one that the program of 1973 does not have, and takes the arm 48 s.
+# motors. Today's program lets them work while the arm moves, where possible, as the paper of 1973 suggests, so the
+# camera now costs less time than it did then. The nearly three extra minutes are all in manipulation: the arm is
+# slower than that of 1973, and the program measures more by touch. The last stage, an inspection of the pump, was
+# not in the program of 1973, and takes the arm 48 s.
 #
 # ## Look at it
 #
-# The trace holds where everything was, sixty times a second. So any moment can be photographed afterwards, from any
-# of the cell's cameras; nothing is simulated again.
+# The trace holds the places of all bodies, sixty times a second. So you can photograph any moment afterwards, from
+# any camera of the cell, without simulating again.
 
 # %%
 trace = run.trace
@@ -95,11 +94,11 @@ shown = [axis.imshow(frame) for axis, frame in zip(axes.flat, frames, strict=Tru
 hidden = [axis.axis("off") for axis in axes.flat]
 
 # %% [markdown]
-# In a notebook of your own write `trace` alone into a cell: it shows the report of the run in a frame of its own,
-# where you walk round the arm while the script goes by. It weighs a megabyte, so that it is not kept in this file.
+# In a notebook of your own, write `trace` alone into a cell: it shows the report of the run in a frame, a 3D replay
+# next to the script. The report is a megabyte, so it is left out of this file.
 #
-# The hand has no sensor of force. The program works the force out from the torques of the motors, while it is in a
-# motion that is to feel something. Each spike is something that was met.
+# The hand has no force sensor. The program computes the force from the torques of the motors, during guarded and
+# compliant motions. Each spike is a contact.
 
 # %%
 felt = trace.forces()
@@ -111,8 +110,8 @@ axis.set(
 lines = [axis.axvline(stage.begin / 60, color="0.85", zorder=0) for stage in trace.stages]
 
 # %% [markdown]
-# What was felt is told in words, too. `trace.table()` is everything that happened; a slice shows part of it, a column
-# is an array, and `to_pandas()` makes a DataFrame of it where pandas is installed.
+# The trace also describes events in words. `trace.table()` lists all events; a slice shows part of it, a column is
+# an array, and `to_pandas()` makes a DataFrame if pandas is installed.
 
 # %%
 events = trace.table("events")
@@ -120,10 +119,10 @@ begin = events["stage"].index("insert the aligning pins")
 events[begin + 20 : begin + 36]
 
 # %% [markdown]
-# ## And again?
+# ## Repeating the run
 #
-# The same world, the same plan and the same version of handeye give the same run, to the last bit of its trace.
-# Another seed gives another: `handeye.assemble(1)`. What was different then, and where it began to be,
-# `handeye.compare("pump", "other")` tells.
+# The same world, plan and version of handeye give the same run, to the last bit of its trace. Another seed gives
+# another run: `handeye.assemble(1)`. `handeye.compare("pump", "other")` reports the first difference and the
+# divergence of two runs.
 #
 # The next notebook, [2. The language by doing](2_the_language_by_doing.ipynb), writes programs.

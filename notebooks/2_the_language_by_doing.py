@@ -11,10 +11,10 @@
 # %% [markdown]
 # # 2. The language by doing
 #
-# At the end you will have written a program for the arm, made the mistakes that everybody makes, stood in the middle
-# of a run that went wrong and mended it there, and given the pump a seventh screw with two lines of your own.
+# At the end you will have written a program for the arm, made the common mistakes, repaired a failed run from
+# within, and given the pump a seventh screw with two lines of your own.
 #
-# Nothing here needs to be run to be read. Run, it takes half a minute.
+# You can read this notebook without running it. Running it takes half a minute.
 
 # %%
 import handeye
@@ -22,9 +22,9 @@ import handeye
 # %% [markdown]
 # ## Write
 #
-# A program is a text, an instruction to a line; everything behind a semicolon is a comment. Places are not part of
-# it: they are *taught*, by moving the arm there, and kept beside the script. A taught place is where the middle
-# between the finger tips is (inches) and how the hand is turned (degrees).
+# A program is a text with one instruction on each line; everything after a semicolon is a comment. The text has no
+# places: these are *taught*, by moving the arm there, and kept in a file next to the script. A taught place is the
+# point midway between the finger tips (inches) and the orientation of the hand (degrees).
 #
 # This program takes a pin out of its holder.
 
@@ -44,19 +44,19 @@ plan = handeye.plan(script, taught=taught)
 plan
 
 # %% [markdown]
-# Nothing has moved yet: this is a plan, with the *flow* of its steps below. A red way would be one that is gone when
-# an error was raised; this program has none, it trusts that all goes well.
+# Nothing has moved yet: this is a plan, with the *flow* of its steps below. A red edge would be taken after an
+# error; this program has none, since it tests for no errors.
 #
 # ## Break it
 #
-# Two slips of the pen. All mistakes are told at once, each with its place and with what may have been meant. (In a
-# program of yours they are values: `error.diagnostics`.)
+# Two typing errors. The checker reports all mistakes at once, each with its place and a suggestion. (In your own
+# program they are values: `error.diagnostics`.)
 
 # %% tags=["raises-exception"]
 handeye.plan(script.replace("CLOSE", "CLOES").replace("MOVE    PIN", "MOVE    PINN"), taught=taught)
 
 # %% [markdown]
-# A place that the arm cannot come to is a mistake too, found before anything moves.
+# A place out of the arm's reach is a mistake too, found before anything moves.
 
 # %% tags=["raises-exception"]
 handeye.plan(script, taught=taught.replace("32", "132"))
@@ -64,23 +64,22 @@ handeye.plan(script, taught=taught.replace("32", "132"))
 # %% [markdown]
 # ## Run it
 #
-# The plan is right, so the arm can do it. `begin` sets up a cell and waits; `until()` goes on to the end, or to where
-# the program calls the operator.
+# The plan is right, so the arm can run it. `begin` sets up a cell and waits; `until()` continues to the end, or
+# until the program calls the operator.
 
 # %%
 run = handeye.begin(plan, seed=3)
 run.until()
 
 # %% [markdown]
-# It calls: the fingers met nothing. `CLOSE .1` says that there should be something at least a tenth of an inch thick
-# between them, so the program does not go on with an empty hand. It was right to: no pin stands at y = 32, it was
+# The program calls the operator, because the fingers met nothing. `CLOSE .1` requires at least a tenth of an inch
+# between them, so the program does not continue with an empty hand. It was right: no pin is at y = 32; the place was
 # taught wrong.
 #
-# ## Mend it where it stands
+# ## Repair the run
 #
-# A run can go back, to the beginning of a stage or by single steps: arm, parts and clock are again what they were.
-# And one may say to it whatever the stepper of the terminal understands. Here the place is set right, and the stage
-# done again.
+# A run can go back, to the beginning of a stage or by single steps: arm, parts and clock return to their earlier
+# state. It also takes the commands of the stepper. Here we correct the position, and repeat the stage.
 
 # %%
 run.back("take a pin")
@@ -88,20 +87,20 @@ print(run.say("set position PIN 15 35 3"))
 run.until()
 
 # %% [markdown]
-# The program came to its end, and the fingers are now apart by the thickness of a pin:
+# The program finished, and the gap of the fingers is now the thickness of a pin:
 
 # %%
 print(f"{run.state.gap / 0.0254:.2f} in; by a person: {run.result.interventions}")
 
 # %% [markdown]
-# A result never hides that somebody had a hand in it. So the script's file is mended as well: `PIN` is taught at y =
-# 35.
+# A result always shows that a run was changed by hand. So we correct the script's file as well: `PIN` is taught at y
+# = 35.
 #
-# ## Expect it to go wrong
+# ## Expect errors
 #
-# A program that is to work in every world tests for what may go wrong. `STOP` ends the motion below it when the hand
-# presses; a motion that was to meet something and did not raises error 23. `SKIPE 23` skips the next line if it was
-# raised, `SKIPN 23` if not. So an error is no accident but an answer: *nothing is there*.
+# A program for every world tests for possible failures. `STOP` ends the motion below it when the hand presses; if
+# the motion meets nothing, it raises error 23. `SKIPE 23` skips the next line if that error was raised, `SKIPN 23`
+# if not. So an error is not an accident but a result: *nothing is there*.
 
 # %%
 careful = """\
@@ -119,9 +118,9 @@ guess = "[positions]\nOVER = { at = [15.6, 35.3, 4.2, 90, 90, 0] }\n"
 handeye.plan(careful, taught=guess).flow()
 
 # %% [markdown]
-# Now there is a red way, and one that leads back: from `AOJ` to the search's next place. The pin stands at (15, 35),
-# the guess is wrong by more than half an inch. The fingers are three quarters of an inch wide, so that they need not
-# come right over it.
+# Now there is a red edge, and one that leads back: from `AOJ` to the search's next place. The pin is at (15, 35);
+# the guess is wrong by more than half an inch. The fingers are three quarters of an inch wide, so they need not come
+# down exactly over it.
 
 # %%
 run = handeye.begin(careful, seed=3, taught=guess)
@@ -132,9 +131,9 @@ print(f"{run.state.why}: found at place {run.state.memory.place + 1}, ({x:.2f}, 
 # %% [markdown]
 # ## A seventh screw
 #
-# The paper of 1973 says that one more screw is a matter of a few minutes. A pump of a later make has a
-# seventh hole, of which the program knows nothing. How a screw is fetched and driven is a *macro* of the script,
-# `SCREW`, which takes the place of the screw, its hole, and its number. The last four are these lines:
+# According to the paper of 1973, adding one more screw takes a few minutes. Here the pump has a seventh hole, which
+# the program does not know. The *macro* `SCREW` of the script fetches and drives a screw; its operands are the place
+# of the screw, its hole, and its number. These lines drive the last four:
 
 # %%
 text = (handeye.scripts / "water_pump.al").read_text()
@@ -142,8 +141,8 @@ rack = text.rindex("        RACK")
 print(text[text.rindex("        DRIVER") : rack])
 
 # %% [markdown]
-# One more call is one more screw. Two places are new, and that is all that is written: where the seventh screw
-# stands in the dispenser, and where its hole is in the pump.
+# One more call drives one more screw. It needs two new places: that of the seventh screw in the dispenser, and that
+# of its hole in the pump.
 
 # %%
 new_place = "        TRANS   S7 [6 43.8 6.37 90 90 0] ;the seventh place of the dispenser\n"
@@ -162,10 +161,10 @@ print(
 print("new places:", sorted({*after.record.program.positions} - {*before.record.program.positions}))
 
 # %% [markdown]
-# Whether it is right, the referee says: `world = handeye.World(set={"pump.screws": 7})` is one with such a pump, and
-# `handeye.assemble(world=world, script=after)` assembles it, in a minute of a processor, and finds seven screws in
-# their threads; with `before` it finds six, and refuses the pump. The
-# [exercise](../docs/language/seventh-screw.md) does the same with a text editor and no Python.
+# The referee checks the result: `world = handeye.World(set={"pump.screws": 7})` has such a pump, and
+# `handeye.assemble(world=world, script=after)` assembles it in a minute of a processor, and finds seven screws in
+# their threads. With `before` it finds six, and rejects the pump. The [exercise](../docs/language/seventh-screw.md)
+# does the same with a text editor and no Python.
 #
-# The whole language stands [on a page](../docs/language/README.md). The next notebook, [3. Beams, blobs and
+# [One page](../docs/language/README.md) describes the whole language. The next notebook, [3. Beams, blobs and
 # bouncing](3_beams_blobs_and_bouncing.ipynb), looks through the camera.

@@ -11,12 +11,12 @@
 # %% [markdown]
 # # 3. Beams, blobs and bouncing
 #
-# At the end you will know how a program of 1973 finds a casting on a belt while it looks at a small part of its
-# picture: what a *beam* is, how a *blob* is surrounded, why one *bounces* inside a hole, and how a gasket is checked
-# without knowing what a gasket is.
+# At the end you will know how a program of 1973 finds a casting on a belt while it reads only a small part of its
+# picture: what a *beam* is, how to box a *blob*, why to *bounce* inside a hole, and how to check a gasket without a
+# model of it.
 #
-# Nothing here needs to be run to be read. Run, it takes some seconds: the pictures are those of a run that comes with
-# handeye.
+# You can read this notebook without running it. Running it takes some seconds: the pictures are from a recorded run
+# included with handeye.
 
 # %%
 import matplotlib.pyplot as plt
@@ -26,9 +26,10 @@ import handeye
 # %% [markdown]
 # ## Six pictures
 #
-# The camera is a television camera. Its pictures have 256 lines of 333 points and sixteen levels of grey, with noise;
-# no two are alike. A whole assembly takes six of them: the belt from afar, the base from near by, the base in its
-# standard position without and with its gasket, and the pump that it has become, before and after its last push.
+# The camera is a television camera. Its pictures have 256 lines of 333 pixels in sixteen levels of grey, with noise,
+# so that no two are alike. A whole assembly takes six of them: the wide view of the belt, the close-up of the base,
+# the base in its standard position without and with its gasket, and the finished pump before and after its last
+# push.
 
 # %%
 trace = handeye.open(handeye.demo)
@@ -41,15 +42,15 @@ named = [axis.set_title(name, fontsize=8) for axis, name in zip(axes.flat, pictu
 hidden = [axis.axis("off") for axis in axes.flat]
 
 # %% [markdown]
-# A program of today would hand all 85,000 points to a filter. In 1973 a point cost much of the time of a shared
-# computer, so the program reads a point only where it expects to learn something. A `Scan` is a picture that keeps
-# account of that.
+# A program of today would filter all 85,000 pixels. In 1973 each pixel cost time on a shared computer, so the
+# program reads a pixel only where it expects information. A `Scan` is a picture that records which pixels were read.
 #
 # ## A beam
 #
-# A beam goes out from a point along a straight line until the brightness changes by a step: the mean of three points
-# ahead against the mean of three points behind, so that noise does not stop it. That is all. Below, the levels along
-# one line of the close picture, from the inside of the large hole to the right; and where a beam stops.
+# A beam starts at a point and follows a straight line until the brightness changes by a step: it compares the mean
+# of three pixels ahead with the mean of three pixels behind, so that noise does not stop it. The plot shows the
+# levels along one line of the close-up, from the inside of the large hole to the right, and the place where a beam
+# stops.
 
 # %%
 close = pictures["CLOSE_UP"]
@@ -69,14 +70,13 @@ print(
 )
 
 # %% [markdown]
-# The place of the edge is known to a part of a point: a parabola through the three steepest differences says where
-# between two points it lies.
+# A parabola through the three steepest differences locates the edge to a fraction of a pixel.
 #
 # ## A blob
 #
-# In the picture from afar the base is a bright blob on the dark belt. The *localiser* sends beams inwards from the
-# border of a window until one meets something brighter; from there it lets a box grow, each side outwards as long as
-# a line a little ahead still crosses the blob. In red, all that it has read.
+# In the wide picture the base is a bright blob on the dark belt. The *localiser* sends beams inwards from the border
+# of a window until one meets something brighter. From there it grows a box, each side outwards while a line just
+# outside it still crosses the blob. Red marks all pixels that it has read.
 
 # %%
 wide = pictures["WIDE"]
@@ -92,14 +92,14 @@ axis.axis("off")
 print(f"{box}: {scan.beams} beams, {scan.points / wide.size:.0%} of the picture read")
 
 # %% [markdown]
-# The window is where the program expects the base, by what it knows of belt and camera. The box says where the base
-# is to an inch or two, enough to aim the camera at it through the long lens.
+# The window is the region where the program expects the base, from its knowledge of belt and camera. The box locates
+# the base to an inch or two, enough to aim the long lens at it.
 #
 # ## Bouncing
 #
-# Where exactly is a hole? Start anywhere inside. Two beams, left and right, meet its border; go to the middle between
-# them. Two beams up and down; to the middle again. For anything convex this comes to rest at the centre soon, with
-# four beams a bounce. Here is the first bounce, from a seed that is far off:
+# Where exactly is a hole? Start anywhere inside. Two beams, left and right, meet its border; go to the middle
+# between them. Two beams up and down; go to the middle again. For any convex shape this soon converges to the
+# centre, with four beams for each bounce. This is the first bounce, from a seed that is far off:
 
 # %%
 scan = handeye.vision.Scan(close)
@@ -120,7 +120,7 @@ axis.axis("off")
 print(f"centre ({hole.u:.1f}, {hole.v:.1f}), {hole.width:.1f} points wide, {hole.height:.1f} high")
 
 # %% [markdown]
-# And so little of the picture was read for it:
+# Only this part of the picture was read for it:
 
 # %%
 print(f"{scan.beams} beams, {scan.points} of {close.size} points")
@@ -128,9 +128,9 @@ print(f"{scan.beams} beams, {scan.points} of {close.size} points")
 # %% [markdown]
 # ## From two holes to a pose
 #
-# The base has two large holes. The line through their centres says where it lies and how it is turned; the sizes say
-# which is which. The program looks for the screw holes where this pose wants them, and believes it only if they are
-# there. What it said in this run, and what is true in the world of its seed:
+# The base has two large holes. The line through their centres gives its place and its rotation; their sizes tell
+# them apart. The program then looks for the screw holes at the places that this pose predicts, and accepts it only
+# if they are there. The result of this run, and the truth in the world of its seed:
 
 # %%
 events = trace.table("events")
@@ -140,15 +140,15 @@ world = handeye.World(trace.head.world.seed)
 print(f"in truth ({world['base.x']:.2f}, {world['base.y']:.2f}) in, turned {world['base.yaw']:.1f} degrees")
 
 # %% [markdown]
-# Some hundredths of an inch, and some tenths of a degree: near enough for a finger to come down into a large hole.
-# What is left is *felt*, as the next notebook shows.
+# The error is some hundredths of an inch and some tenths of a degree: small enough for a finger to come down into a
+# large hole. The rest is measured by *touch*, as the next notebook shows.
 #
 # ## Is the gasket on?
 #
-# A dark gasket on a bright casting, seen from the side, with shadows and pins: hard to describe. So the program
-# describes nothing. It takes a picture before and one after, and looks at the *difference*, where all that has not
-# changed is gone. There the gasket is one blob with two holes in it; their borders, met by beams, tell whether it
-# lies right.
+# A dark gasket on a bright casting, seen from the side, with shadows and pins, is hard to describe. So the program
+# uses no description. It takes a picture before and one after, and analyses the *difference*, where everything
+# unchanged is gone. There the gasket is one blob with two holes, whose borders, found by beams, show whether it is
+# in place.
 
 # %%
 before, after = pictures["BEFORE"], pictures["AFTER"]
@@ -159,4 +159,4 @@ sentences = zip(events["event"], events["said"], strict=True)
 print(*(said for event, said in sentences if event == "PartInspected"))
 
 # %% [markdown]
-# The next notebook, [4. Force and search](4_force_and_search.ipynb), goes on where seeing ends.
+# The next notebook, [4. Force and search](4_force_and_search.ipynb), continues where vision ends.

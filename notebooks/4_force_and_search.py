@@ -11,11 +11,11 @@
 # %% [markdown]
 # # 4. Force and search
 #
-# At the end you will know how a hand without a sensor of force feels, how a pin finds a hole that it cannot see, and
-# why clearance, chamfer and the step of a search obey one rule: each step has to be smaller than what a hole catches,
-# times the root of two.
+# At the end you will know how a hand without a force sensor feels, how a pin finds a hole that it cannot see, and
+# one rule that connects clearance, chamfer and the step of a search: each step must be smaller than the catch of the
+# hole times the square root of two.
 #
-# Nothing here needs to be run to be read. Run, it takes half a minute.
+# You can read this notebook without running it. Running it takes half a minute.
 
 # %%
 import matplotlib.pyplot as plt
@@ -26,11 +26,10 @@ import handeye
 # ## A pin goes back into its holder
 #
 # The hand takes an aligning pin out of its holder, lifts it, and puts it down again: over the hole, or beside it.
-# `STOP [0 0 -50]` ends the motion below it when the hand presses down with 50 ounces; if nothing stops it, error 23
-# is raised, and here that is *good*: the pin is in the hole.
+# `STOP [0 0 -50]` ends the motion below it when the hand presses down with 50 ounces. If nothing stops it, it raises
+# error 23, and here that means *success*: the pin is in the hole.
 #
-# The world is one whose arm makes no errors, so that only geometry counts. The place over the hole is filled in
-# later.
+# The arm of this world makes no errors, so that only geometry counts. The place over the hole is filled in later.
 
 # %%
 script = """\
@@ -57,9 +56,9 @@ print(beside.until().why, inside.until().why, sep="\n")
 # %% [markdown]
 # ## What the hand felt
 #
-# There is no sensor of force in the wrist. Sixty times a second the program compares the torques of the motors with
-# what the arm would need to move as it does; what is left over is the world, pushing back. Beside the hole that grows
-# at once, when the pin stands on the holder, and trips the guard; in the hole nothing comes near the limit.
+# There is no force sensor in the wrist. Sixty times a second the program compares the torques of the motors with
+# those that the motion itself needs; the difference comes from outside. Beside the hole it grows as soon as the pin
+# meets the holder, and trips the guard; in the hole nothing comes near the limit.
 
 # %%
 beside.close(), inside.close()
@@ -72,14 +71,15 @@ axis.legend(fontsize=8)
 print(f"{felt['beside the hole'].value[-1] / 0.278:.1f} ounces when it stopped")
 
 # %% [markdown]
-# It stops at more than 50 ounces: it looks once in a servo period, and in that time a stiff arm on a stiff holder
-# comes to press with ten more.
+# The motion stops at more than 50 ounces: the program measures once in each servo period, and in that time a stiff
+# arm on a stiff holder adds ten more.
 #
 # ## What a hole catches
 #
-# How far off may the pin come down and still slide in? The hole leaves it some *clearance*; the hole's rim has a
-# *chamfer*, a slope that leads inwards; and the pin's end has a *bevel*. If the pin comes down anywhere on a slope,
-# it is led into the hole. From the [drawing of the scene](../scenes/water_pump/dimensions.toml), in millimetres:
+# How far off may the pin come down and still slide in? The hole is larger than the pin by its *clearance*; its rim
+# has a *chamfer*, a slope that leads inwards; and the end of the pin has a *bevel*. A pin that comes down anywhere
+# on a slope slides into the hole. From the [drawing of the scene](../scenes/water_pump/dimensions.toml), in
+# millimetres:
 
 # %%
 clearance, chamfer, bevel = 0.3, 2.0, 0.35
@@ -98,18 +98,18 @@ print(
 )
 
 # %% [markdown]
-# The physics, which knows nothing of this sum, agrees with it.
+# The simulated physics, which does not use this sum, agrees with it.
 #
 # ## The rule
 #
 # `SEARCH s` tries places on a square grid of step *s*, in a spiral. The worst place for a hole is in the middle
-# between four of them: it is *s* / √2 away from each. So a hole is found wherever it lies if
+# between four of them, at a distance of *s* / √2 from each. So the search finds a hole anywhere if
 #
 # **s / √2 ≤ clearance + chamfer + bevel.**
 #
-# That is the whole secret. A wider chamfer allows a coarser search, and so does more clearance; both are bought from
-# the machinist. The step is paid for in time, since half the step makes four times the places. Here a step of .14 is
-# just fine enough, and .18 is not. Both searches begin so that the hole is at the worst place.
+# A wider chamfer or more clearance allows a coarser search, but both cost precision or machining. A finer step costs
+# time: half the step means four times the places. Here a step of .14 in is just fine enough, and .18 is not. Both
+# searches begin with the hole at the worst place.
 
 # %%
 searching = """\
@@ -129,7 +129,7 @@ coarse = handeye.begin(searching.format(step=0.18), world=world, taught=taught.f
 print(fine.until().why, coarse.until().why, sep="\n")
 
 # %% [markdown]
-# The first four places of each search, with what the hole would catch from there, and the hole:
+# The first four places of each search, with the catch of the hole around each, and the hole:
 
 # %%
 places = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -143,20 +143,20 @@ right.set(title="step .18 in: a gap", aspect="equal", xlim=(-0.15, 0.33), ylim=(
 print(f"fine: ended at place {fine.state.memory.place + 1}; coarse: at place {coarse.state.memory.place + 1}")
 
 # %% [markdown]
-# The fine search found the hole from its first place, though it is at the edge of what the hole catches. The coarse
-# one stood on the holder at all four, and went on outwards until it met no resistance. Where is that?
+# The fine search found the hole from its first place, though that is at the edge of the catch. The coarse one struck
+# the holder at all four, and continued outwards until it met no resistance. Where is that?
 
 # %%
 x, y, _ = coarse.state.hand[:3, 3] / 0.0254
 print(f"({x:.2f}, {y:.2f}) in; the hole is at (15, 35)")
 
 # %% [markdown]
-# Beside the holder. The pin hangs over its edge in the air, and *no resistance* meant no hole but nothing at all.
+# Beside the holder. The pin hangs in the air over its edge, and *no resistance* meant not a hole but nothing at all.
 #
 # ## Why the pump's program presses twice
 #
-# That is why the listing of 1973 has a second motion: TRY TO GO DOWN WITHOUT MEETING RESISTANCE, and then IT SHOULD
-# MEET SOME RESISTANCE. A hole has a bottom, the air beside the holder has none.
+# For this reason the listing of 1973 has a second motion: TRY TO GO DOWN WITHOUT MEETING RESISTANCE, and then IT
+# SHOULD MEET SOME RESISTANCE. A hole has a bottom; the air beside the holder has none.
 
 # %%
 text = (handeye.scripts / "water_pump_1973.al").read_text()
@@ -171,9 +171,9 @@ catches = (0.05 + 1.0 + 0.35) / 25.4
 print(f"catches {catches:.3f} in; a step of .07 needs {0.07 / 2**0.5:.4f}")
 
 # %% [markdown]
-# It holds, with a tenth to spare for an arm that comes to no place exactly. Which figures of the cell were printed in
-# 1973, and which were chosen so that the program of 1973 can work, stands beside each in the drawing.
+# The rule holds, with a tenth to spare for the errors of the arm. The drawing says which figures of the cell were
+# printed in 1973, and which were chosen so that the program of 1973 can work.
 #
-# The last notebook, [5. What each sense is worth](5_what_each_sense_is_worth.ipynb), takes the senses away, one by one.
-# [The tutorial](../docs/language/tutorial.md) leads through the language once more, with
-# every run shown; [stepping](../docs/stepping.md) takes you into the middle of an assembly.
+# The next notebook, [5. What each sense is worth](5_what_each_sense_is_worth.ipynb), takes the senses away, one by
+# one. [The tutorial](../docs/language/tutorial.md) teaches the language again, with every run shown;
+# [stepping](../docs/stepping.md) goes through a run step by step.

@@ -11,10 +11,10 @@
 # %% [markdown]
 # # 5. What each sense is worth
 #
-# At the end you will know which error each sense of the arm is there to beat, what a program goes by without it, and
-# how many pumps come about then: counted, over the same worlds with the sense and without.
+# At the end you will know which error each sense of the arm corrects, what a program uses without it, and how many
+# pumps then succeed: counted over the same worlds, with the sense and without.
 #
-# Nothing here needs to be run to be read. Run, it takes half a minute.
+# You can read this notebook without running it. Running it takes half a minute.
 
 # %%
 import matplotlib.pyplot as plt
@@ -24,10 +24,10 @@ import handeye
 # %% [markdown]
 # ## An arm that does not know where it is
 #
-# The potentiometers in the joints read wrong: by an offset, a scale and a waviness of their own, in each world others.
-# Where the joints read right for a place, the hand is somewhere else. And nothing stands just where the drawing has
-# it: not the holder of the pins, not the rack, not the blocks that the base is pushed against. A world is a number,
-# and these errors are drawn from it.
+# The potentiometers in the joints read wrong, by an offset, a scale and a ripple that differ in each world. When the
+# joints read right for a place, the hand is somewhere else. And nothing is exactly where the drawing has it: not the
+# holder of the pins, not the rack, not the blocks that the base is pushed against. A seed determines all these
+# errors.
 
 # %%
 worlds = [handeye.World(seed) for seed in range(150)]
@@ -37,8 +37,8 @@ print(len(worlds[3].values), "quantities are drawn in each world")
 # %% [markdown]
 # ## Vision
 #
-# The base lies anywhere on the belt. Without the eye, the hand goes where the base was planned to be; the program feels
-# for a wall of the base there, and its search reaches 25 mm to either side.
+# The base lies anywhere on the belt. Without vision, the hand goes to the planned place of the base; the program
+# feels for a wall of the base there, and its search reaches 25 mm to either side.
 
 # %%
 figure, axis = plt.subplots(figsize=(6.4, 2.6), dpi=80, layout="constrained")
@@ -51,14 +51,14 @@ far = [
 print("the base lies within {:.1f} by {:.1f} in".format(*far))
 
 # %% [markdown]
-# The eye is calibrated by a lamp that this same arm carries through the picture, so that it learns to see in the arm's
-# wrong coordinates; what both have wrong is not wrong between them.
+# The camera is calibrated with a lamp that this same arm carries through the picture. So it learns the wrong
+# coordinates of the arm, and an error that both share cancels.
 #
 # ## Touch
 #
-# Two switches in the fingers let CENTER move the *hand* to the thing instead of the thing to the hand. SAVE keeps how
-# far that was, and RESTORE goes by it later. Here the hand centres on the screwdriver in its rack, in four worlds with
-# large errors: so far off it was, and knows it from then on.
+# Two switches in the fingers let CENTER move the *hand* to a part instead of the part to the hand. SAVE keeps the
+# displacement, and RESTORE applies it later. Here the hand centres on the screwdriver in its rack, in four worlds
+# with large errors; the plot shows the displacement, which the program knows from then on.
 
 # %%
 centring = """\
@@ -76,8 +76,8 @@ print("\n".join(f"seed {seed}: {far:.1f} mm" for seed, far in enumerate(felt)))
 # %% [markdown]
 # ## Force
 #
-# The hand goes down to the table, whose height is 0. `STOP` ends the motion at 40 ounces; where do the joints then
-# believe the hand to be?
+# The hand goes down to the table, whose height is 0. `STOP` ends the motion at 40 ounces; what height do the joints
+# then report?
 
 # %%
 script = """\
@@ -91,15 +91,15 @@ stopped = [run.until().why for run in feeling]
 print("\n".join(f"{run.state.hand[2, 3] / 0.0254:+.3f} in, on a table at 0" for run in feeling))
 
 # %% [markdown]
-# With force the motion ends where the table really is, whatever the joints say. A hand that went down to where the
-# table should be would hang over it by as much, or press on it with all that its motors have. And a height that was
-# felt is one that can be compared with another: so the program knows whether a gasket lies on the base, or two.
+# With force the motion ends where the table really is, whatever the joints report. Without it, a hand sent to the
+# assumed height of the table would stop short, or press on the table with its full torque. And heights measured by
+# touch can be compared: so the program knows whether one gasket lies on the base, or two.
 #
 # ## Search
 #
-# What the other senses leave over, a search finds: it tries one place after the other, in a square spiral, until the
-# hand goes down into the hole. Most searches end at their first place, if vision and touch have done their work. The
-# run that comes with handeye tells how many further places were tried for a whole pump.
+# A search corrects what the other senses leave: it tries one place after the other, in a square spiral, until the
+# hand goes down into the hole. Most searches end at their first place if vision and touch have done their work. The
+# recorded run included with handeye shows how many extra places a whole pump needed.
 
 # %%
 demo = handeye.open(handeye.demo)
@@ -111,10 +111,10 @@ tried = [
 print("\n".join(tried))
 
 # %% [markdown]
-# ## What was counted
+# ## The count
 #
-# What a sense is worth is how many pumps come about without it. `--without` has the program go by what it believes in
-# the place of a sense; all else is the same, and so are the worlds:
+# The worth of a sense is the number of pumps that fail without it. `--without` replaces a sense by the program's
+# assumption; everything else is the same, including the worlds:
 #
 # ```
 # $ handeye trials assembly --n 60 --seed 890000 --out whole
@@ -122,8 +122,8 @@ print("\n".join(tried))
 # $ handeye trials compare whole without-touch
 # ```
 #
-# An evening's work for two processors. [What came of it](../docs/trials.md#what-they-are-worth) is drawn here: pumps
-# assembled of 60 worlds, and of 20 in which errors are twice as large, for the senses that are not missed before.
+# This takes an evening on two processors. [The result](../docs/trials.md#what-they-are-worth) is plotted here: pumps
+# assembled in 60 worlds, and in 20 with doubled errors for the senses that hardly matter in the 60.
 
 # %%
 nominal = {"nothing": 60, "centring": 59, "touch": 56, "search": 20, "vision": 2, "force": 0}
@@ -136,9 +136,9 @@ right.set(xlabel="of 20, errors twice as large", xlim=(0, 20))
 flipped = left.invert_yaxis(), right.invert_yaxis()
 
 # %% [markdown]
-# Force, vision and search decide whether a pump comes about in any world; touch and centring where errors are large.
-# Every failure was noticed: the program called its operator. How sure such counts are, and the test (McNemar's) of
-# whether the pairs that differ fall too unevenly for chance, is told in [trials](../docs/trials.md).
+# Force, vision and search are decisive in any world; touch and centring where errors are large. Every failure was
+# noticed: the program called the operator. [Trials](../docs/trials.md) explains the uncertainty of such counts, and
+# the test (McNemar's) of whether unequal pairs could be chance.
 #
-# You have come to the end. [Force and search](4_force_and_search.ipynb) shows how the hand feels;
-# [trials](../docs/trials.md) how to count, and how sure a count is.
+# [Force and search](4_force_and_search.ipynb) shows how the hand feels; [trials](../docs/trials.md) shows how to
+# count, and with what certainty.

@@ -11,12 +11,12 @@
 # %% [markdown]
 # # 6. A program that runs backwards
 #
-# At the end you will have taught a robot without writing a program, have seen the program grow from what you did, and
-# will know why taking something back is more than playing it in reverse.
+# At the end you will have taught a robot without writing a program, seen the program grow from your actions, and
+# understood why undoing is more than replaying in reverse.
 #
-# [TRIG](../docs/trig.md) was made at MIT in 1982. At a terminal (`handeye trig`) somebody types short commands and
-# drives the arm with a teach box; here the same lines stand in cells. Nothing here needs to be run to be read. Run, it
-# takes half a minute.
+# [TRIG](../docs/trig.md) was made at MIT in 1982. At a terminal (`handeye trig`) you type short commands and drive
+# the arm with a teach box; here the same lines are in cells. You can read this notebook without running it. Running
+# it takes half a minute.
 
 # %%
 import matplotlib.pyplot as plt
@@ -26,9 +26,9 @@ import handeye
 # %% [markdown]
 # ## Taught by doing
 #
-# An arm over a platter that moves, with physics. A line with `*` is somebody who puts things on the platter; here a
-# stack of three blocks. `M` is a move: where its place is not known, the teach box drives the arm there, and `RECORD`
-# gives it its name. Each command is done at once, and is a step of the program from then on.
+# The arm works over a moving platter, with physics. A line with `*` changes the platter by hand; here it adds a
+# stack of three blocks. `M` is a move: if its position is undefined, the teach box drives the arm there, and
+# `RECORD` defines it. Each command is carried out at once, and becomes a step of the program.
 
 # %%
 session = handeye.TrigSession("purbrick")
@@ -60,15 +60,15 @@ axis.set_axis_off()
 # %% [markdown]
 # ## And back
 #
-# `RUN -1000` undoes as much as there is. This is no simulator that is set back: the *arm* goes back, takes the block up
-# where it put it, and puts it on the stack again, step by step, the last one first.
+# `RUN -1000` undoes everything. The simulator is not reset: the *arm* goes back, picks up each block and puts it on
+# the stack again, step by step, the last one first.
 
 # %%
 session.type("RUN -1000")
 
 # %% [markdown]
-# How well? Three photographs: before the program runs again, when it has ended, and when it was undone once more. What
-# differs from the first is what the program has changed, and what is left of that.
+# How well? Three photographs: before the program runs again, after its end, and after undoing it once more. The
+# differences from the first show what the program changed, and what is left of that.
 
 # %%
 before = session.photograph()[150:400, 210:560].astype(int)
@@ -89,26 +89,27 @@ axes[2].set(xticks=[], yticks=[])
 told
 
 # %% [markdown]
-# Nothing that a camera sees. This world has no errors; in others blocks come back some tenths of a millimetre off,
-# which a referee measures ([TRIG](../docs/trig.md#jobs-in-seeded-worlds)).
+# Nothing visible is left. This world has no errors; in others, blocks return some tenths of a millimetre off, which
+# a referee measures ([TRIG](../docs/trig.md#jobs-in-seeded-worlds)).
 #
-# ## What cannot be taken back
+# ## What cannot be undone
 #
-# Undo goes by what was done, and believes that the world is as it left it. So it has to feel for what it needs. Let the
-# program run, and somebody take the blocks away before it is undone:
+# Undo reverses recorded actions, and assumes that the world has not changed since. So it must verify by touch. Run
+# the program, and take the blocks away before undoing it:
 
 # %%
 session.type("RUN\n* CLEAR\nRUN -1000")
 
 # %% [markdown]
-# The hand closed where it had let the block go, and its fingers met nothing. The arm stands there, the program's cursor
-# is at the step that is not undone, and somebody has to look. The fingers' gap is one of four guards: force, following,
-# the gap, and the place where something is set down ([TRIG](../docs/trig.md#forwards-and-backwards)).
+# The hand closed where it had released the block, and its fingers met nothing. The arm stops there, with the cursor
+# at the step that could not be undone, and waits for the user. The gap of the fingers is one of four guards: force,
+# following error, gap, and support under a block ([TRIG](../docs/trig.md#forwards-and-backwards)).
 #
 # ## Loops, too
 #
-# The paper's second example puts a stack into a pallet: a guarded move feels for the top of the stack, a position moves
-# on with each block, two loops count rows and columns. On an arm that is only imagined twenty blocks take no time.
+# The paper's second example moves a stack onto a pallet: a guarded move feels for the top of the stack, a position
+# advances with each block, and two loops count rows and columns. On an arm without physics twenty blocks take no
+# time.
 
 # %%
 palletiser = handeye.TrigSession()
@@ -119,6 +120,5 @@ palletiser
 palletiser.type("RUN\nRUN -1000")
 
 # %% [markdown]
-# With physics, in a world with errors, and with a referee: `handeye trig palletise --out DIR`, which leaves a report.
-# For the pump, whose program is no list of places, the same idea takes more care: [take it apart
-# again](../docs/dismantling.md).
+# With physics, errors and a referee: `handeye trig palletise --out DIR`, which also writes a report. For the pump,
+# whose program is more than a list of places, undoing needs more care: [dismantling](../docs/dismantling.md).

@@ -53,7 +53,7 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
     state = element("p", "connecting", id="state", role="status")
     drive = element("button", "Take control", id="drive", type="button")
     looking = element("p", element("span", id="looking"), drive)
-    header = element("header", element("h1", f"{face.title}, live"), state, looking, class_="title")
+    header = element("header", element("h1", f"Live cell: {face.title}"), state, looking, class_="title")
     body = element(
         "body",
         header,
