@@ -1,4 +1,4 @@
-"""README, docs and help name the same commands and options, and docs/plan.md counts the plan as it is."""
+"""README, docs and help name the same commands and options."""
 
 import re
 from collections.abc import Iterator
@@ -11,7 +11,6 @@ from benchmarks.__main__ import app as benchmarks
 from handeye.cli import app
 from handeye.cli.commands import COMMANDS
 from handeye.cli.usage import FORMER
-from handeye.planfile.store import read_plan
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -119,20 +118,6 @@ def test_a_command_on_a_page_has_the_options_it_is_shown_with(page: Path) -> Non
 def test_an_option_of_another_command_is_strange() -> None:
     assert strange("trace show pump --seed 3") == {"--seed"}
     assert strange("report pump -o x.html --overwrite") == set()
-
-
-def test_the_page_of_the_plan_counts_steps_stages_and_motions_as_the_plan_has_them() -> None:
-    counted = re.search(
-        r"(\d+) steps in (\d+) stages, with (\d+) planned motions",
-        (ROOT / "docs" / "plan.md").read_text(encoding="utf-8"),
-    )
-    assert counted is not None
-    plan = read_plan(ROOT / "plans" / "water_pump.plan.json")
-    assert tuple(map(int, counted.groups())) == (
-        len(plan.program.steps),
-        len(plan.program.stages),
-        len(plan.motions),
-    )
 
 
 def test_lists_say_of_a_command_what_its_docstring_says_first() -> None:

@@ -1,14 +1,18 @@
 """The README: short, and its code does what it shows."""
 
+import json
 import re
+import runpy
 from pathlib import Path
 
 import pytest
 from conftest import Command
 
 from handeye import al
+from handeye.core import resources
 
-TEXT = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).parent.parent
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
 
 
@@ -34,6 +38,12 @@ def test_its_first_screen_says_what_it_is_shows_it_and_names_the_commands() -> N
     assert below
 
 
+def test_its_time_for_a_pump_is_that_of_the_recorded_run() -> None:
+    minutes, seconds = map(int, re.search(r"\*\*(\d+):(\d\d) min\*\* of simulated time", TEXT).groups())
+    recorded = json.loads((resources.demo() / "result.json").read_bytes())["timing"]["working_s"]
+    assert 60 * minutes + seconds == pytest.approx(recorded, abs=5)
+
+
 def test_its_program_gets_the_diagnostic_it_shows(command: Command) -> None:
     program, said = shown("al")
     typed, _, diagnostic = said.partition("\n")
@@ -51,3 +61,11 @@ def test_its_python_prints_what_it_shows(
     program, said = shown("python")
     exec(compile(program, "README.md", "exec"), {})  # noqa: S102 - our own page
     assert capsys.readouterr().out == said
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["program", "senses"])
+def test_its_drawn_pictures_show_what_is_so(name: str) -> None:
+    made = runpy.run_path(str(ROOT / "docs" / "make_readme_pictures.py"))
+    drawn = (ROOT / "docs" / "pictures" / f"{name}.svg").read_text(encoding="utf-8")
+    assert made[name]() == drawn, f"run: python docs/make_readme_pictures.py {name}"
