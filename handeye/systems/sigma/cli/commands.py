@@ -1,20 +1,37 @@
 """Commands of SUPERSIGMA: carry a MAL program out, try its interleavings, the words, and the console."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Details, Json, NoKeep, Out, Overwrite, WholeNumber, note, say, show
+from handeye.cli.common import (
+    Details,
+    Json,
+    NoKeep,
+    Out,
+    Overwrite,
+    WholeNumber,
+    answer,
+    note,
+    positive,
+    say,
+    show,
+)
 from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
 from handeye.core.diagnostics import has_errors, quoted, suggestion
 from handeye.core.errors import BadArgument, NoSuchName
+from handeye.core.plain_text import counted
 from handeye.core.source import Source, read_source
 from handeye.program.events import AnyEvent
 from handeye.runs.observer import Observer
+from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, ArmName
+
+if TYPE_CHECKING:
+    from handeye.systems.sigma.mal.interleavings import Interleavings
 
 MalFile = Annotated[Path, Parameter(help="A program in MAL, `.mal`.")]
 StatementTime = Annotated[
@@ -90,11 +107,71 @@ class Printer(Observer):
 
 def reported(source: Source) -> bool:
     """True if a program has no errors; its mistakes are shown."""
-    from handeye.systems.sigma.mal.check import checked
-
     found = checked(source)[1]
     show(found, source, json=False)
     return not has_errors(found)
+
+
+def check(
+    file: MalFile,
+    /,
+    *,
+    interleavings: Annotated[
+        bool,
+        Parameter(help="Try every order in which the tasks may go on, and show what goes wrong in which."),
+    ] = False,
+    most: Annotated[WholeNumber, Parameter(help="Stop after so many states.")] = 50_000,
+    json: Annotated[bool, Parameter(help="What was found as JSON.")] = False,
+) -> int:
+    """Check a program as `handeye check` does, and try the orders of its tasks.
+
+    A statement is one act; motions and delays take any time. Sensors answer 0, INPUT gets 0, and no motor is aborted.
+
+    Exit code 0: nothing found; 1: a deadlock, a race, or a statement that cannot be carried out; 2: bad input, or a
+    program with errors.
+    """
+    from handeye.systems.sigma.mal.compiler import program_of
+    from handeye.systems.sigma.mal.interleavings import interleavings as tried
+
+    positive(most, "state")
+    source = read_source(file)
+    if not interleavings:
+        found = checked(source)[1]
+        show(found, source, json=json)
+        if not found and not json:
+            say(f"{file}: no errors")
+        return 2 if has_errors(found) else 0
+    if not reported(source):
+        return 2
+    program = program_of(file.name, source.text)
+    if not program.lines:
+        raise BadArgument(f"{file} has no line that can be carried out")
+    result = tried(program, most)
+    answer(result, told_orders(str(file), result), json=json)
+    return 1 if result.findings else 0
+
+
+def told_orders(name: str, result: "Interleavings") -> Iterator[str]:
+    """What came of trying all orders: each finding, with a schedule for the first of its kind."""
+    from handeye.systems.sigma.mal.interleavings import KINDS, schedule_lines
+
+    shown: set[str] = set()
+    for finding in result.findings:
+        yield f"{finding.kind}: {KINDS[finding.kind]}"
+        yield f"    {finding.told}"
+        if finding.kind not in shown:
+            yield "  for example when they go on in this order"
+            yield from (f"    {line}" for line in schedule_lines(finding.schedule))
+        shown.add(finding.kind)
+    count = counted(result.states, "state")
+    orders = (
+        "all orders were tried"
+        if result.complete
+        else "not all orders were tried: `--most` sets how many states"
+    )
+    found = counted(len(result.findings), "finding") if result.findings else "no deadlock and no race"
+    ends = f"; the program ends in {counted(result.ends, 'different way')}" if result.ends > 1 else ""
+    yield f"{name}: {count}, {orders}; {found}{ends}"
 
 
 def words(word: str | None = None, /) -> int:
@@ -125,6 +202,6 @@ def words(word: str | None = None, /) -> int:
     return 0
 
 
-_COMMANDS: Final = (run, words)
+_COMMANDS: Final = (run, check, words)
 for _command in _COMMANDS:
     sigma.command(_command)

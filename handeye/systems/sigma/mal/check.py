@@ -1,10 +1,21 @@
 """What is wrong with a program whose lines are well formed: names, jumps, loops, flags, axes."""
 
-from collections.abc import Iterator, Sequence
+from bisect import bisect_left
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
-from handeye.core.diagnostics import Diagnostic, Label, alternatives, arranged, has_errors, quoted
+from handeye.core.diagnostics import (
+    LIMIT,
+    Diagnostic,
+    KnownNames,
+    Label,
+    SimilarName,
+    alternatives,
+    arranged,
+    has_errors,
+    quoted,
+)
 from handeye.core.source import Source
 from handeye.systems.sigma.mal.codes import mistake
 from handeye.systems.sigma.mal.parser import parsed
@@ -73,15 +84,17 @@ def expressions(statement: Statement) -> Iterator[Expression]:
 
 def parts(expression: Expression) -> Iterator[Expression]:
     """An expression and all that it is made of."""
-    yield expression
-    match expression:
-        case Unary(_, operand):
-            yield from parts(operand)
-        case Binary(_, left, right):
-            yield from parts(left)
-            yield from parts(right)
-        case Call(_, argument) if argument is not None and not isinstance(argument, Token):
-            yield from parts(argument)
+    left = [expression]
+    while left:
+        part = left.pop()
+        yield part
+        match part:
+            case Unary(_, operand):
+                left.append(operand)
+            case Binary(_, one, other):
+                left += (other, one)
+            case Call(_, argument) if argument is not None and not isinstance(argument, Token):
+                left.append(argument)
 
 
 def reads(statement: Statement) -> Iterator[Token]:
@@ -112,6 +125,12 @@ class _Task:
     name: str
     lines: list[Line] = field(default_factory=list)
 
+    def nearest(self, number: int) -> int:
+        """The line of the task whose number is nearest to this one."""
+        at = bisect_left(self.lines, number, key=lambda line: line.number)
+        near = [line.number for line in self.lines[max(0, at - 1) : at + 1]]
+        return min(near, key=lambda each: (abs(each - number), each))
+
     def having(self, word: str) -> Iterator[tuple[Line, Statement]]:
         """The statements of a word."""
         for line in self.lines:
@@ -125,6 +144,8 @@ class _Check:
 
     def __init__(self, lines: list[Line], *, complete: bool) -> None:
         self._lines, self._complete = lines, complete
+        self._told = 0
+        self._numbered = {line.number: line for line in lines}
         self._tasks: dict[str, _Task] = {MAIN: _Task(MAIN)}
         for line in lines:
             self._tasks.setdefault(line.task, _Task(line.task)).lines.append(line)
@@ -147,6 +168,11 @@ class _Check:
             yield from self._flags()
             yield from self._variables()
 
+    def _near(self, name: str, known: Collection[str]) -> SimilarName | KnownNames | None:
+        """Names that may be meant; none once more mistakes are told than are shown."""
+        self._told += 1
+        return alternatives(name, known) if self._told <= LIMIT else None
+
     def _task_names(self) -> Iterator[Diagnostic]:
         seen: dict[str, Token] = {}
         started = {
@@ -167,22 +193,21 @@ class _Check:
             seen.setdefault(name.text, name)
 
     def _named_tasks(self, statement: Statement) -> Iterator[Diagnostic]:
-        known = {*self._tasks} - {MAIN}
-        if statement.word == "KILL":
-            known.add(MAIN)
-        for name in statement.names if statement.word in ("START", "KILL") else ():
+        if statement.word not in ("START", "KILL"):
+            return
+        known = {*self._tasks} - ({MAIN} if statement.word == "START" else set())
+        for name in statement.names:
             if name.text not in known:
                 told = f"no task is called {quoted(name.text)}"
-                yield mistake("task-missing", told, name.span, meant=alternatives(name.text, known))
+                yield mistake("task-missing", told, name.span, meant=self._near(name.text, known))
 
     def _jump(self, line: Line, statement: Statement) -> Iterator[Diagnostic]:
         if statement.target is None:
             return
         number = int(statement.target.text)
-        goal = next((each for each in self._lines if each.number == number), None)
+        goal = self._numbered.get(number)
         if goal is None:
-            own = [each.number for each in self._tasks[line.task].lines]
-            near = min(own, key=lambda each: (abs(each - number), each))
+            near = self._tasks[line.task].nearest(number)
             told = f"there is no line {number}"
             yield mistake(
                 "line-missing", told, statement.target.span, help=f"the nearest line of {line.task} is {near}"
@@ -230,7 +255,7 @@ class _Check:
             for flag in statement.names:
                 if flag.text not in set_somewhere:
                     told = f"no line sets the flag {flag.text}: this waits for ever"
-                    near = alternatives(flag.text, set_somewhere)
+                    near = self._near(flag.text, set_somewhere)
                     yield mistake("flag-never-set", told, flag.span, meant=near)
 
     def _variables(self) -> Iterator[Diagnostic]:
@@ -241,7 +266,7 @@ class _Check:
                 if name.text not in set_somewhere | seen:
                     seen.add(name.text)
                     told = f"no line sets the variable {name.text}: it holds 0"
-                    near = alternatives(name.text, set_somewhere)
+                    near = self._near(name.text, set_somewhere)
                     yield mistake("variable-never-set", told, name.span, meant=near)
             if statement.word == "NEXT" and statement.names[0].text in seen:
                 seen.discard(statement.names[0].text)

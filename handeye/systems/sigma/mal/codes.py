@@ -110,6 +110,10 @@ CODES: Final[dict[str, MalCode]] = {
         meaning="an expression or a statement is nested more than 30 deep",
         example=f"10 A = {'(' * 40}1{')' * 40}", cure="use a variable for a part of it",
     ),
+    "too-many-lines": MalCode(
+        meaning="a program has more than 5000 lines", example="\n".join(f"{n} END" for n in range(1, 5002)),
+        cure="use GOSUB for what is done several times",
+    ),
     "unknown-statement": MalCode(
         meaning="a line begins with no statement of MAL", example="10 MOOVE X1 TO 5",
         cure="`handeye sigma words` lists the statements",

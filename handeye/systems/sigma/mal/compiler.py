@@ -327,23 +327,24 @@ class _Ways:
             if op in ("GO", "CALL"):
                 found.append(self._index.get(target))
             elif op == "NEXT":
-                found += [self._after(loop) for loop in self._having("FOR", line.task, operand)]
+                found += self._behind.get((line.task, "FOR", operand), [])
             elif op == "RET":
-                found += [self._after(call) for call in self._having("CALL", line.task)]
+                found += self._behind.get((line.task, "CALL", None), [])
             elif op in ("END", "HALT"):
                 found.append(None)
         if line.word == "IF" or code[0].op not in ("GO", "RET", "END", "HALT", "CALL", "RESUME"):
             found.append(self._after(index))
         return tuple(dict.fromkeys(found)) or (None,)
 
-    def _having(self, op: Op, task: str, operand: Operand = None) -> list[int]:
-        """Lines of a task that have an instruction, with this operand if one is given."""
-        return [
-            number
-            for number, line in enumerate(self._program.lines)
-            if line.task == task
-            and any(each.op == op and operand in (None, each.operand) for each in self._code(number))
-        ]
+    @cached_property
+    def _behind(self) -> dict[tuple[str, str, Operand], list[int | None]]:
+        """The lines behind each FOR and GOSUB, by task, instruction and operand."""
+        behind: dict[tuple[str, str, Operand], list[int | None]] = {}
+        for index, line in enumerate(self._program.lines):
+            for op, operand, _ in self._code(index):
+                if op in ("FOR", "CALL"):
+                    behind.setdefault((line.task, op, operand), []).append(self._after(index))
+        return behind
 
     def _after(self, index: int) -> int | None:
         lines = self._program.lines

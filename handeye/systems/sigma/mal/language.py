@@ -14,6 +14,7 @@ from handeye.systems.sigma.mal.syntax import MAIN
 from handeye.systems.sigma.mal.words import MAL_DEVICES, STATEMENTS, WORDS, explained
 from handeye.systems.sigma.protocol import AXES
 
+LONGEST_EXAMPLE: Final = 10  # lines that are shown
 _AXIS_NEXT: Final = {"MOVE", "ORIGIN", "SPEED", "CURVE", "LIMIT", "ABORT"}
 _FLAG_NEXT: Final = {"SET", "RESET", "WAIT", "TAKE"}
 _LINE_NEXT: Final = {"GOTO", "GOSUB", "THEN", "ELSE"}
@@ -88,10 +89,11 @@ def code_explained(code: str) -> str | None:
         return None
     source = Source(name="example.mal", text=known.example)
     shown = next(each for each in checked(source)[1] if each.code == code.casefold())
-    text = "\n".join(
-        f"    {line}"[:100].rstrip()
-        for line in (*known.example.split("\n"), "", *render(shown, source).split("\n"))
-    )
+    example = known.example.split("\n")
+    if len(example) > LONGEST_EXAMPLE:
+        example = [*example[:2], "...", example[-1]]
+    lines = (*example, "", *render(shown, source).split("\n"))
+    text = "\n".join(f"    {line}"[:100].rstrip() for line in lines)
     return (
         f"{known.severity}[{code.casefold()}]: {known.meaning}\ncure: {known.cure}\n\nfor example\n\n{text}"
     )

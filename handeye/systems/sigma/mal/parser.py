@@ -25,7 +25,8 @@ from handeye.systems.sigma.mal.syntax import (
 from handeye.systems.sigma.mal.words import FUNCTIONS, MAL_DEVICES, RESERVED, STATEMENTS, WORDS
 from handeye.systems.sigma.protocol import AXES
 
-MOST_LINES: Final = 99_999
+LARGEST_NUMBER: Final = 99_999  # of a line
+MOST_LINES: Final = 5000
 DEEPEST: Final = 30
 _RELATIONS: Final = ("=", "<>", "<", ">", "<=", ">=")
 _OF_AXES: Final = ("POS", "FORCE", "CRASHPOS", "STATUS")
@@ -46,6 +47,9 @@ def parsed(source: Source) -> tuple[list[Line], list[Diagnostic]]:
     start, task = 0, MAIN
     for row, text in enumerate(source.text.split("\n"), 1):
         here, length = text.removesuffix("\r"), len(text)
+        if len(lines) == MOST_LINES and here.strip(" \t"):
+            told = f"a program has {MOST_LINES} lines at most"
+            return lines, [*found, mistake("too-many-lines", told, Span(start=start, end=start + 1))]
         if here.strip(" \t"):
             line, wrong = parsed_line(here, start, row, task)
             if line is not None:
@@ -78,8 +82,8 @@ def parsed_line(text: str, start: int, row: int, task: str) -> tuple[Line | None
 
 def _line_number(token: Token) -> int:
     number = float(token.text) if token.kind == "number" else 0
-    if not token.text.isdigit() or not 1 <= number <= MOST_LINES:
-        told = f"a line begins with its number, from 1 to {MOST_LINES}, and not with {quoted(token.text)}"
+    if not token.text.isdigit() or not 1 <= number <= LARGEST_NUMBER:
+        told = f"a line begins with its number, from 1 to {LARGEST_NUMBER}, and not with {quoted(token.text)}"
         raise Mistaken(mistake("line-number", told, token.span))
     return int(token.text)
 

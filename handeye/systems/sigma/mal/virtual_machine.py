@@ -141,10 +141,6 @@ class VirtualMachine:
         """Give the turn to a task, whose statement it can begin."""
         self.memory.turn = task
 
-    def able(self) -> list[str]:
-        """The tasks that could begin a statement now, in the order of turns; what they waited for is done with."""
-        return [name for name in self._order() if self._goes_on(name)]
-
     def proceed(self) -> None:
         """Go on behind the statement at which the program stands."""
         fault = self._unfault()
@@ -218,13 +214,13 @@ class VirtualMachine:
 
     def _ready(self) -> str | None:
         for name in self._order():
-            if name in self.memory.tasks and self._goes_on(name):
+            if name in self.memory.tasks and self.goes_on(name):
                 return name
             if self.memory.fault is not None:
                 return None
         return None
 
-    def _goes_on(self, name: str) -> bool:
+    def goes_on(self, name: str) -> bool:
         """Finish what a task waited for, if that has come about; True if it can begin a statement then."""
         task = self.memory.tasks[name]
         if task.amid:

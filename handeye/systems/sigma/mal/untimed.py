@@ -1,0 +1,82 @@
+"""A machine without time: a motion has begun or has ended, and which of several ends first is anybody's guess."""
+
+from typing import Final
+
+from msgspec import field
+
+from handeye.core.errors import BadFile
+from handeye.core.mutable_records import MutableRecord, put_back
+from handeye.ports.microbus import PAGE, Command, MicrobusPort, Status
+from handeye.systems.sigma.protocol import AXES, NUMBERS, Op
+
+AXIS_OF: Final = {NUMBERS[axis]: axis for axis in AXES}
+
+
+class UntimedMemory(MutableRecord, kw_only=True):
+    """Where axes are, and what is under way."""
+
+    places: dict[str, int] = field(default_factory=dict)  # steps
+    moving: dict[str, int] = field(default_factory=dict)  # steps of the motions under way
+
+
+class UntimedMachine(MicrobusPort):
+    """Sensors answer 0. Axes of `instant` are at their places as soon as they are sent there."""
+
+    def __init__(self, instant: frozenset[str]) -> None:
+        self.state, self._instant = UntimedMemory(), instant
+        self._answer = b""
+
+    @property
+    def now(self) -> int:
+        return 0
+
+    @property
+    def next_event(self) -> None:
+        return None
+
+    def wait(self, until: int) -> int:
+        return 0
+
+    @property
+    def free(self) -> bool:
+        return True
+
+    def begin(self, command: Command, answer: int = 0) -> None:
+        self._answer = bytes(answer)
+        axis = AXIS_OF.get(command.number)
+        if axis is None or command.op not in (Op.MOVE, Op.MOVE_SLOW, Op.ORIGIN):
+            return
+        place = self.state.places.get(axis, 0)
+        steps = -command.value if command.detail & 1 else command.value
+        self.state.moving[axis] = -place if command.op == Op.ORIGIN else steps
+        if axis in self._instant:
+            self.arrive(axis)
+
+    def arrive(self, axis: str) -> None:
+        """End the motion of an axis."""
+        self.state.places[axis] = self.state.places.get(axis, 0) + self.state.moving.pop(axis)
+
+    def reach(self, axis: str) -> int:
+        """The farthest place at which an axis may be now, steps."""
+        place = self.state.places.get(axis, 0)
+        return max(place, place + self.state.moving.get(axis, 0))
+
+    def answer(self) -> bytes:
+        return self._answer
+
+    def page(self, number: int) -> int:
+        busy = (AXIS_OF.get(PAGE * number + n, "") in self.state.moving for n in range(PAGE))
+        return sum((Status.BUSY if each else Status.FREE) << 2 * n for n, each in enumerate(busy))
+
+    @property
+    def interrupt(self) -> bool:
+        return False
+
+    @property
+    def memory(self) -> UntimedMemory:
+        return self.state
+
+    def remember(self, memory: MutableRecord) -> None:
+        if not isinstance(memory, UntimedMemory):
+            raise BadFile("what the machine remembers is not of a machine without time")
+        put_back(self.state, memory)
