@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Set handeye up and run it, with nothing but Python 3.11 or newer.
 
-python3 run.py assemble         make .venv, install the locked packages and handeye, assemble the pump
+python3 run.py demo             make .venv, install the locked packages and handeye, show a recorded run
+python3 run.py assemble         the same, then assemble the pump
 python3 run.py test             the same, with the test tools, then the test suite
 python3 run.py test browser     the same, then the checks of the pages in a browser, which needs Chromium
 python3 run.py WORD ...         the same as `handeye WORD ...`

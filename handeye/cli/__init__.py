@@ -25,8 +25,9 @@ _NO_MEMORY: Final = "allocate memory"
 app = App(
     name="handeye",
     version=HANDEYE,
-    help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.\n\n`handeye COMMAND --help` shows the "
-    "options of a command.",
+    help="A simulated robot arm that assembles a water pump by camera, touch and force, as Stanford did in 1973.\n\n"
+    "Try `handeye demo` first. `handeye COMMAND --help` shows the options of a command; `handeye docs` lists the "
+    "pages of the documentation.",
     suppress_keyboard_interrupt=False,
     default_parameter=Parameter(negative=""),
     console=screen,
