@@ -1,6 +1,6 @@
-"""Makes the pictures of docs/ anew, and README's film of the recorded demonstration; but for `pipeline.svg`, drawn by
-hand, `report.webp`, which `make_report_picture.py` makes by a browser, the three of `make_readme_pictures.py`, and
-`apart.webp` and `palletiser*.webp`, made as docs/dismantling.md and docs/trig.md say.
+"""Makes the pictures of docs/ anew; but for those of README (`make_readme_pictures.py`), `pipeline.svg`, drawn by hand,
+`report.webp` (`make_report_picture.py`), and `apart.webp` and `palletiser*.webp`, made as docs/dismantling.md and
+docs/trig.md say.
 
 python docs/make_pictures.py [DIR]
 
@@ -20,7 +20,6 @@ sys.path.insert(0, str(ROOT))
 import make_photographs  # noqa: E402
 
 import handeye  # noqa: E402
-from handeye.core.resources import demo  # noqa: E402
 from handeye.inspection.drawing import flow_svg  # noqa: E402
 from handeye.inspection.flow import flow  # noqa: E402
 from handeye.planfile.store import read_plan  # noqa: E402
@@ -45,13 +44,6 @@ def photographed(name: str, trace: "handeye.Trace", camera: str) -> None:
     cv2.imwrite(str(PICTURES / name), picture[:, :, ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 9])
 
 
-def filmed(name: str) -> None:
-    """The whole run of `handeye demo`, from nearby."""
-    handeye.open(demo() / "trace.mcap").video(
-        PICTURES / name, camera="follow", captions=True, seconds=18, width=520, height=390, overwrite=True
-    )
-
-
 def drawn(name: str, stage: int) -> None:
     """The flow of a stage of the plan."""
     plan = read_plan(ROOT / "plans" / "water_pump.plan.json")
@@ -66,7 +58,6 @@ def make(run: Path) -> None:
     kept("base_found.png", run / "pictures" / "close_up.png", SEEN)
     kept("gasket_checked.png", run / "pictures" / "after.png", SEEN)
     make_photographs.make(trace)
-    filmed("assembly.webp")
     drawn("pins.svg", PINS)
 
 

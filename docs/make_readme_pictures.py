@@ -1,9 +1,9 @@
-"""Makes README's three small pictures: a mistake that is found, a run that is replayed, what each sense is worth.
+"""Makes README's pictures: the film, a mistake that is found, a run that is replayed, what each sense is worth.
 
 python docs/make_readme_pictures.py [NAME ...]
 
-NAME is `program`, `replay` or `senses`; without one, all are made. The replay takes OpenGL and a Chromium, as
-docs/make_report_picture.py does.
+NAME is `film`, `program`, `replay` or `senses`; without one, all are made. Film and replay are of the run of `handeye
+demo` and take OpenGL; the replay takes a Chromium, too, as docs/make_report_picture.py does.
 """
 
 import re
@@ -25,6 +25,7 @@ from pygments.token import Comment, Keyword, Name, Token  # noqa: E402
 
 import handeye  # noqa: E402
 from handeye.al.highlight import ArmLexer  # noqa: E402
+from handeye.core.resources import demo  # noqa: E402
 
 PICTURES = ROOT / "docs" / "pictures"
 WIDTH, HEIGHT = 420, 300
@@ -116,12 +117,19 @@ def senses() -> str:
     return "\n".join([*rows, "</svg>\n"])
 
 
+def film() -> None:
+    """The whole run, from nearby."""
+    handeye.open(demo() / "trace.mcap").video(
+        PICTURES / "assembly.webp", camera="follow", captions=True, seconds=18, width=520, height=390,
+        overwrite=True,
+    )  # fmt: skip
+
+
 def replay() -> np.ndarray:
     """The player of a report, beside the program."""
     from make_report_picture import screenshot
 
     from handeye.cli.reports import write_report
-    from handeye.core.resources import demo
 
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.html"
@@ -132,8 +140,10 @@ def replay() -> np.ndarray:
 
 
 if __name__ == "__main__":
-    for name in sys.argv[1:] or ("program", "senses", "replay"):
-        if name == "replay":
+    for name in sys.argv[1:] or ("film", "program", "senses", "replay"):
+        if name == "film":
+            film()
+        elif name == "replay":
             cv2.imwrite(str(PICTURES / "replay.webp"), replay(), [cv2.IMWRITE_WEBP_QUALITY, 85])
         else:
             drawn = {"program": program, "senses": senses}[name]()

@@ -54,3 +54,18 @@ def test_every_link_of_a_page_leads_to_a_file(page: Path) -> None:
     text = of_today(page)
     links = {link.split("#")[0] for link in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in link}
     assert {link for link in links if link and not (page.parent / link).exists()} == set()
+
+
+def headings(page: Path) -> set[str]:
+    """The anchors of a page: its headings as GitHub writes them."""
+    text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    titles = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    plain = [re.sub(r"\[(.*?)\]\(.*?\)", r"\1", title).lower() for title in titles]
+    return {re.sub(r"[^\w\- ]", "", title).replace(" ", "-") for title in plain}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_anchor_of_a_page_is_a_heading(page: Path) -> None:
+    links = re.findall(r"\]\(((?!https?:)[^)\s#]*)#([^)\s]+)\)", of_today(page))
+    pages = [(page.parent / file if file else page, anchor) for file, anchor in links]
+    assert [anchor for file, anchor in pages if file.suffix == ".md" and anchor not in headings(file)] == []
