@@ -1,5 +1,6 @@
 """Commands of SUPERSIGMA: carry a MAL program out, try its interleavings, the words, and the console."""
 
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
@@ -21,7 +22,7 @@ from handeye.cli.common import (
 )
 from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
 from handeye.core.diagnostics import has_errors, quoted, suggestion
-from handeye.core.errors import BadArgument, NoSuchName
+from handeye.core.errors import BadArgument, InvalidInput, NoSuchName
 from handeye.core.plain_text import counted
 from handeye.core.source import Source, read_source
 from handeye.program.events import AnyEvent
@@ -202,6 +203,39 @@ def words(word: str | None = None, /) -> int:
     return 0
 
 
+def console(
+    file: Annotated[Path | None, Parameter(help="A program to begin with, `.mal`.")] = None, /
+) -> int:
+    """Open the console of 1981: type a program by numbered lines, and NEW LOAD SAVE LIST COMPILE RUN BREAK STATUS.
+
+    Exit code 0: left; 2: bad input, or a line that was piped in was refused; 130: interrupted.
+    """
+    from handeye.cli.panic_button import PanicButton
+    from handeye.cli.prompt import typed_lines
+    from handeye.systems.sigma.cli.console import Console
+
+    terminal, code = sys.stdin.isatty(), 0
+    with PanicButton() as panic:
+
+        def asked(prompt: str) -> str | None:
+            return next(typed_lines(prompt if terminal else "", panic.aside, lambda: ()), None)
+
+        session = Console(say, asked, panic)
+        if file is not None:
+            session.hear(f"LOAD {file}")
+        lines = typed_lines("* " if terminal else "", panic.aside, session.words)
+        for line in lines:
+            try:
+                session.hear(line)
+            except InvalidInput as error:
+                say(str(error))
+                code = 2
+            if session.over:
+                break
+    return 0 if terminal else code
+
+
 _COMMANDS: Final = (run, check, words)
+sigma.default(console)
 for _command in _COMMANDS:
     sigma.command(_command)
