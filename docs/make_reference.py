@@ -80,6 +80,9 @@ GROUPS: Final = {
     "Programs that are taught": {
         "handeye.TrigSession": "systems.trig.session_api.TrigSession",
     },
+    "A bus of microcomputers": {
+        "handeye.Microbus": "systems.sigma.microbus_api.Microbus",
+    },
     "Vision": {
         "handeye.vision.Scan": "vision.scan.Scan",
         "handeye.vision.beams": "vision.door.beams",

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     )
     from handeye.judge.finding import Finding, at_least, at_most
     from handeye.results.result import Result
+    from handeye.systems.sigma.microbus_api import Microbus
     from handeye.systems.trig.session_api import TrigSession
     from handeye.tasks.interface import Task
 
@@ -49,6 +50,7 @@ __all__ = [
     "Finding",
     "HandeyeError",
     "InvalidInput",
+    "Microbus",
     "NoSuchName",
     "PhysicsFailed",
     "Plan",
@@ -85,6 +87,7 @@ _HOMES = {
     "Finding": "handeye.judge.finding",
     "HandeyeError": "handeye.core.errors",
     "InvalidInput": "handeye.core.errors",
+    "Microbus": "handeye.systems.sigma.microbus_api",
     "NoSuchName": "handeye.core.errors",
     "PhysicsFailed": "handeye.core.errors",
     "Plan": "handeye.api.plans",

@@ -14,6 +14,7 @@ STEPS_PER_TURN: Final = 400
 FORCE_STEP_N: Final = 0.01  # of forces and thresholds on the bus
 STANDARD: Final = 0xFFFF  # a threshold that restores the standard one
 LONGEST_MOVE: Final = 0xFFFF  # steps of one command
+SLOWEST: Final = 31  # steps/s that a counter of 16 bits can make of 2 MHz
 SLOW_STEP_MM: Final = 2  # mm/s, the speed that each unit of a speed code stands for: 2 to 254 mm/s
 
 _NAMES: Final = ("X1", "Y1", "Z1", "FORCE1", "HAND1", "X2", "Y2", "Z2", "FORCE2", "HAND2")
@@ -120,9 +121,8 @@ def move_slow(axis: str | int, steps: int, speed: float) -> Command:
 
 def limit_speed(axis: str | int, speed: int) -> Command:
     """Never move faster than a speed, steps/s; 0: as fast as the curve says."""
-    return Command(
-        number=number_of(axis), op=Op.LIMIT_SPEED, value=within(speed, 0, 0xFFFF, "a limit in steps/s")
-    )
+    limit = within(speed, SLOWEST, 0xFFFF, "a limit in steps/s") if speed else 0
+    return Command(number=number_of(axis), op=Op.LIMIT_SPEED, value=limit)
 
 
 def origin(axis: str | int) -> Command:

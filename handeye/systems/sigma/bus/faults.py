@@ -1,5 +1,6 @@
 """What can be wrong with a bus, each asked for by name."""
 
+from collections.abc import Container
 from typing import Final
 
 from handeye.core.diagnostics import quoted
@@ -43,7 +44,7 @@ KINDS: Final[dict[str, Defects]] = {
     "clock": Defects(
         help="the clock of a microcomputer is slow, or fast if negative",
         where="microcomputer",
-        value="per mille",
+        value="permille",
         amount=200,
         least=-500,
         most=500,
@@ -95,3 +96,13 @@ def _number(text: str, what: str, least: int, most: int) -> int:
     if not least <= number <= most:
         raise BadArgument(f"the {what} of a fault is from {least} to {most}, not {number}")
     return number
+
+
+def check_place(defect: BusDefect, segments: int, numbers: Container[int]) -> None:
+    """Raise BadArgument if there is nothing on the bus that could have a fault."""
+    where = KINDS[defect.kind].where
+    if where == "segment" and not (defect.kind == "no-turn") <= defect.where < segments:
+        what = "regenerator before segment" if defect.kind == "no-turn" else "segment"
+        raise BadArgument(f"there is no {what} {defect.where} on this bus")
+    if where == "microcomputer" and defect.where not in numbers:
+        raise BadArgument(f"there is no microcomputer {defect.where} on this bus")

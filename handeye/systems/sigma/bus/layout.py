@@ -5,7 +5,7 @@ from typing import Final, Literal
 from handeye.core.errors import BadArgument
 from handeye.core.record import Record
 from handeye.ports.microbus import PAGE
-from handeye.systems.sigma.protocol import AXES, COMPONENTS, NUMBERS, name_of
+from handeye.systems.sigma.protocol import COMPONENTS, NUMBERS, name_of
 
 FAN_OUT: Final = 10  # microcomputers on a segment
 PAGE_BITS: Final = 4  # output bits of the central computer that choose a page
@@ -33,10 +33,20 @@ class Layout(Record, frozen=True, kw_only=True):
 
     @property
     def reflexes(self) -> dict[tuple[int, int], int]:
-        """The motor that each component of each force microcomputer interrupts."""
-        there = {place.number for place in self.places}
-        wired = {(NUMBERS[f"FORCE{axis[1]}"], COMPONENTS.index(axis[0])): NUMBERS[axis] for axis in AXES}
-        return {pair: motor for pair, motor in wired.items() if {pair[0], motor} <= there}
+        """The motor that each component of each force microcomputer interrupts: the three numbers before its own."""
+        motors = {place.number for place in self.places if place.kind == "motor"}
+        wired = {
+            (place.number, component): place.number - len(COMPONENTS) + component
+            for place in self.places
+            if place.kind == "force"
+            for component in range(len(COMPONENTS))
+        }
+        return {pair: motor for pair, motor in wired.items() if motor in motors}
+
+    @property
+    def segments(self) -> list[list[int]]:
+        """Numbers of the microcomputers on each segment."""
+        return [[p.number for p in self.places if p.segment == s] for s in range(len(self.behind))]
 
     @property
     def pages(self) -> int:
@@ -85,3 +95,17 @@ SUPERSIGMA: Final = Layout(
     places=tuple(Place(number=number, kind=_kind(name)) for name, number in NUMBERS.items())
 )
 """Two arms, which fill one segment."""
+
+_FEEDING: Final[tuple[Kind, ...]] = ("motor", "motor", "hand", "motor", "sensor", "hand")
+LINE: Final = Layout(
+    places=(
+        *SUPERSIGMA.places,
+        *(Place(number=10 + place.number, kind=place.kind, segment=1) for place in SUPERSIGMA.places),
+        *(
+            Place(number=20 + place, kind=kind, segment=2, length=6 if kind == "sensor" else 0)
+            for place, kind in enumerate(_FEEDING)
+        ),
+    ),
+    behind=(-1, 0, 1),
+)
+"""An assembly line: two SUPERSIGMAs, and behind them what brings pieces and takes them away; 26 microcomputers."""

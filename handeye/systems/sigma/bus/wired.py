@@ -22,7 +22,7 @@ from handeye.systems.sigma.bus.events import (
     InterruptLine,
     StatusLines,
 )
-from handeye.systems.sigma.bus.faults import BusDefect
+from handeye.systems.sigma.bus.faults import BusDefect, check_place
 from handeye.systems.sigma.bus.layout import SUPERSIGMA, Layout, Place
 from handeye.systems.sigma.bus.microcomputer import Microcomputer, NodeMemory, Taken
 from handeye.systems.sigma.bus.plant import IdealMachine, IdealMemory, Plant
@@ -82,6 +82,8 @@ class WiredBus(MicrobusPort):
             clock_spread: How far clocks are off at most, as a share: .005.
         """
         layout.check()
+        for defect in defects:
+            check_place(defect, len(layout.behind), [place.number for place in layout.places])
         self.layout, self.timing = layout, timing or Timing()
         self.plant: Plant[Any] = plant or IdealMachine()
         self._wired = layout.reflexes

@@ -27,6 +27,8 @@ from handeye.core.plain_text import counted
 from handeye.core.source import Source, read_source
 from handeye.program.events import AnyEvent
 from handeye.runs.observer import Observer
+from handeye.systems.sigma.cli.axis import axis
+from handeye.systems.sigma.cli.bus import bus
 from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, ArmName
@@ -235,7 +237,7 @@ def console(
     return 0 if terminal else code
 
 
-_COMMANDS: Final = (run, check, words)
+_COMMANDS: Final = (run, check, words, axis, bus)
 sigma.default(console)
 for _command in _COMMANDS:
     sigma.command(_command)

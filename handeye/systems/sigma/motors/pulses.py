@@ -123,6 +123,15 @@ def stop(speed: float, curve: Curve) -> Train:
     return Train(kind="stop", steps=steps, start=curve.start, top=speed, acceleration=EMERGENCY)
 
 
+def stopped(train: Train, curve: Curve, ticks: int, *, cut: bool = False) -> Pulses:
+    """Pulses of a train that is interrupted after some ticks: by the steepest ramp, or `cut` off, which is a fault."""
+    pulses = train.pulses
+    made = pulses.ticks[: pulses.count(ticks)]
+    if cut:
+        return Pulses(made.copy())
+    return Pulses(np.concatenate((made, ticks + stop(pulses.speed(ticks), curve).pulses.ticks)))
+
+
 @lru_cache(maxsize=512)
 def _pulses(train: Train) -> Pulses:
     seconds = _stop_times(train) if train.kind == "stop" else _profile_times(train)

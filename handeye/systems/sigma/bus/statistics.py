@@ -1,0 +1,81 @@
+"""How often commands are misread, by how far the clocks of receivers may be off."""
+
+from typing import Final
+
+from handeye.core.distributions import random_numbers
+from handeye.core.record import Record
+from handeye.systems.sigma.bus.layout import Layout, Place
+from handeye.systems.sigma.bus.microcomputer import Microcomputer
+from handeye.systems.sigma.bus.wires import Sending, Wires
+from handeye.systems.sigma.firmware.device import PS
+from handeye.systems.sigma.protocol import Timing
+
+_ANOTHER: Final = Layout(places=(Place(number=1, kind="motor"),))
+_AT_ONCE: Final = 10_000  # commands whose numbers are drawn together
+
+
+class Rate(Record, frozen=True, kw_only=True):
+    """What came of drawn commands to one free microcomputer."""
+
+    clock: float  # the most that a clock is off, as a share
+    commands: int
+    whole: int  # taken as they were sent
+    missed: int  # the microcomputer became free when the strobe was over
+    misread: int
+    fast: float | None  # the least that a fast clock was off whose receiver misread one; None: none did
+    slow: float | None  # of a slow one
+
+
+def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None = None) -> Rate:
+    """Draw commands of random bytes, receivers that become free at a random moment, and clocks within a share.
+
+    A receiver becomes free up to a command before the command begins, or in the middle of it.
+    """
+    timing = timing or Timing()
+    wires = Wires(_ANOTHER, timing, ())
+    drawn = random_numbers(seed, f"bus errors {clock:g}")
+    whole = missed = 0
+    wrong: list[float] = []
+    start = timing.command  # µs, so that no moment is negative
+    for first in range(0, commands, _AT_ONCE):
+        count = min(_AT_ONCE, commands - first)
+        clocks = drawn.uniform(-clock, clock, count)
+        frees = drawn.integers(0, 2 * timing.command * PS, count)
+        frames = drawn.integers(0, 256, (count, 5), dtype="uint8")
+        for share, free, frame in zip(clocks.tolist(), frees.tolist(), frames, strict=True):
+            sending = Sending(
+                start=start, frame=frame.tobytes(), falls=timing.strobe_falls, rises=timing.strobe_rises
+            )
+            taken = _taken(wires, timing, sending, round(share * PS), free)
+            if taken is None:
+                missed += 1
+            elif taken == sending.frame:
+                whole += 1
+            else:
+                wrong.append(share)
+    return Rate(
+        clock=clock,
+        commands=commands,
+        whole=whole,
+        missed=missed,
+        misread=len(wrong),
+        fast=min((-share for share in wrong if share < 0), default=None),
+        slow=min((share for share in wrong if share > 0), default=None),
+    )
+
+
+def _taken(wires: Wires, timing: Timing, sending: Sending, ppm: int, free: int) -> bytes | None:
+    """What a receiver takes that becomes free at a moment, ps; None: nothing."""
+    node = Microcomputer(
+        _ANOTHER.places[0], timing, answers_to=256, ppm=ppm, phase=free, dead=False
+    )  # one of no number, so that it acts on nothing
+    passed = node.listen(free, (sending,), wires, quiet=True)
+    if passed:
+        return passed[0].frame
+    if node.memory.noticed is None:
+        return None
+    due = node.due
+    assert due is not None
+    taken = node.receive(due, (sending,), (), wires)
+    assert taken is not None
+    return taken.frame

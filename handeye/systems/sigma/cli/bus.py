@@ -1,0 +1,204 @@
+"""Commands that show the MICROBUS, and how often it errs."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Final
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import Json, Overwrite, WholeNumber, positive, put_json, say, screen
+from handeye.core.errors import BadArgument
+from handeye.core.files import Kind, check_place, write_over
+from handeye.core.plain_text import counted
+
+DRAWING: Final = Kind("SVG drawing", rb"<\?xml|<svg ", ending=".svg")
+_PERCENTS: Final = (1.0, 2.0, 4.0, 5.0, 6.0, 10.0, 15.0)
+_MOST_PERCENT: Final = 50.0
+
+BusFaults = Annotated[
+    list[str] | None,
+    Parameter(
+        name="--fault",
+        negative=(),
+        help="What is wrong with the bus, as KIND, KIND:WHERE or KIND:WHERE:VALUE; `handeye sigma bus faults` lists "
+        "them. May be given again.",
+    ),
+]
+Seed = Annotated[WholeNumber, Parameter(help="Draws when each microcomputer begins to poll.")]
+
+bus = App(name="bus", help="The MICROBUS: what is on its lines, what each receiver takes, and how it fails.")
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawingOptions:
+    """Where the timing diagram is drawn."""
+
+    svg: Annotated[Path | None, Parameter(help="Draw the timing diagrams into this file (.svg).")] = None
+    overwrite: Overwrite = False
+
+    def check(self) -> None:
+        """Raise InvalidInput if it could not be written afterwards."""
+        if self.svg is not None:
+            check_place(self.svg, DRAWING, overwrite=self.overwrite)
+
+    def write(self, drawn: str) -> None:
+        """Write it, if it is wanted."""
+        if self.svg is not None:
+            write_over(self.svg, drawn.encode(), DRAWING)
+
+
+NO_DRAWING: Final = DrawingOptions()
+
+
+def demo(
+    *,
+    late_riser: Annotated[
+        bool,
+        Parameter(negative=(), help="Let Y1 become free in the middle of a command to X1."),
+    ] = False,
+    fault: BusFaults = None,
+    all_lines: Annotated[
+        bool, Parameter(negative=(), help="Show status lines that do not change, too: all twenty.")
+    ] = False,
+    seed: Seed = 0,
+    json: Json = False,
+    drawing: DrawingOptions = NO_DRAWING,
+) -> int:
+    """Send a command and ask a question, and show all lines and what each receiver takes from them.
+
+    The bytes of the command to X1 are, from the second on, a command to Y1. A late riser ignores them; with
+    `--fault long-strobe` it takes them for its own.
+
+    Exit code 0: every byte arrived as it was sent; 1: not so; 2: bad input.
+    """
+    from handeye.systems.sigma.bus.demo import demonstrate, told, verdict
+    from handeye.systems.sigma.bus.diagram import as_svg, as_text
+    from handeye.systems.sigma.bus.faults import defect
+
+    drawing.check()
+    shown = demonstrate(
+        [defect(text) for text in fault or ()], late_riser=late_riser, seed=seed, all_lines=all_lines
+    )
+    drawing.write(as_svg(*shown.diagrams))
+    if json:
+        put_json(
+            {
+                "right": shown.right,
+                "message": "; ".join(verdict(shown)),
+                "count": shown.found,
+                "expected": shown.wanted,
+                "log": told(shown),
+                "events": sorted(shown.log, key=lambda event: event.at),
+            }
+        )
+    else:
+        for number, each in enumerate(shown.diagrams):
+            if number:
+                say("")
+            for line in as_text(each, screen.width, ascii=_no_bars(screen.encoding)):
+                say(line, whole=True)
+        say("")
+        for line in verdict(shown):
+            say(line)
+    return 0 if shown.right else 1
+
+
+def errors(
+    *,
+    clock: Annotated[
+        list[float] | None,
+        Parameter(
+            help="Percent that clocks are off at most; may be given again. By default 1 to 15.", negative=()
+        ),
+    ] = None,
+    commands: Annotated[WholeNumber, Parameter(help="Commands to draw for each.")] = 200_000,
+    seed: Annotated[WholeNumber, Parameter(help="Draws bytes, clocks, and when receivers become free.")] = 0,
+    json: Json = False,
+) -> int:
+    """Draw commands, clocks, and moments at which a receiver becomes free, and count what is misread.
+
+    Exit code 0: counted; 2: bad input.
+    """
+    from handeye.systems.sigma.bus.statistics import error_rate
+
+    positive(commands, "command")
+    percents = tuple(clock) if clock else _PERCENTS
+    for percent in percents:
+        if not 0 <= percent <= _MOST_PERCENT:
+            raise BadArgument(f"clocks may be off by 0 to {_MOST_PERCENT:g} percent, not by {percent:g}")
+    rates = [error_rate(percent / 100, commands, seed) for percent in percents]
+    if json:
+        put_json({"seed": seed, "rates": rates})
+        return 0
+    say(f"{counted(commands, 'command')} each, to a receiver that becomes free before or amid it")
+    say("clocks within   taken whole   too late   misread   least fast   least slow")
+    for percent, rate in zip(percents, rates, strict=True):
+        least = "".join(
+            "         none" if each is None else f"{each:13.2%}" for each in (rate.fast, rate.slow)
+        )
+        say(f"{percent:>11g} %   {rate.whole:>11}   {rate.missed:>8}   {rate.misread:>7}{least}", whole=True)
+    return 0
+
+
+def faults(*, json: Json = False) -> int:
+    """List what can be wrong with the bus.
+
+    Exit code 0: listed.
+    """
+    from handeye.systems.sigma.bus.faults import KINDS
+
+    if json:
+        put_json(dict(KINDS))
+        return 0
+    for name, kind in KINDS.items():
+        form = ":".join([name, *(field.upper() for field in (kind.where, kind.value) if field)])
+        usual = f" ({kind.amount} by default)" if kind.value else ""
+        say(f"{form:<34} {kind.help}{usual}", whole=True)
+    return 0
+
+
+def self_test(
+    *,
+    fault: BusFaults = None,
+    line: Annotated[
+        bool,
+        Parameter(
+            negative=(), help="Test an assembly line: two robots, feeder and remover on three segments."
+        ),
+    ] = False,
+    seed: Seed = 0,
+    json: Json = False,
+) -> int:
+    """Carry out the self-tests of power-on: the computer, the segments, each microcomputer, status lines.
+
+    Exit code 0: all is well; 1: not so; 2: bad input.
+    """
+    from handeye.systems.sigma.bus.faults import defect
+    from handeye.systems.sigma.bus.layout import LINE, SUPERSIGMA
+    from handeye.systems.sigma.bus.wired import WiredBus
+    from handeye.systems.sigma.diagnose import power_on, told
+
+    layout = LINE if line else SUPERSIGMA
+    wired = WiredBus(layout, defects=[defect(text) for text in fault or ()], seed=seed)
+    found = power_on(wired, layout)
+    if json:
+        put_json({"well": not any(each.fault for each in found), "tests": found})
+    else:
+        for sentence in told(found):
+            say(sentence)
+    return 1 if any(each.fault for each in found) else 0
+
+
+def _no_bars(encoding: str) -> bool:
+    """A terminal cannot show the bars of a diagram."""
+    try:
+        "▔▁│µ".encode(encoding or "ascii")
+    except (UnicodeEncodeError, LookupError):
+        return True
+    return False
+
+
+for _command in (demo, errors, faults):
+    bus.command(_command)
+bus.command(self_test, name="test")

@@ -1,0 +1,175 @@
+"""Self-tests at power-on, and what they say of the bus: in the paper's order, and through the port alone.
+
+First the central computer, then the bus by segments, then each microcomputer. An interface that fails fails for all
+microcomputers behind it; a microcomputer that fails fails alone.
+"""
+
+from collections.abc import Container, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final, Literal
+
+from handeye.core.record import Record
+from handeye.ports.microbus import BusFault, Command, MicrobusPort, Status
+from handeye.systems.sigma.bus.layout import Layout
+from handeye.systems.sigma.protocol import ANSWERS, Op, echo, name_of, self_test
+
+PATTERNS: Final = (b"\x55\xaa\x33", b"\xaa\x55\xcc")
+"""What ECHO asks back: each line low and high, and neighbouring bytes that differ."""
+DEAD: Final = (
+    "nothing on it answers: its interface is dead, or a data line is stuck high that all its numbers have low"
+)
+_ALL: Final = 0xFF
+
+Part = Literal["computer", "segment", "regenerator", "microcomputer", "status line"]
+
+
+class SelfTest(Record, frozen=True, kw_only=True):
+    """What one test found."""
+
+    part: Part
+    number: int  # of the segment or microcomputer
+    fault: str = ""  # what is the matter; empty: it is well
+
+
+@dataclass(frozen=True, slots=True)
+class _Heard:
+    """Answers of one microcomputer; None where none came."""
+
+    well: bytes | None
+    echoes: tuple[bytes | None, ...]
+    busy: frozenset[int]  # microcomputers whose line B rose meanwhile
+
+    @property
+    def silent(self) -> bool:
+        return self.well is None and not any(self.echoes)
+
+    @property
+    def right(self) -> bool:
+        return self.well == b"\0" and self.echoes == PATTERNS
+
+    @property
+    def open(self) -> bool:
+        """Strobes came, and data lines that no one drives."""
+        answers = [answer for answer in (self.well, *self.echoes) if answer is not None]
+        return bool(answers) and all(byte == _ALL for answer in answers for byte in answer)
+
+
+def power_on(bus: MicrobusPort, layout: Layout) -> list[SelfTest]:
+    """Test everything that hangs on a bus; what is behind a segment that fails is not judged."""
+    numbers = [place.number for place in layout.places]
+    at_rest = {number: bus.status(number) for number in numbers}
+    heard = {number: _heard(bus, number, numbers) for number in numbers}
+    out = [SelfTest(part="computer", number=0)]
+    lost: set[int] = set()
+    failed: set[int] = set()
+    for segment, members in enumerate(layout.segments):
+        found = None
+        if failed.isdisjoint(layout.way(segment)):
+            found = _segment(segment, {number: heard[number] for number in members})
+            out.append(found)
+        if found is None or found.fault:
+            failed.add(segment)
+            lost.update(members)
+    out += [_microcomputer(number, heard) for number in numbers if number not in lost]
+    wrong = {test.number for test in out if test.part == "microcomputer" and test.fault}
+    scanning = {place.number for place in layout.places if place.kind == "force"}
+    out += _status_lines({n: status for n, status in at_rest.items() if n not in wrong}, scanning)
+    return out
+
+
+def _heard(bus: MicrobusPort, number: int, numbers: Sequence[int]) -> _Heard:
+    busy: set[int] = set()
+    before = {other for other in numbers if bus.status(other) is Status.BUSY}
+
+    def asked(command: Command) -> bytes | None:
+        bus.begin(command, answer=ANSWERS[Op(command.op)])
+        while not bus.free:
+            event = bus.next_event
+            bus.wait(bus.now + 1 if event is None else max(bus.now + 1, event))
+            busy.update(other for other in numbers if bus.status(other) is Status.BUSY)
+        try:
+            return bus.answer()
+        except BusFault:
+            return None
+
+    well = asked(self_test(number))
+    echoes = tuple(asked(echo(number, pattern)) for pattern in PATTERNS)
+    return _Heard(well, echoes, frozenset(busy - before))
+
+
+def _segment(segment: int, heard: Mapping[int, _Heard]) -> SelfTest:
+    if len(heard) < 2 or any(one.right for one in heard.values()):  # one alone says nothing of its segment
+        return SelfTest(part="segment", number=segment)
+    if all(one.silent for one in heard.values()):
+        return SelfTest(part="segment", number=segment, fault=DEAD)
+    if all(one.open for one in heard.values() if not one.silent):
+        return SelfTest(
+            part="regenerator", number=segment, fault="it does not turn round: strobes come, and no data"
+        )
+    stuck = _stuck([one for one in heard.values() if not one.silent])
+    return SelfTest(part="segment", number=segment, fault=stuck)
+
+
+def _stuck(heard: Sequence[_Heard]) -> str:
+    """The data line that is wrong on a segment."""
+    echoed = [byte for one in heard for answer in one.echoes if answer for byte in answer]
+    wells = [byte for one in heard if one.well for byte in one.well]
+    high = _ALL
+    for byte in (*echoed, *wells):
+        high &= byte
+    low = _ALL
+    for byte in echoed:
+        low &= ~byte
+    for bit in range(8):
+        if high >> bit & 1:
+            return f"data line {bit} is stuck high"
+        if echoed and low >> bit & 1:
+            return f"data line {bit} is stuck low"
+    if not echoed:
+        return "data line 7 is stuck low"  # which ECHO alone needs
+    return "its data lines are wrong: some bytes arrive and others do not"
+
+
+def _microcomputer(number: int, heard: Mapping[int, _Heard]) -> SelfTest:
+    one = heard[number]
+    well = SelfTest(part="microcomputer", number=number)
+    if one.right:
+        return well
+    if one.silent:
+        strangers = [other for other, theirs in heard.items() if other != number and number in theirs.busy]
+        if strangers:
+            return SelfTest(
+                part="microcomputer",
+                number=number,
+                fault=f"it answers to the number of {name_of(strangers[0])}",
+            )
+        return SelfTest(part="microcomputer", number=number, fault="it is dead: it does not answer")
+    if one.well not in (None, b"\0"):
+        return SelfTest(part="microcomputer", number=number, fault="its self-test fails")
+    return SelfTest(
+        part="microcomputer", number=number, fault="its clock is wrong: bytes are taken for their neighbours"
+    )
+
+
+def _status_lines(at_rest: Mapping[int, Status], scanning: Container[int]) -> Iterator[SelfTest]:
+    for number, status in at_rest.items():
+        usual = Status.BUSY if number in scanning else Status.FREE
+        if status.aborted:
+            yield SelfTest(part="status line", number=number, fault="line A is high, and nothing was aborted")
+        elif status is not usual:
+            level = "high" if status is Status.BUSY else "low"
+            yield SelfTest(part="status line", number=number, fault=f"line B is {level} at rest")
+
+
+def told(tests: Sequence[SelfTest]) -> list[str]:
+    """Results in lines: the faults, or that all is well."""
+    out = [f"{_name(test)}: {test.fault}" for test in tests if test.fault]
+    return out or ["computer, segments, microcomputers and status lines are well"]
+
+
+def _name(test: SelfTest) -> str:
+    if test.part in ("microcomputer", "status line"):
+        return (
+            f"{test.part} of {name_of(test.number)}" if test.part == "status line" else name_of(test.number)
+        )
+    return test.part if test.part == "computer" else f"{test.part} {test.number}"

@@ -1,0 +1,164 @@
+"""The MICROBUS from Python: the paper's "few functions that provide MICROBUS driving", in a general language."""
+
+from collections.abc import Sequence
+from typing import Final
+
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadArgument, NoSuchName
+from handeye.ports.microbus import Command
+from handeye.systems.sigma.bus.diagram import as_svg, as_text, diagram
+from handeye.systems.sigma.bus.events import AnyBusEvent, CommandSent
+from handeye.systems.sigma.bus.faults import defect
+from handeye.systems.sigma.bus.layout import SUPERSIGMA
+from handeye.systems.sigma.bus.wired import WiredBus
+from handeye.systems.sigma.bus.words import event_text
+from handeye.systems.sigma.diagnose import power_on, told
+from handeye.systems.sigma.protocol import ANSWERS, LONGEST_MOVE, Op, move, number_of, signed, within
+
+_MICROSECONDS: Final = 1_000_000
+_SIGNED: Final = {Op.POSITION, Op.ABORT_POSITION, Op.FORCE}
+_LONGEST_WAIT: Final = 86_400  # s
+
+
+class Microbus:
+    """A MICROBUS with the ten microcomputers of SUPERSIGMA, over a machine whose rotors follow each pulse.
+
+    >>> bus = handeye.Microbus()
+    >>> bus.command("X1", steps=800)
+    >>> bus.status("X1"), bus.wait("X1"), bus.ask("X1", "POSITION")
+    ('busy', 'free', 800)
+    """
+
+    def __init__(self, *, faults: Sequence[str] = (), seed: int = 0, clock_spread: float = 0.0) -> None:
+        """Switch it on.
+
+        Args:
+            faults: What is wrong with it, as `--fault` of `handeye sigma bus demo`: `clock:X1:200`.
+            seed: Draws when each microcomputer begins to poll, and how far its clock is off.
+            clock_spread: How far clocks are off at most, as a share: .005.
+        """
+        if not 0 <= clock_spread < 1:
+            raise BadArgument(f"clocks are off by a share of 0 to 1, not by {clock_spread:g}")
+        self._bus = WiredBus(defects=[defect(text) for text in faults], seed=seed, clock_spread=clock_spread)
+        self._log: list[AnyBusEvent] = []
+        self._bus.tell.append(self._log.append)
+
+    @property
+    def now(self) -> float:
+        """s since power-on."""
+        return self._bus.now / _MICROSECONDS
+
+    @property
+    def interrupt(self) -> bool:
+        """Line A of a motor is high: its last command was aborted."""
+        return self._bus.interrupt
+
+    def command(
+        self,
+        name: str | int,
+        op: str = "MOVE",
+        *,
+        steps: int = 0,
+        curve: int = 0,
+        detail: int = 0,
+        value: int = 0,
+    ) -> None:
+        """Send a command of five bytes.
+
+        Args:
+            name: A microcomputer by name (`X1`, `FORCE1`, `HAND2`) or number.
+            op: The operation; one that asks is for `ask`.
+            steps: Of a MOVE, signed.
+            curve: Of a MOVE, 0 to 4.
+            detail: Byte 3 of other operations.
+            value: Bytes 4 and 5 of other operations.
+
+        Raises:
+            NoSuchName: there is no such microcomputer or operation.
+            BadArgument: a number does not fit.
+        """
+        kind = _op(op)
+        if kind in ANSWERS:
+            raise BadArgument(f"{kind.name} asks; use ask({name!r}, {kind.name!r})")
+        self._bus.send(move(name, steps, curve) if kind is Op.MOVE else _command(name, kind, detail, value))
+
+    def ask(self, name: str | int, op: str = "POSITION", *, detail: int = 0, count: int | None = None) -> int:
+        """Ask a microcomputer, and wait for its answer as a number; POSITION, ABORT_POSITION and FORCE are signed.
+
+        Raises:
+            NoAnswer: it did not come within 5 ms.
+        """
+        kind = _op(op)
+        if count is None and kind not in ANSWERS:
+            raise BadArgument(f"{kind.name} has no answer of a known length; say its bytes by `count`")
+        length = ANSWERS[kind] if count is None else within(count, 1, 255, "the length of an answer")
+        answer = self._bus.ask(_command(name, kind, detail, 0), length)
+        return signed(answer) if kind in _SIGNED else int.from_bytes(answer, "big")
+
+    def status(self, name: str | int) -> str:
+        """`free`, `busy`, or why the last command was aborted: `rail`, `force`."""
+        return self._bus.status(number_of(name)).name.lower()
+
+    def wait(self, name: str | int, seconds: float = 60.0) -> str:
+        """Wait until a microcomputer is not busy, or so long; its status then."""
+        return self._bus.wait_free(number_of(name), _microseconds(seconds)).name.lower()
+
+    def pause(self, seconds: float) -> None:
+        """Let time pass."""
+        end = self._bus.now + _microseconds(seconds)
+        while self._bus.now < end:
+            self._bus.wait(end)
+
+    def self_test(self) -> list[str]:
+        """What the self-tests of power-on find, in sentences."""
+        return told(power_on(self._bus, SUPERSIGMA))
+
+    @property
+    def frames(self) -> list[str]:
+        """Bytes of all commands so far, in hexadecimal."""
+        return [event.frame.hex(" ") for event in self._log if isinstance(event, CommandSent)]
+
+    @property
+    def log(self) -> list[str]:
+        """What has happened, a line an event, its time in microseconds first."""
+        return [event_text(event) for event in sorted(self._log, key=lambda event: event.at)]
+
+    def diagram(self, begin: float = 0.0, end: float | None = None, *, width: int = 100) -> str:
+        """The timing diagram from one moment to another, s, as text."""
+        return "\n".join(
+            as_text(diagram("", self._log, *self._span(begin, end), self._bus.timing), width)[1:]
+        )
+
+    def svg(self, begin: float = 0.0, end: float | None = None, *, title: str = "MICROBUS") -> str:
+        """The timing diagram from one moment to another, s, as a drawing."""
+        return as_svg(diagram(title, self._log, *self._span(begin, end), self._bus.timing))
+
+    def _span(self, begin: float, end: float | None) -> tuple[int, int]:
+        first = _microseconds(begin)
+        last = self._bus.now if end is None else _microseconds(end)
+        if last <= first:
+            raise BadArgument(
+                f"a diagram ends after it begins; this would be from {begin:g} s to {last / 1e6:g} s"
+            )
+        return first, last
+
+
+def _op(name: str) -> Op:
+    if name.upper() not in Op.__members__:
+        raise NoSuchName(f"no operation is called {quoted(name)}; there are {', '.join(Op.__members__)}")
+    return Op[name.upper()]
+
+
+def _command(name: str | int, op: Op, detail: int, value: int) -> Command:
+    return Command(
+        number=number_of(name),
+        op=op,
+        detail=within(detail, 0, 0xFF, "the detail of a command"),
+        value=within(value, 0, LONGEST_MOVE, "the value of a command"),
+    )
+
+
+def _microseconds(seconds: float) -> int:
+    if not 0 <= seconds <= _LONGEST_WAIT:
+        raise BadArgument(f"a time on the bus is 0 to {_LONGEST_WAIT} s, not {seconds:g} s")
+    return round(seconds * _MICROSECONDS)

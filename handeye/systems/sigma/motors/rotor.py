@@ -1,0 +1,228 @@
+"""The rotor of a stepping motor: its pulses draw it along by a spring as strong as its pull-out force, or it slips.
+
+Two models. The sine, force = pull-out x sin(2 pi lag / 4 steps), integrated in steps of .1 ms, is the one to believe.
+The balance, in steps of 1 ms, is for benches: it asks whether the force that the pulses want is there, and lets a rotor
+that has lost them coast until it can catch them again. Both slip by whole poles, 4 steps. SI, but for steps.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.systems.sigma.motors.pulses import CLOCK_HZ, CURVES, Pulses
+from handeye.systems.sigma.protocol import STEP_MM
+
+STEP: Final = STEP_MM / 1000  # m
+POLE: Final = 4  # steps
+MASSES: Final = {"X": 12.0, "Y": 8.0, "Z": 2.5}  # kg that each axis moves
+FRICTION: Final = 0.5  # N s/m for each kg
+_FINE: Final = 1e-4  # s, steps of the sine
+_COARSE: Final = 1e-3  # s, steps of the balance
+_JUMP: Final = 1.1 * CURVES[0].start  # steps/s within a millisecond that no one needs to ask for
+_SMOOTH: Final = 5  # ms
+_NOTHING: Final = 1e-9  # N
+_SETTLE: Final = 0.1  # s after the last pulse
+_FULL: Final = 2 * math.pi / POLE  # rad of the sine for a step of lag
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drive:
+    """A motor and what it moves."""
+
+    mass: float  # kg
+    friction: float = FRICTION  # N s/m for each kg
+    load: float = 0.0  # N against the motion
+    start_force: float = 200.0  # pull-out force at start/stop speed, N
+    top_force: float = 20.0  # at the greatest speed
+    damping: float = 0.1  # of the rotor about its field, as a share of critical, at start/stop speed
+
+    def pull_out(self, speed: float) -> float:
+        """The greatest force at a speed, steps/s, N."""
+        first, last = CURVES[1].start, CURVES[1].top
+        share = min(max((abs(speed) - first) / (last - first), 0.0), 1.0)
+        return self.start_force + (self.top_force - self.start_force) * share
+
+    @property
+    def damper(self) -> float:
+        """N s/m between rotor and field."""
+        return 2 * self.damping * math.sqrt(self.start_force * _FULL / STEP * self.mass)
+
+    @property
+    def starts(self) -> bool:
+        """A rotor at rest can follow the jump to start/stop speed: its pole is deep enough for the energy of that."""
+        return _holds(self, CURVES[0].start, self.start_force)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Followed:
+    """How a rotor has followed its pulses."""
+
+    lost: int  # poles by which it is behind at the end; negative: ahead
+    lag: float  # the greatest, steps
+    margin: float  # the least of pull-out force over the force that is wanted; below 1 it cannot follow
+    tightest: float  # s, when
+    rotor: NDArray[np.float64]  # steps it has made, each `period`
+    period: float  # s
+
+    @property
+    def kept(self) -> bool:
+        """The rotor never left its pole."""
+        return self.lost == 0 and self.lag < POLE
+
+
+def commanded(
+    pulses: Pulses, period: float, settle: float = _SETTLE
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Steps and steps/s that pulses command, as means over each `period` s, until `settle` s after the last."""
+    count = math.ceil((pulses.seconds + settle) / period)
+    ticks = np.arange(count + 1) * (period * CLOCK_HZ)
+    done = np.searchsorted(pulses.ticks, ticks, side="right")
+    before = np.concatenate(([0], np.cumsum(pulses.ticks)))
+    under = done * ticks - before[done]  # step-ticks that are behind each moment
+    places = np.interp(ticks, np.concatenate(([0], pulses.ticks)), np.arange(len(pulses) + 1))
+    return np.diff(under) / (period * CLOCK_HZ), np.diff(places) / period
+
+
+def wanted(pulses: Pulses, drive: Drive) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The force that each millisecond of a train asks for, N, and the speed then, steps/s.
+
+    The jumps to start/stop speed and from it are not in it; a change of speed is taken over some milliseconds, so that
+    the rounding of dividers is no acceleration.
+    """
+    count = max(1, math.ceil(pulses.seconds / _COARSE))
+    edges = np.minimum(np.arange(count + 1) * _COARSE, pulses.seconds)
+    places = np.interp(edges * CLOCK_HZ, np.concatenate(([0], pulses.ticks)), np.arange(len(pulses) + 1))
+    speeds = np.diff(places) / np.maximum(np.diff(edges), 1e-9)
+    smooth = np.convolve(np.pad(speeds, _SMOOTH // 2, mode="edge"), np.ones(_SMOOTH) / _SMOOTH, mode="valid")
+    change = np.gradient(smooth) / _COARSE if count > 1 else np.zeros(1)
+    return drive.mass * (change + drive.friction * speeds) * STEP + drive.load, speeds
+
+
+class Balance:
+    """A rotor by the balance of forces, a millisecond at a time.
+
+    It is `caught` as long as its pole gives what is asked for; `strained` where more is asked, until it is two steps
+    away; then it is `slipping`, drawn along by the damping alone, until a pole can hold it again.
+    """
+
+    def __init__(self, drive: Drive) -> None:
+        self.drive = drive
+        self.state: Literal["caught", "strained", "slipping"] = "caught"
+        self.place = 0.0  # steps
+        self.off = 0  # steps, whole poles, between its pole and the one it should follow
+        self._lag = self._growing = 0.0  # steps behind its pole, steps/s
+        self._speed = self._before = 0.0  # steps/s of the rotor, and of the field a millisecond ago
+
+    def follow(self, there: float, pace: float, force: float) -> None:
+        """Let a millisecond pass, in which the field is at a place, steps, at a pace, steps/s, and asks for a force."""
+        pull, jump = self.drive.pull_out(pace), abs(pace - self._before)
+        if self.state != "slipping" and jump > _JUMP and not _catches(self.drive, pace, self._before):
+            self.state, self._speed = "slipping", self._before
+        self._before = pace
+        if self.state == "caught" and abs(force) > pull:
+            self.state, self._lag, self._growing = "strained", math.copysign(POLE / 4, force), 0.0
+        match self.state:
+            case "caught":
+                self._lag = lag_for(force, pull)
+            case "strained":
+                self._strain(pace, force, pull)
+            case "slipping":
+                self._slip(there, pace, force, pull)
+        if self.state != "slipping":
+            self.place, self._speed = there + self.off - self._lag, pace - self._growing
+
+    def _strain(self, pace: float, force: float, pull: float) -> None:
+        drive = self.drive
+        lacking = (force - pull * math.sin(self._lag * _FULL)) / drive.mass / STEP
+        self._growing = (self._growing + lacking * _COARSE) / (1 + drive.damper / drive.mass * _COARSE)
+        self._lag += self._growing * _COARSE
+        if abs(self._lag) >= POLE / 2:
+            self.state, self._speed = "slipping", pace - self._growing
+        elif abs(force) <= pull and self._growing * self._lag <= 0:
+            self.state, self._lag, self._growing = "caught", lag_for(force, pull), 0.0
+
+    def _slip(self, there: float, pace: float, force: float, pull: float) -> None:
+        drive = self.drive
+        drawn = drive.damper / drive.mass  # 1/s
+        gained = self._speed + (drawn * pace - drive.load / drive.mass / STEP) * _COARSE
+        self._speed = max(0.0, gained / (1 + (drive.friction + drawn) * _COARSE))
+        self.place += self._speed * _COARSE
+        if abs(force) <= pull and _catches(drive, pace, self._speed):
+            self.off = round((self.place - there) / POLE) * POLE
+            self.state, self._lag, self._growing = "caught", lag_for(force, pull), 0.0
+
+
+def by_balance(pulses: Pulses, drive: Drive) -> Followed:
+    """Follow a train by the balance of forces."""
+    field, _ = commanded(pulses, _COARSE)
+    forces, speeds = wanted(pulses, drive)
+    rest = np.zeros(max(0, len(field) - len(forces)))
+    moves = zip(field.tolist(), [*speeds, *rest], [*forces, *rest], strict=False)
+    balance, rotor = Balance(drive), np.empty(len(field))
+    for index, (there, pace, force) in enumerate(moves):
+        balance.follow(there, float(pace), float(force))
+        rotor[index] = balance.place
+    margin, tightest = _margin(forces, speeds, drive)
+    return Followed(
+        lost=round((field[-1] - balance.place) / POLE),
+        lag=float(np.abs(field - rotor).max()),
+        margin=margin,
+        tightest=tightest,
+        rotor=rotor,
+        period=_COARSE,
+    )
+
+
+def _margin(forces: NDArray[np.float64], speeds: NDArray[np.float64], drive: Drive) -> tuple[float, float]:
+    """The least of pull-out force over what is asked for, and when, s."""
+    margins = np.array([drive.pull_out(speed) for speed in speeds]) / np.maximum(np.abs(forces), _NOTHING)
+    tightest = int(margins.argmin())
+    return float(margins[tightest]), (tightest + 1) * _COARSE
+
+
+def lag_for(force: float, most: float) -> float:
+    """Steps that a rotor is behind when it gives a force of at most so much."""
+    return math.asin(min(max(force / most, -1.0), 1.0)) / _FULL
+
+
+def _catches(drive: Drive, field: float, speed: float) -> bool:
+    """A rotor of a speed is caught by a field of another one."""
+    return _holds(drive, abs(field - speed), drive.pull_out(field))
+
+
+def _holds(drive: Drive, between: float, pull: float) -> bool:
+    """Whether a pole is deep enough for a difference of speed, steps/s; a load makes it shallower."""
+    lag = lag_for(drive.load, pull) * _FULL
+    depth = pull * (math.cos(lag) - math.cos(math.pi - lag)) - drive.load * (math.pi - 2 * lag)
+    return drive.load < pull and drive.mass * (between * STEP) ** 2 / 2 <= depth * STEP / _FULL
+
+
+def by_sine(pulses: Pulses, drive: Drive) -> Followed:
+    """Follow a train by the sine, a tenth of a millisecond at a time."""
+    field, speeds = commanded(pulses, _FINE)
+    pulls = [drive.pull_out(speed) for speed in speeds.tolist()]
+    damper, mass = drive.damper, drive.mass
+    drag = drive.friction * mass
+    place, velocity, most = 0.0, 0.0, 0.0  # steps, m/s, steps
+    rotor = np.empty(len(field))
+    for index, (there, pace, pull) in enumerate(zip(field.tolist(), speeds.tolist(), pulls, strict=True)):
+        lag = there - place
+        force = (
+            pull * math.sin(lag * _FULL) + damper * (pace * STEP - velocity) - drag * velocity - drive.load
+        )
+        velocity += force / mass * _FINE
+        place += velocity / STEP * _FINE
+        most = max(most, abs(lag))
+        rotor[index] = place
+    margin, tightest = _margin(*wanted(pulses, drive), drive)
+    return Followed(
+        lost=round((field[-1] - place) / POLE),
+        lag=most,
+        margin=margin,
+        tightest=tightest,
+        rotor=rotor,
+        period=_FINE,
+    )
