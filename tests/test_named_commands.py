@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -99,13 +100,19 @@ def typed(text: str) -> Iterator[str]:
             yield found["words"].strip()
 
 
+@cache
+def options_of(name: str) -> set[str]:
+    """The options of one command."""
+    collection = LEAVES[name].assemble_argument_collection(parse_docstring=True)
+    return {option for argument in collection for option in argument.names}
+
+
 def strange(words: str) -> set[str]:
     """Options that the command which begins with these words does not have."""
     named = {name for name in LEAVES if f"{words} ".startswith(f"{name} ")}
     if not named:
         return set()
-    collection = LEAVES[max(named, key=len)].assemble_argument_collection(parse_docstring=True)
-    known = {name for argument in collection for name in argument.names}
+    known = options_of(max(named, key=len))
     return {*OPTION.findall(words.partition(" -- ")[0])} - known - {"--help"}
 
 
