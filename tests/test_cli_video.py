@@ -18,7 +18,7 @@ from handeye.core.errors import InvalidInput
 from handeye.runs.folder import open_new
 from handeye.runs.runner import Runner
 from handeye.trace import channels, mcap_writer
-from handeye.video import making
+from handeye.video import formats, making
 
 pytestmark = pytest.mark.slow
 
@@ -87,13 +87,35 @@ def test_the_same_trace_gives_the_same_video(command: Command, kept: Path) -> No
     assert Path("one.webm").read_bytes() == Path("other.webm").read_bytes()
 
 
+def test_an_mp4_is_the_same_twice_and_has_all_frames(command: Command, kept: Path) -> None:
+    pytest.importorskip("av", reason="the extra `mp4` is not installed")
+    said = [command("video", "kept", "-o", name, *SMALL)[1] for name in ("one.mp4", "other.mp4")]
+    assert Path("one.mp4").read_bytes() == Path("other.mp4").read_bytes()
+    shown = cv2.VideoCapture("one.mp4")
+    frames, width, rate = map(
+        shown.get, (cv2.CAP_PROP_FRAME_COUNT, cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FPS)
+    )
+    assert (width, rate) == (64, 12)
+    assert said[0].startswith(f"one.mp4: {frames / rate:.1f} s, ")
+
+
+def test_without_the_extra_there_is_no_mp4_and_nothing_is_drawn(
+    command: Command, kept: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(formats, "find_spec", lambda name: None)
+    assert refused(command, "kept", "-o", "it.mp4") == (
+        "`video -o FILE.mp4` needs av, which is not installed: `pip install av` brings it, and so does the extra `mp4` "
+        "of handeye"
+    )
+
+
 def test_it_is_made_from_python_too(kept: Path) -> None:
     made = handeye.open(kept).video("it.webp", width=64, height=48, speed=0.5, first=1, last="open")
     assert (made.path, made.bytes) == (Path("it.webp"), Path("it.webp").stat().st_size)
 
 
 def test_python_is_told_its_own_word_for_replacing_one(kept: Path) -> None:
-    Path("it.webp").touch()
+    handeye.open(kept).video("it.webp", width=64, height=48, speed=0.5, first=1, last="open")
     with pytest.raises(InvalidInput, match=r"^it\.webp is there already; overwrite=True replaces it$"):
         handeye.open(kept).video("it.webp")
 
@@ -105,7 +127,7 @@ def test_python_is_told_its_own_word_for_replacing_one(kept: Path) -> None:
         ({"camera": 3}, "a camera is given by its name, not 3"),
         ({"seconds": "14"}, "a video takes up to 600 s, and not 14 s"),
         ({"width": 64.5}, "a video of 64.5 x 360 cannot be made; a side has 8 to 2048 points"),
-        ({"path": 7}, "a video is written to a file that ends in .webp or .webm, not 7"),
+        ({"path": 7}, "a video is written to a file that ends in .webp, .webm or .mp4, not 7"),
     ],
 )
 def test_a_wrong_argument_is_told_in_a_sentence(kept: Path, wrong: dict[str, Any], sentence: str) -> None:

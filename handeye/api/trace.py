@@ -77,7 +77,7 @@ class Trace(recorded.Trace):
             camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
             captions=captions,
         )  # fmt: skip
-        file = given_file(path, "a video is written to a file that ends in .webp or .webm")
+        file = given_file(path, "a video is written to a file that ends in .webp, .webm or .mp4")
         try:
             return make_video(self, file, wanted, overwrite=overwrite)
         except Taken:

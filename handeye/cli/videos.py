@@ -26,7 +26,8 @@ def video(
         Path | None,
         Parameter(
             name=["--out", "-o"],
-            help="The video, .webp or .webm. Default: video.webp in the folder of the run, or next to the trace.",
+            help="The video: .webp, .webm, or .mp4 (which needs the extra `mp4`). "
+            "Default: video.webp in the folder of the run, or next to the trace.",
         ),
     ] = None,
     overwrite: Overwrite = False,
@@ -55,8 +56,9 @@ def video(
 ) -> int:
     """Make a video of a recorded run, without simulating it again.
 
-    An animated WebP (for a README) or a WebM; browsers play both. Long waits for the camera's mechanism are cut. With
-    a length, short stages play slower so that each can be seen; with a speed, all stages play at that speed.
+    An animated WebP (for a README), a WebM or an MP4; browsers play all three. Long waits for the camera's mechanism
+    are cut. With a length, short stages play slower so that each can be seen; with a speed, all stages play at
+    that speed.
 
     ```
     handeye video pump

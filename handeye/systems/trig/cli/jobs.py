@@ -49,7 +49,7 @@ class KeptOptions:
     ] = None
     video: Annotated[
         Path | None,
-        Parameter(help="Video of the job, .webp or .webm, 20 s long at most."),
+        Parameter(help="Video of the job, .webp, .webm or .mp4, 20 s long at most."),
     ] = None
     overwrite: Overwrite = False
 
