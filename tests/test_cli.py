@@ -194,12 +194,22 @@ def test_a_wrong_argument_ends_with_two(command: Command, words: tuple[str, ...]
 
 
 @pytest.mark.parametrize("words", [("run",), ("stages",), ("inspect",), ("diff", "job.plan.json")])
-def test_a_script_in_the_place_of_a_plan_is_told_from_one(
+def test_a_script_without_its_ending_is_told_from_a_plan(
     command: Command, planned: Callable[[str], str], words: tuple[str, ...]
 ) -> None:
     planned("OPEN 1")
-    sentence = "handeye: job.al is not a plan; is it a script? `handeye plan job.al` makes the plan\n"
-    assert command(*words, "job.al") == (2, "", sentence)
+    Path("job.txt").write_text("OPEN 1", encoding="utf-8")
+    sentence = "handeye: job.txt is not a plan; is it a script? `handeye plan job.txt` makes the plan\n"
+    assert command(*words, "job.txt") == (2, "", sentence)
+
+
+def test_a_script_stands_for_its_plan(command: Command, planned: Callable[[str], str]) -> None:
+    plan = planned("OPEN 1")
+    assert command("stages", "job.al") == command("stages", plan)
+    assert command("diff", "job.al", plan)[0] == 0
+    Path("job.al").write_text("FLY", encoding="utf-8")
+    code, _, err = command("run", "job.al")
+    assert (code, err.splitlines()[-1]) == (2, "handeye: job.al has 1 error; no plan was made")
 
 
 @pytest.mark.parametrize(("lines", "count"), [(1, "1 error"), (3, "3 errors"), (30, "20 or more errors")])

@@ -1,24 +1,32 @@
-// Starts `handeye lsp` and connects the editor to it; everything else is the server's.
+// Connects the editor to `handeye lsp`, and runs `handeye run` in a terminal for the words above a stage.
+const path = require("path");
 const vscode = require("vscode");
-const { LanguageClient } = require("vscode-languageclient/node");
+const { start } = require("./client");
 
-let client;
+const COMMANDS = ["handeye.run", "handeye.runFromHere", "handeye.debug"];
+
+let stop;
+
+function program() {
+  return vscode.workspace.getConfiguration("handeye").get("command", "handeye");
+}
+
+// Saves the script, and carries out `handeye` with these words where it lies; the editor quotes them for its shell.
+async function carryOut(file, words) {
+  const script = vscode.workspace.textDocuments.find((text) => text.uri.fsPath === file);
+  if (script?.isDirty && !(await script.save())) return;
+  const scope = vscode.workspace.getWorkspaceFolder(vscode.Uri.file(file)) ?? vscode.TaskScope.Workspace;
+  const typed = new vscode.ShellExecution(program(), words, { cwd: path.dirname(file) });
+  await vscode.tasks.executeTask(new vscode.Task({ type: "shell" }, scope, path.basename(file), "handeye", typed));
+}
 
 async function activate(context) {
-  const command = vscode.workspace.getConfiguration("handeye").get("command", "handeye");
-  const files = vscode.workspace.createFileSystemWatcher("**/*.{al,toml}");
-  context.subscriptions.push(files);
-  client = new LanguageClient(
-    "handeye",
-    "Arm language",
-    { command, args: ["lsp"] },
-    {
-      documentSelector: [{ language: "armal" }],
-      synchronize: { fileEvents: files },
-    },
-  );
+  const command = program();
+  for (const name of COMMANDS) {
+    context.subscriptions.push(vscode.commands.registerCommand(name, carryOut));
+  }
   try {
-    await client.start();
+    stop = await start(command, ["lsp"], context.subscriptions);
   } catch (error) {
     vscode.window.showErrorMessage(
       `The arm language server did not start (${command} lsp): ${error.message}. ` +
@@ -28,7 +36,7 @@ async function activate(context) {
 }
 
 function deactivate() {
-  return client?.stop();
+  return stop?.();
 }
 
 module.exports = { activate, deactivate };

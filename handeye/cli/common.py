@@ -31,7 +31,8 @@ Script = Annotated[
 PlanFile = Annotated[
     Path,
     Parameter(
-        help="A plan made by `handeye plan` (.plan.json); or the name of a program of a task, such as `insertion`."
+        help="A plan made by `handeye plan` (.plan.json), a script (.al), or the name of a program of a task, such as "
+        "`insertion`."
     ),
 ]
 TaskWords = Annotated[

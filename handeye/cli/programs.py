@@ -8,7 +8,7 @@ from handeye.core.diagnostics import LIMIT, quoted, suggestion
 from handeye.core.errors import BadArgument, BadFile, NoSuchName
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan
-from handeye.runs.scripts import default_script, plan_script, program_named, program_names, task_of
+from handeye.runs.scripts import LANGUAGES, default_script, plan_script, program_named, program_names, task_of
 from handeye.tasks import known_any, named, planned, task
 
 if TYPE_CHECKING:
@@ -46,9 +46,13 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
 
 
 def plan_at(given: Path, task_words: str | None = None) -> Plan:
-    """The plan in a file, or that of the program of that name; raises InvalidInput if there is none for the task."""
+    """The plan in a file, or that of a script or of the program of that name.
+
+    Raises:
+        InvalidInput: there is none for the task.
+    """
     wanted = None if task_words is None else planned(named(task_words))
-    if is_program(given):
+    if is_program(given) or (given.suffix.lower() in LANGUAGES and given.is_file()):
         return compiled(*script_at(given, task_words))
     plan = read_plan(given)
     if wanted is not None and wanted.name != plan.task:

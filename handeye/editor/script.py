@@ -38,7 +38,7 @@ class EditedScript:
         self.uri, self.version, self._workspace = uri, text.version, workspace
         self.units: wire.Units = text.position_codec.client_num_units
         self.problem: str | None = None
-        path = to_fs_path(uri) if uri.startswith("file:") else None
+        path = self.path = to_fs_path(uri) if uri.startswith("file:") else None
         self._folder = Path(path).parent if path else None
         known, taught_text, self.taught_uri = Taught(), "", ""
         if path:

@@ -18,7 +18,7 @@ from handeye.editor.checking import planning
 from handeye.editor.completion import completions
 from handeye.editor.fixes import fixes
 from handeye.editor.hover import hover
-from handeye.editor.navigation import STAGE, Symbol, definition, outline, references, renamable, rename
+from handeye.editor.navigation import FIRST, STAGE, Symbol, definition, outline, references, renamable, rename
 from handeye.editor.protocol import Protocol, end_with, log_in_lines
 from handeye.editor.script import EditedScript, text_of
 from handeye.program.language import OwnLanguage, own_language
@@ -280,6 +280,40 @@ def _code_actions(server: ArmServer, params: lsp.CodeActionParams) -> list[lsp.C
     return actions
 
 
+def _lenses(script: EditedScript, _: lsp.CodeLensParams) -> list[lsp.CodeLens]:
+    """Above each stage of a sound script in a file: commands that carry it out, go on from it, or step it.
+
+    A command's arguments are the file, to be saved first, and the words behind `handeye`.
+    """
+    program = script.document.compiled[0]
+    if program is None or script.path is None or script.problem is not None:
+        return []
+    names = {found.name: found.at.start for found in outline(script.document) if found.kind == STAGE}
+    names[FIRST] = 0
+    return [
+        lsp.CodeLens(
+            range=script.range(Span(start=names[stage], end=names[stage])),
+            command=lsp.Command(
+                title=title,
+                command=command,
+                tooltip=tooltip,
+                arguments=[script.path, ["run", script.path, *options, str(number)]],
+            ),
+        )
+        for number, stage in enumerate(program.stages, 1)
+        if stage in names  # else it is in a required file
+        for title, (command, tooltip, options) in _STAGE_COMMANDS.items()
+    ]
+
+
+_STAGE_COMMANDS: Final = {
+    "Run": ("handeye.run", "Carry out this stage, after those before it.", ("--stage",)),
+    "Run from here": ("handeye.runFromHere", "Carry out the program from this stage on.", ("--from",)),
+    "Debug": ("handeye.debug", "Step through the program from this stage on.", ("--step", "--from")),
+}
+"""Command, tooltip and options of `handeye run` behind each title above a stage."""
+
+
 _NOTICES: Final[dict[str, Callable[..., Any]]] = {
     lsp.INITIALIZE: _begun,
     lsp.TEXT_DOCUMENT_DID_OPEN: _opened,
@@ -299,6 +333,7 @@ _ANSWERS_ON_SCRIPTS: Final[dict[str, Callable[[EditedScript, Any], Any]]] = {
     lsp.TEXT_DOCUMENT_RENAME: _rename,
     lsp.TEXT_DOCUMENT_FORMATTING: _format,
     lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL: _symbols,
+    lsp.TEXT_DOCUMENT_CODE_LENS: _lenses,
 }
 _OPTIONS: Final[dict[str, Any]] = {
     lsp.TEXT_DOCUMENT_CODE_ACTION: lsp.CodeActionOptions(code_action_kinds=[lsp.CodeActionKind.QuickFix]),

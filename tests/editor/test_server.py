@@ -225,6 +225,46 @@ def test_every_question_an_editor_asks_is_answered_and_a_word_of_the_language_is
     talk(folder, conversation)
 
 
+STAGES = """\
+        OPEN    1
+        STAGE   "one"
+        PARK
+        STAGE   "two"
+        MOVE    HOLE
+"""
+
+
+@pytest.mark.slow
+def test_above_each_stage_it_is_run_run_from_there_or_stepped(folder: Path) -> None:
+    async def conversation(client: Client) -> None:
+        async def lenses() -> list[lsp.CodeLens]:
+            params = lsp.CodeLensParams(client.document)
+            return list(await client.text_document_code_lens_async(params) or ())
+
+        assert await client.open(STAGES) == []
+        found = [
+            (
+                each.range.start.line,
+                each.command.title,
+                each.command.command,
+                list(each.command.arguments or ()),
+            )
+            for each in await lenses()
+            if each.command is not None
+        ]
+        file = str(client.script)
+        assert found[-3:] == [
+            (3, "Run", "handeye.run", [file, ["run", file, "--stage", "3"]]),
+            (3, "Run from here", "handeye.runFromHere", [file, ["run", file, "--from", "3"]]),
+            (3, "Debug", "handeye.debug", [file, ["run", file, "--step", "--from", "3"]]),
+        ]
+        assert [line for line, *_ in found] == [0, 0, 0, 1, 1, 1, 3, 3, 3]
+        await client.type(4, 16, 20, "HOLLE")
+        assert await lenses() == []  # a script with an error cannot be run
+
+    talk(folder, conversation)
+
+
 @pytest.mark.slow
 def test_a_mistake_of_a_required_file_is_told_where_that_is_required(folder: Path) -> None:
     required = folder / "b.al"
