@@ -1,6 +1,7 @@
 """`handeye video`: a film of a run, or one sentence on why there is none."""
 
 import shutil
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ from handeye.core.errors import InvalidInput
 from handeye.runs.folder import open_new
 from handeye.runs.runner import Runner
 from handeye.trace import channels, mcap_writer
-from handeye.video import formats, making
+from handeye.video import making
 
 pytestmark = pytest.mark.slow
 
@@ -102,7 +103,7 @@ def test_an_mp4_is_the_same_twice_and_has_all_frames(command: Command, kept: Pat
 def test_without_the_extra_there_is_no_mp4_and_nothing_is_drawn(
     command: Command, kept: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(formats, "find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, "av", None)
     assert refused(command, "kept", "-o", "it.mp4") == (
         "`video -o FILE.mp4` needs av, which is not installed: `pip install av` brings it, and so does the extra `mp4` "
         "of handeye"

@@ -6,7 +6,6 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib.util import find_spec
 from itertools import chain
 from pathlib import Path
 from typing import Final
@@ -166,8 +165,11 @@ class Format:
 def format_of(path: Path) -> Format:
     """The format of a file name; raises BadArgument."""
     ending = path.suffix.lower()
-    if ending == ".mp4" and find_spec("av") is None:
-        raise MissingExtra("video -o FILE.mp4", "av", "mp4")
+    if ending == ".mp4":
+        try:
+            import av  # noqa: F401 - to see that it is here before anything is drawn
+        except ImportError:
+            raise MissingExtra("video -o FILE.mp4", "av", "mp4") from None
     if ending in FORMATS:
         return FORMATS[ending]
     why = next((reason for endings, reason in REFUSED.items() if ending in endings), None)
