@@ -5,7 +5,7 @@
 Sizes are those of dimensions.toml, errors those of the pump's table of worlds. No physics: in each world the tapped
 holes and those of both layers are drilled with errors of their own; two pins stand in tapped holes with play, and
 lean in them; the hand lays each layer down turned and displaced by the errors of its joints and the steps of their
-potentiometers, and the layer comes to lie nearest to that where both pins are within its holes. A screw stands
+potentiometers, and the layer lies nearest to that where both pins are within its holes. A screw stands
 upright on the axis of its tapped hole and meets a layer if that axis is farther from the hole's than their radii
 differ.
 
