@@ -1,4 +1,4 @@
-"""Makes the run anew that `handeye report --demo` shows: its thinned trace, its result, and a picture of its end.
+"""Makes the run that `handeye report --demo` shows: its thinned trace, its result, and a picture of its end.
 
 python docs/make_demo.py [DIR]
 

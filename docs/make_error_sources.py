@@ -21,7 +21,7 @@ MARK: Final = "<!-- Below: docs/make_error_sources.py -->\n"
 
 
 def page() -> str:
-    """The page, its tables made anew."""
+    """The page with new tables."""
     return PAGE.read_text(encoding="utf-8").partition(MARK)[0] + MARK + "".join(_tables())
 
 

@@ -59,7 +59,7 @@ def page(tables: str) -> str:
 
 
 def _forces(force: Force, places: int) -> list[str]:
-    """Cells of what is reckoned and simulated, to so many places of newtons."""
+    """Cells of what is reckoned and simulated, to the given decimals of newtons."""
     places += 2 * (force.unit == "N m")
     reckoned, simulated = f"{force.reckoned:.{places}f} {force.unit}", f"{force.simulated:.{places}f}"
     return [force.rig, force.what, reckoned, simulated, _percent(force.simulated, force.reckoned)]

@@ -1,4 +1,4 @@
-"""Makes the notebooks anew: the .ipynb beside each percent script in `notebooks/`, with what its cells show.
+"""Makes the notebooks: the .ipynb beside each percent script in `notebooks/`, with what its cells show.
 
 python docs/make_notebooks.py [NAME ...]
 
@@ -56,7 +56,7 @@ def carried_out(made: NotebookNode, folder: Path) -> NotebookNode:
 
 
 def made_small(made: NotebookNode) -> NotebookNode:
-    """The notebook with its pictures in few colours: a third of the bytes, and nobody sees it."""
+    """The notebook with its pictures in few colours: a third of the bytes, without visible loss."""
     for data in (
         output.data for cell in made.cells for output in cell.get("outputs", []) if "data" in output
     ):

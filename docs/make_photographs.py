@@ -1,4 +1,4 @@
-"""Makes the photographs of docs/photographs.md anew from a recorded run, as docs/make_pictures.py makes all pictures.
+"""Makes the photographs of docs/photographs.md from a recorded run, as docs/make_pictures.py makes all pictures.
 
 handeye assemble --seed 15 --camera gl --out DIR
 python docs/make_photographs.py DIR

@@ -1,4 +1,4 @@
-"""Makes the pictures of docs/ anew; but for those of README (`make_readme_pictures.py`), `pipeline.svg`, drawn by hand,
+"""Makes the pictures of docs/, except those of README (`make_readme_pictures.py`), `pipeline.svg`, drawn by hand,
 `report.webp` (`make_report_picture.py`), and `apart.webp` and `palletiser*.webp`, made as docs/dismantling.md and
 docs/trig.md say.
 

@@ -235,7 +235,7 @@ def told(named: griffe.Object) -> Iterator[str]:
                 yield from ("Raises:", "")
                 yield from (*listed((str(each.annotation), each.description) for each in errors), "")
             case _:
-                raise ValueError(f"{named.path}: nothing is known of a section of {section.kind.value}")
+                raise ValueError(f"{named.path}: there is no rule for a section of {section.kind.value}")
 
 
 def parsed(named: griffe.Object) -> list[griffe.DocstringSection]:

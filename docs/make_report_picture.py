@@ -1,4 +1,4 @@
-"""Makes the picture of docs/report.md anew: the page of `handeye report --demo` in a browser.
+"""Makes the picture of docs/report.md: the page of `handeye report --demo` in a browser.
 
 python docs/make_report_picture.py
 

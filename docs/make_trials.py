@@ -1,10 +1,10 @@
 """Writes the table of docs/figures.md on trials of the pump from the files in docs/trials/, and makes such files.
 
-python docs/make_trials.py                                  # the table anew
-python docs/make_trials.py NAME COMMIT DIR                  # the file of the batch in DIR, and the table anew
+python docs/make_trials.py                                  # the table
+python docs/make_trials.py NAME COMMIT DIR                  # the file of the batch in DIR, and the table
 
-DIR is what `handeye trials assembly --out DIR` has left; of a batch that was broken off, the trials before the first
-that is missing count. A file has a line a trial, and above them command, commit, digests of code and plan, worlds,
+DIR is what `handeye trials assembly --out DIR` has left; of an interrupted batch, the trials before the first
+missing one count. A file has a line for each trial, and above them command, commit, digests of code and plan, worlds,
 versions, and (since it is recorded) the renderer of its pictures. Batches of one plan, one kind of worlds, the same
 code, scenes among it, and one renderer are added up.
 """
@@ -115,7 +115,7 @@ def renderers(rows: Sequence[Row]) -> str:
 
 
 def _options(head: Head) -> list[str]:
-    """Words of the command that carries out a batch, but for seed, level and number."""
+    """Words of the command that runs a batch, except seed, level and number."""
     _, _, *words = world_words(head.world, PROGRAM)
     words = words if head.world.level == "nominal" else words[2:]
     words += sense_words(head.without)
@@ -125,7 +125,7 @@ def _options(head: Head) -> list[str]:
 
 
 def _command(head: Head, n: int) -> str:
-    """The command that carries out a batch; a plan that is not the task's own is made by `handeye plan`."""
+    """The command that runs a batch; a plan that is not the task's own is made by `handeye plan`."""
     level = [] if head.world.level == "nominal" else ["--level", head.world.level]
     plan = [] if head.program == PROGRAM else ["--plan", f"{head.program}.plan.json"]
     seeds = (

@@ -21,7 +21,7 @@ for limits in (None, {"pins": 0.05, "pins_tilt": 0.2}):
 
 
 def nothing_fell(truth):
-    """A referee of one's own: the height of the lowest thing that can move, from the truth that no program sees."""
+    """A referee of one's own: the height of the lowest movable part, from the truth that no program sees."""
     lowest = min(truth.data.body(name).xpos[2] for name in ("base", "gasket", "top", "pin0", "pin1"))
     return {"lowest": handeye.at_least(lowest * 1e3, 0.0, "mm", "height of the lowest part")}
 
