@@ -1,8 +1,8 @@
 """Pages that a reader can follow from a shell: files to write, commands to type, and what these print.
 
-A block `al NAME` or `toml NAME` is a file. A block without a language holds commands behind `$ `, each with what it
-prints; `...` stands for lines left out, and where nothing is shown, all is. A command with `--step` begins a session,
-whose commands stand behind `handeye> `, there and in later blocks. Other languages are not looked at.
+A block `al NAME`, `toml NAME` or `mal NAME` is a file. A block without a language holds commands behind `$ `, each with
+what it prints; `...` stands for lines left out, and where nothing is shown, all is. A command with `--step` begins a
+session, whose commands stand behind `handeye> `, there and in later blocks. Other languages are not looked at.
 """
 
 import re
@@ -59,7 +59,7 @@ def walked(page: str, command: Answer, said: Answer | None = None) -> list[Typed
     found = []
     for block in BLOCK.finditer(page):
         language, name, content = block.groups()
-        if language in ("al", "toml") and name:
+        if language in ("al", "toml", "mal") and name:
             Path(name).write_text(content, encoding="utf-8")
         for typed in TYPED.finditer(content) if not language else ():
             prompt, line, shown = typed.groups()

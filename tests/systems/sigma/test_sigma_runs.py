@@ -162,8 +162,8 @@ def test_a_program_is_stepped_by_its_own_line_numbers_and_back(command: Command)
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("", "test.mal has no line that can be carried out"),
-        ("10 REM ONLY THIS", "test.mal has no line that can be carried out"),
+        ("", "test.mal has no line that can be executed"),
+        ("10 REM ONLY THIS", "test.mal has no line that can be executed"),
         ("10 MOVE", "error[syntax]: an axis"),
         ("10 GOTO 20", "error[line-missing]: there is no line 20"),
     ],

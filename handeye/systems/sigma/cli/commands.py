@@ -68,7 +68,7 @@ def run(
     live: Live = False,
     on_stop: OnStop = None,
 ) -> int:
-    """Carry out a program: a step is one statement of the task whose turn it is.
+    """Run a program: a step is one statement of the task whose turn it is.
 
     Exit code 0: all tasks have ended; 1: the program stands (an abort, a deadlock, a statement that cannot be carried
     out); 2: bad input; 130: interrupted.
@@ -123,14 +123,14 @@ def check(
         bool,
         Parameter(help="Try every order in which the tasks may go on, and show what goes wrong in which."),
     ] = False,
-    most: Annotated[WholeNumber, Parameter(help="Stop after so many states.")] = 50_000,
+    most: Annotated[WholeNumber, Parameter(help="Stop after this number of states.")] = 50_000,
     json: Annotated[bool, Parameter(help="What was found as JSON.")] = False,
 ) -> int:
     """Check a program as `handeye check` does, and try the orders of its tasks.
 
     A statement is one act; motions and delays take any time. Sensors answer 0, INPUT gets 0, and no motor is aborted.
 
-    Exit code 0: nothing found; 1: a deadlock, a race, or a statement that cannot be carried out; 2: bad input, or a
+    Exit code 0: nothing found; 1: a deadlock, a race, or a statement that cannot be executed; 2: bad input, or a
     program with errors.
     """
     from handeye.systems.sigma.mal.compiler import program_of
@@ -148,7 +148,7 @@ def check(
         return 2
     program = program_of(file.name, source.text)
     if not program.lines:
-        raise BadArgument(f"{file} has no line that can be carried out")
+        raise BadArgument(f"{file} has no line that can be executed")
     result = tried(program, most)
     answer(result, told_orders(str(file), result), json=json)
     return 1 if result.findings else 0

@@ -1,4 +1,4 @@
-"""The console of 1981: lines with numbers are a program, the others are carried out at once."""
+"""The console of 1981: lines with numbers are a program, the others are executed at once."""
 
 import re
 from collections.abc import Callable, Iterable
@@ -38,7 +38,7 @@ COMMANDS: Final = {
     "SAVE": ConsoleCommand("SAVE FILE", "write the program to a new file"),
     "LIST": ConsoleCommand("LIST [FIRST[-LAST]]", "show its lines"),
     "COMPILE": ConsoleCommand("COMPILE", "check it, and say how much code it makes"),
-    "RUN": ConsoleCommand("RUN", "carry it out from the beginning"),
+    "RUN": ConsoleCommand("RUN", "run it from the beginning"),
     "BREAK": ConsoleCommand("BREAK [LINE]", "stop before this line, or before none; Ctrl-C stops at once"),
     "CONT": ConsoleCommand("CONT", "go on where the program stands"),
     "STATUS": ConsoleCommand("STATUS", "show the microcomputers"),
@@ -75,7 +75,7 @@ class Console:
         return COMMANDS
 
     def hear(self, line: str) -> None:
-        """Carry out a line; raises InvalidInput if it cannot be, and nothing has changed then."""
+        """Execute a line; raises InvalidInput if it cannot be, and nothing has changed then."""
         line = line.strip()
         if not line:
             return
@@ -194,7 +194,7 @@ class Console:
             self._stop = int(line)
 
     def _carry_on(self, *first: Callable[[], None]) -> None:
-        """Carry statements out until the program ends, stands, is to stop, or is broken off."""
+        """Execute statements until the program ends, stands, is to stop, or is broken off."""
         assert self._vm is not None
         vm, self._paused = self._vm, False
         try:

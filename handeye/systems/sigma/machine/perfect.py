@@ -53,7 +53,7 @@ class PerfectMemory(MutableRecord, kw_only=True):
 
 
 class PerfectMotors(MicrobusPort):
-    """The ten microcomputers of SUPERSIGMA with machines that do what they are told."""
+    """The ten microcomputers of SUPERSIGMA with machines that obey."""
 
     def __init__(self) -> None:
         self._memory = PerfectMemory()

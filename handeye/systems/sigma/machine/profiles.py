@@ -1,4 +1,4 @@
-"""How long a motor takes for so many steps: short, medium and long profiles, as whole microseconds."""
+"""How long a motor takes for a number of steps: short, medium and long profiles, in whole microseconds."""
 
 import math
 from typing import Final, NamedTuple
@@ -23,7 +23,7 @@ SHORT: Final = 8  # steps, at start/stop speed throughout
 
 
 def move_us(steps: int, curve: int = 0, limit: int = 0) -> int:
-    """The time of a move by so many steps along a curve, microseconds; `limit` is in steps/s, 0: none."""
+    """The time of a move by `steps` along a curve, microseconds; `limit` is in steps/s, 0: none."""
     start, top, acceleration = CURVES[curve if curve < len(CURVES) else 0]
     if limit:
         top = min(top, float(limit))

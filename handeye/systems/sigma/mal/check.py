@@ -169,7 +169,7 @@ class _Check:
             yield from self._variables()
 
     def _near(self, name: str, known: Collection[str]) -> SimilarName | KnownNames | None:
-        """Names that may be meant; none once more mistakes are told than are shown."""
+        """Names that may be meant; none once there are more mistakes than are shown."""
         self._told += 1
         return alternatives(name, known) if self._told <= LIMIT else None
 

@@ -45,7 +45,7 @@ CODES: Final[dict[str, MalCode]] = {
         cure="write NEXT behind the lines that are repeated",
     ),
     "line-missing": MalCode(
-        meaning="a jump leads to a line that is not there", example="10 GOTO 25\n20 END",
+        meaning="a jump leads to a line that does not exist", example="10 GOTO 25\n20 END",
         cure="name a line of this task",
     ),
     "line-number": MalCode(

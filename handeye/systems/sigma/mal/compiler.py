@@ -55,7 +55,7 @@ class Instruction(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompiledLine:
-    """A line that can be carried out, and where its code begins."""
+    """A line that can be executed, and where its code begins."""
 
     number: int
     task: str

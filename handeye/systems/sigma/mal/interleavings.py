@@ -35,13 +35,13 @@ KINDS: Final[dict[FindingKind, str]] = {
     "hands": "the hands of both arms may meet",
     "variable": "which task comes first at a variable depends on time",
     "flag": "a flag is set before it was taken: one of the two signals is lost",
-    "stops": "a statement cannot be carried out",
+    "stops": "a statement cannot be executed",
 }
 _SHARED_WORDS: Final = {"SET", "RESET", "WAIT", "TAKE", "START", "KILL", "STOP", "END"}
 
 
 class Act(Record, frozen=True, kw_only=True):
-    """One act of a schedule: a task carries out a line, or goes on behind one; or an axis arrives."""
+    """One act of a schedule: a task executes a line, or goes on with one; or an axis arrives."""
 
     task: str  # or the axis
     line: int | None = None
@@ -346,7 +346,7 @@ def interleavings(program: MalProgram, most: int = MOST_STATES) -> Interleavings
 
 
 def schedule_lines(schedule: Sequence[Act]) -> list[str]:
-    """A schedule as lines of text: who goes on, with the lines carried out one behind the other."""
+    """A schedule as lines of text: who goes on, with the lines executed one after the other."""
     rows: list[tuple[str, list[str]]] = []
     for act in schedule:
         text = "arrives" if act.line is None else f"{act.line} goes on" if act.goes_on else str(act.line)

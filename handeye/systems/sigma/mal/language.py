@@ -76,7 +76,7 @@ class MalLanguage(OwnLanguage):
 
 
 def tidy(text: str) -> str:
-    """A statement in capitals, but for texts in quotes and for remarks."""
+    """A statement in capitals, except for texts in quotes and remarks."""
     if text.upper().startswith("REM"):
         return f"REM{text[3:]}"
     return "".join(part if part.startswith('"') else part.upper() for part in re.split(r'("[^"]*")', text))

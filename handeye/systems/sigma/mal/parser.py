@@ -193,7 +193,7 @@ class _Parser:
         if word not in STATEMENTS:
             statement = self._assignment()
         elif word in ("TASK", "REM") and not top:
-            self._wrong("a statement that can be carried out")
+            self._wrong("a statement that can be executed")
         else:
             self._take()
             statement = _FORMS[word](self, word)

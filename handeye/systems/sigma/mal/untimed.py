@@ -1,4 +1,4 @@
-"""A machine without time: a motion has begun or has ended, and which of several ends first is anybody's guess."""
+"""A machine without time: motions under way may end in any order."""
 
 from typing import Final
 

@@ -52,11 +52,11 @@ _MOST_INSTRUCTIONS: Final = 100_000  # of a statement: none has a loop
 
 
 class Trap(HandeyeError):
-    """A statement cannot be carried out."""
+    """A statement cannot be executed."""
 
 
 class VirtualMachine:
-    """Carries out a compiled program. `tell` hears what happens, `poll` is called before time passes."""
+    """Executes a compiled program. `tell` hears what happens, `poll` is called before time passes."""
 
     def __init__(
         self,
@@ -116,7 +116,7 @@ class VirtualMachine:
         self.settle()
 
     def statement(self) -> None:
-        """Carry out the statement of the task whose turn it is, as far as it goes; `settle` then finds the next."""
+        """Execute the statement of the task whose turn it is, as far as it goes; `settle` then finds the next."""
         memory, name = self.memory, self.memory.turn
         memory.last, began = name, self.machine.now
         calculated = self._run(name, memory.tasks[name])
@@ -150,7 +150,7 @@ class VirtualMachine:
         self.settle()
 
     def retry(self) -> None:
-        """Carry out the statement at which the program stands once more."""
+        """Execute the statement at which the program stands again."""
         fault = self._unfault()
         task = self.memory.tasks.get(fault.task)
         if fault.kind in ("trap", "abort") and task is not None:
@@ -324,7 +324,7 @@ class VirtualMachine:
     # -- instructions ---------------------------------------------------------------------------------
 
     def _run(self, name: str, task: TaskMemory) -> int:
-        """Carry out instructions to the end of the statement, or to where it waits; how many of them calculated."""
+        """Execute instructions to the end of the statement, or to where it waits; how many of them calculated."""
         task.amid, began, calculated = True, self.program.line_of(task.pc).begin, 0
         try:
             for _ in range(_MOST_INSTRUCTIONS):
@@ -778,6 +778,9 @@ def _names(instruction: Instruction) -> tuple[str, ...]:
     return instruction.operand
 
 
+_DEVICES: Final = {number: name for name, number in protocol.DEVICES.items()}
+
+
 def _meaning(command: Command) -> str:
     """A command in words."""
     return {
@@ -792,6 +795,6 @@ def _meaning(command: Command) -> str:
             if command.value == protocol.STANDARD
             else f"{command.value * protocol.FORCE_STEP_N:g} N"
         ),
-        Op.ACTUATE: f"device {command.detail} to {command.value}",
+        Op.ACTUATE: f"{_DEVICES.get(command.detail, command.detail)} to {command.value}",
         Op.BEAM: "is the beam cut?",
     }[Op(command.op)]

@@ -24,14 +24,14 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "IF": Word(
         "statement", "IF condition THEN target [ELSE target]",
-        "Go to a line, or carry out a statement, if a condition holds.", "10 IF BEAM(1) = 0 THEN 110",
+        "Go to a line, or execute a statement, if a condition holds.", "10 IF BEAM(1) = 0 THEN 110",
     ),
     "GOTO": Word("statement", "GOTO line", "Go to a line of the same task.", "10 GOTO 200"),
     "GOSUB": Word("statement", "GOSUB line", "Go to a subroutine; RETURN comes back.", "10 GOSUB 500"),
     "RETURN": Word("statement", "RETURN", "Go back behind the last GOSUB.", "570 RETURN"),
     "FOR": Word(
         "statement", "FOR name = expression TO expression [STEP expression]",
-        "Repeat the lines to NEXT for each value. The lines are carried out at least once.", "10 FOR I = 1 TO 4",
+        "Repeat the lines to NEXT for each value. The lines are executed at least once.", "10 FOR I = 1 TO 4",
     ),
     "NEXT": Word("statement", "NEXT name", "The end of the lines that FOR repeats.", "90 NEXT I"),
     "PRINT": Word(
@@ -61,7 +61,7 @@ WORDS: Final[dict[str, Word]] = {
         "statement", "TAKE flag", "Wait until a flag is set, and clear it in the same act: only one task gets it.",
         "160 TAKE PLACEFREE",
     ),
-    "DELAY": Word("statement", "DELAY expression", "Wait for so many seconds.", "10 DELAY 0.5"),
+    "DELAY": Word("statement", "DELAY expression", "Wait for a time, in seconds.", "10 DELAY 0.5"),
     "MOVE": Word(
         "statement", "MOVE axis (TO|BY) expression {, axis (TO|BY) expression} [SLOW expression|LINE] [NOWAIT]",
         "Move axes to places, or by distances, mm: one command each in the order written, then wait for all of them. "

@@ -20,7 +20,7 @@ LONGEST_STATEMENT_US: Final = 1_000_000
 
 
 class MalPlan(Record, frozen=True, kw_only=True):
-    """A program and the machine that it is carried out with."""
+    """A program and the machine that it runs on."""
 
     name: str
     text: Annotated[str, msgspec.Meta(max_length=LARGEST)]
@@ -66,7 +66,7 @@ class MalStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MalListing:
-    """The lines of a program that are carried out, in the order of their numbers."""
+    """The lines of a program that are executed, in the order of their numbers."""
 
     name: str
     source: str
@@ -110,6 +110,6 @@ def decode(data: bytes, name: str) -> MalPlan:
 
 
 def sound(plan: MalPlan) -> None:
-    """Raises BadFile unless a plan's program can be carried out."""
+    """Raises BadFile unless a plan's program can be executed."""
     if not plan.program.lines:
-        raise BadFile(f"{plan.name} has no line that can be carried out")
+        raise BadFile(f"{plan.name} has no line that can be executed")

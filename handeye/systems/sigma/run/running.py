@@ -183,7 +183,7 @@ class RunningMal(RunningSystem):
         put_back(self._state, state)
         self._begun = True
 
-    # -- what people see ------------------------------------------------------------------------------
+    # -- display ------------------------------------------------------------------------------
 
     @property
     def shown(self) -> Mapping[str, Any]:

@@ -31,7 +31,7 @@ class SigmaSystem(System):
         units="millimetres, newtons, seconds",
         commands={
             "proceed": "go on behind the statement at which the program stands",
-            "retry": "carry out that statement once more",
+            "retry": "execute that statement again",
             "skip": "end the program here",
         },
     )
@@ -53,7 +53,7 @@ class SigmaSystem(System):
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
         return {
             "proceed": "proceed: go on behind this statement",
-            "retry": "retry: carry it out once more",
+            "retry": "retry: execute it again",
             "skip": "skip: end the program here",
         }
 

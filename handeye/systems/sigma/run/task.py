@@ -1,4 +1,4 @@
-"""The task of a MAL program that is carried out by itself: nothing is drawn, and nobody judges."""
+"""The task of a MAL program that runs by itself: nothing is drawn, and there is no referee."""
 
 from __future__ import annotations
 
