@@ -152,6 +152,32 @@ def test_an_option_means_the_same_wherever_it_is() -> None:
             assert named["RUN"].startswith("The folder of a run"), words
 
 
+NEEDED = {
+    "report": ("-o", "it.html"), "compare": ("absent",), "view": (), "trace photograph": ("--at", "1", "-o", "it.png"),
+    "trace thin": ("-o", "it.mcap"), "trace plot": ("-o", "it.png"), "trace export csv": ("-o", "tables"),
+    "trace export parquet": ("-o", "tables"), "export mjcf": ("-o", "scene"), "export glb": ("-o", "it.glb"),
+}  # fmt: skip
+"""Words that a command needs besides the run."""
+
+
+def test_every_command_that_takes_a_run_says_the_same_where_there_is_none(command: Command) -> None:
+    takers = {words for words, named in options().items() if {"RUN", "A"} & set(named)}
+    assert {"show", "resume", "dismantle", "video", *NEEDED} - {"view"} <= takers
+    for folder in ("empty", "batch"):
+        Path(folder).mkdir()
+    for name in ("plan.json", "trials.jsonl"):
+        Path("batch", name).touch()
+    sentences = {
+        "absent": "absent: there is no such file",
+        "empty": "empty holds no run",
+        "batch": "batch is the folder of a batch of trials, not of a run",
+    }
+    for words in sorted(takers):
+        for place, sentence in sentences.items():
+            code, _, err = command(*words.split(), place, *NEEDED.get(words, ()))
+            assert (words, code, err.splitlines()[-1]) == (words, 2, f"handeye: {sentence}")
+
+
 def test_what_is_typed_replaces_nothing(command: Command, planned: Planned) -> None:
     plan = planned("OPEN 1")
     Path("it.checkpoint").write_bytes(b"handeye-checkpoint 1 ours")

@@ -12,7 +12,6 @@ from handeye.cli.programs import made_known
 from handeye.cli.trace_files import (
     Run,
     RunOrTrace,
-    check_no_batch,
     motion_file,
     run_or_newest,
     two_runs,
@@ -220,7 +219,6 @@ def shown(folder: Path, *, json: bool, details: bool = True) -> "KeptRun":
     from handeye.results.page import page, short_page
     from handeye.results.result import to_json
 
-    check_no_batch(folder)
     kept = kept_run(folder)
     for fault in kept.faults:
         note(f"left out: {fault}")

@@ -53,7 +53,6 @@ def trace_file(path: Path) -> Path:
 
     if path.exists() and not path.is_dir():
         return path
-    check_no_batch(path)
     check_holds_run(path)
     growing = part(path / TRACE)
     if growing.exists():  # newer than the whole one, which is of before the run was resumed
@@ -64,14 +63,6 @@ def trace_file(path: Path) -> Path:
     if not (path / EVENTS).exists():
         raise BadFile(f"the run in {path} has not begun")
     return path / EVENTS
-
-
-def check_no_batch(folder: Path) -> None:
-    """Raises InvalidInput if a folder holds a batch of trials instead of a run."""
-    from handeye.trials.folder import TRIALS
-
-    if (folder / TRIALS).is_file():
-        raise BadFile(f"{folder} is the folder of a batch of trials, not of a run")
 
 
 def motion_file(path: Path) -> Path:

@@ -42,6 +42,7 @@ class KeptRun:
 
 def kept_run(path: Path) -> KeptRun:
     """A run as its folder records it; raises InvalidInput if it cannot be read, or the run has not begun."""
+    check_holds_run(path)
     faults = []
     if (path / RESULT).exists():
         result = read_result(path / RESULT)
@@ -51,7 +52,6 @@ def kept_run(path: Path) -> KeptRun:
             f"{path / RESULT} is of another run: of {quoted(result.program)} in the world of {result.world}"
         )
     if not (path / EVENTS).exists() and not (path / PLAN).exists():
-        check_holds_run(path)
         raise BadFile(f"the run in {path} cannot be shown: it has no {PLAN}")
     events = effective(read_events(path / EVENTS, growing=True)) if (path / EVENTS).exists() else []
     if not events:

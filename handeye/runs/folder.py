@@ -40,6 +40,8 @@ PICTURES: Final = "pictures"
 HOST: Final = "host.json"
 REPORT: Final = "report.html"
 VIDEO: Final = "video.webp"
+TRIALS: Final = "trials.jsonl"
+"""Is in the folder of a batch of trials, and in none of a run."""
 MARK: Final = "unnamed"
 """Holds the name of a folder that handeye has named itself; see `runs/unnamed_runs.py`."""
 
@@ -258,10 +260,17 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
     return folder, checkpoint, faults
 
 
-def check_holds_run(path: Path) -> None:
-    """Raises BadFile unless a path is a folder in which a run has left anything: the one sentence of all commands."""
+def check_exists(path: Path) -> None:
+    """Raises BadFile if nothing is at a path."""
     if not path.exists():
         raise BadFile(f"{path}: there is no such file")
+
+
+def check_holds_run(path: Path) -> None:
+    """Raises BadFile unless a path is a folder in which a run has left anything: the one sentence of all commands."""
+    check_exists(path)
+    if (path / TRIALS).is_file():
+        raise BadFile(f"{path} is the folder of a batch of trials, not of a run")
     left = (PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS)
     if not any((path / name).exists() for name in left):
         raise BadFile(f"{path} holds no run")

@@ -16,6 +16,7 @@ from handeye.core.variation import Seed, WorldSpec
 from handeye.core.versions import code_digest, versions
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import alike, plan_digest, read_plan, write_plan
+from handeye.runs.folder import TRIALS, check_exists
 from handeye.trials.sweep import R, Sweep
 
 _OURS: Final = {
@@ -45,7 +46,6 @@ def sweep_of(kind: str) -> Sweep[Any]:
 
 T = TypeVar("T", bound=Record)
 
-TRIALS: Final = "trials.jsonl"
 PLAN: Final = "plan.json"
 _NAMES: Final = {
     "kind": "work", "plan": "plan", "world": "worlds", "seeds": "seeds", "camera": "camera", "without": "senses",
@@ -151,6 +151,7 @@ class BatchFolder(Generic[R]):
 
 def read_batch(path: Path) -> tuple[Head, tuple[Any, ...]]:
     """Head of the batch in a folder, and its rows by condition and number; raises InvalidInput if there is none."""
+    check_exists(path)
     file = path / TRIALS
     if not file.is_file():
         raise BadFile(f"{path} holds no batch of trials: {quoted(TRIALS)} is not in it")

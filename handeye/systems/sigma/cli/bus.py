@@ -24,7 +24,7 @@ BusFaults = Annotated[
         "them. May be given again.",
     ),
 ]
-Seed = Annotated[WholeNumber, Parameter(help="Draws when each microcomputer begins to poll.")]
+Seed = Annotated[WholeNumber, Parameter(help="Seed of the world: when each microcomputer begins to poll.")]
 
 bus = App(name="bus", help="The MICROBUS: what is on its lines, what each receiver takes, and how it fails.")
 
