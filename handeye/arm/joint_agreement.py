@@ -66,9 +66,20 @@ class JointAgreement:
     _gain: Array = field(init=False)
 
     def __post_init__(self) -> None:
+        self._clear()
+
+    def _clear(self) -> None:
         self._way, self._path, self._between, self._moving, self._gain = (
             np.zeros(len(self.start)) for _ in range(5)
         )
+
+    def begin_anew(self, q: Array, qd: Array) -> None:
+        """Compare from these readings on, as a tool that chatters in step with the servo shakes the arm.
+
+        Tachometers that are read once in each period then show a rate that is steady, of a joint that stands still.
+        """
+        self.start, self.rate = q, qd
+        self._clear()
 
     def step(self, q: Array, qd: Array) -> Disagreement | None:
         """Compare the readings of the next servo period: the joint that disagrees most, if any.

@@ -304,7 +304,11 @@ class ServoLoop(Servo):
         change, self.state.crept = self.state.crept, None  # under the brakes; reported once
         rested = None if change is None else crept(self.arm, change)
         leapt, self.state.jump = self.state.jump, None
-        found = leapt or rested or sensors.step(self.sensed.q, self.sensed.qd)
+        if self.state.tool:
+            sensors.begin_anew(self.sensed.q, self.sensed.qd)
+            found = leapt or rested
+        else:
+            found = leapt or rested or sensors.step(self.sensed.q, self.sensed.qd)
         if found is None:
             return None
         self.state.q = self.state.here.copy()

@@ -42,6 +42,14 @@ def test_a_potentiometer_that_stands_still_is_doubted_on_a_steady_way() -> None:
     assert (said.joint, said.potentiometer) == (ROLL, 0.0)
 
 
+def test_sensors_that_are_compared_anew_are_not_held_to_what_was_before() -> None:
+    """As where a tool chatters: 30 readings of .5 rad/s, of a joint that stands still, are forgotten."""
+    sensors, rate = JointAgreement(arm=STANFORD, start=REST, rate=REST), np.eye(6)[ROLL] * 0.5
+    for _ in range(30):
+        sensors.begin_anew(REST, rate)
+    assert sensors.step(REST, REST) is None
+
+
 def test_a_potentiometer_that_reads_four_per_cent_too_far_is_doubted_on_a_motion_of_thirty_degrees() -> None:
     rates = [*np.linspace(0.0, 0.5, 31), *[0.5] * 32, *np.linspace(0.5, 0.0, 31)]
     way = np.cumsum((np.array([0.0, *rates[:-1]]) + rates) / 2) / 60

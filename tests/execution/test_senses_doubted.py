@@ -273,6 +273,13 @@ def test_a_motor_that_shows_no_current_while_it_runs_is_told() -> None:
     assert run.told.startswith(ERRORS[errors.CURRENT_WRONG])
 
 
+def test_a_tachometer_that_a_chattering_tool_shakes_is_no_matter_of_the_joint() -> None:
+    run = fake_run(DRIVE)
+    run.cell.screwdriver.load = 7 * OUNCE_INCH
+    reading(run, lambda read: replace(read, qd=read.qd + 0.03 * (run.cell.screwdriver.speed > 0)))
+    assert run.go().errors == [errors.NO_TORQUE]
+
+
 def test_a_motor_that_starts_and_meets_nothing_lacks_its_torque() -> None:
     run = fake_run(DRIVE)
     run.cell.screwdriver.load = 7 * OUNCE_INCH
