@@ -56,7 +56,7 @@ def _conditions(begun: RunStarted) -> Iterator[tuple[str, str]]:
     yield "arm", f"{begun.arm} {begun.arm_digest}"
     yield from _world(begun)
     yield "camera", renderer_name(begun.camera)
-    yield "senses that are lacking", ", ".join(begun.lacking) or _NONE
+    yield "missing senses", ", ".join(begun.lacking) or _NONE
     yield from ((f"own {part}", name) for part, name in begun.own_parts.items())
     yield from ((f"version of {name}", version) for name, version in begun.versions.items())
 
@@ -111,7 +111,7 @@ class Comparison(Brief):
 
     a: ComparedRun
     b: ComparedRun
-    measures: Measures  # Units in which people read the first difference
+    measures: Measures  # Units of the first difference in text
     conditions: tuple[Condition, ...]
     thinned: bool
     """A trace is thinned to some of its servo periods, whose sensor values are then not compared."""
@@ -140,7 +140,7 @@ def comparison(a: RecordedRun, b: RecordedRun) -> Comparison:
         require(run.trace.head.system, "compare", name)
         steps = len(listing_of(run).steps)
         if any(isinstance(event, StepStarted) and not 0 <= event.step < steps for event in run.trace.events):
-            raise BadFile(f"{name} tells of steps that its plan lacks")
+            raise BadFile(f"{name} has steps that its plan lacks")
     runs, task = TwoRuns(a, b), known_any(a.trace.head.task)
     one, other = ({stage.stage: stage for stage in statistics(run.trace.events, {}).stages} for run in (a, b))
     return Comparison(

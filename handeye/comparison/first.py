@@ -90,7 +90,7 @@ def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[St
 
 
 _CLOCKS: Final = 2000  # ns by which times since a step began may differ by rounding
-EVENT: Final = ("event",)  # The quantity that differs where another kind of thing happened next
+EVENT: Final = ("event",)  # The quantity that differs if the next events differ in kind
 
 
 def _differing(

@@ -112,7 +112,7 @@ def _own(name: str) -> str:
 
 
 SIDES: Final = (("A", "a"), ("B", "b"))
-"""Letters of the runs, as people read them and as the parts of the page are named."""
+"""Letters of the runs, as shown and as used in names of elements."""
 _SPEEDS: Final = (1, 4, 16, 64)
 _USUAL: Final = 4
 

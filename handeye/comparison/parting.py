@@ -36,8 +36,8 @@ class Divergence:
 def parting(runs: TwoRuns) -> Divergence | None:
     """The divergence of two runs; None if they do not diverge.
 
-    The course consists of the steps, and of what decides about them: guards met, errors raised, answers to tests, what
-    people did.
+    The course consists of the steps and of the events that decide them: tripped guards, raised errors, answers to
+    tests, and user commands.
     """
     for a, b in zip_longest(_turnings(runs.a), _turnings(runs.b)):
         if a is None or b is None or not _alike(runs, a.event, b.event):

@@ -90,7 +90,7 @@ def turning_words(turning: DecidingEvent | None) -> str:
 
 
 def place_words(place: Place | None) -> str:
-    """A step for people."""
+    """A step in words."""
     if place is None:
         return "before the first step"
     return f"{place.stage}, line {place.name}: {one_line(place.text)}"

@@ -17,7 +17,7 @@ from handeye.trace.trace import Trace
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RecordedRun:
-    """A recorded run. Times are seconds since it began, as people see them."""
+    """A recorded run. Times are seconds since it began."""
 
     trace: Trace
     whole: bool = True  # The trace was read to its end; False: its file was cut short
@@ -43,12 +43,12 @@ class RecordedRun:
 
     @property
     def begins(self) -> float:
-        """When its motions begin to be recorded: 0, but for a run taken up from a checkpoint."""
+        """When its motions begin to be recorded: 0, except for a run resumed from a checkpoint."""
         return self.trace.begins
 
     @property
     def ends(self) -> float:
-        """The time of the last that is known of it."""
+        """The time of its last event."""
         return self.trace.events[-1].time
 
 

@@ -20,7 +20,7 @@ class Link:
         self._goes = False
         self._panic = False
 
-    # -- the side of those who look on ----------------------------------------------------------------
+    # -- the side of the viewers ----------------------------------------------------------------------
 
     def say(self, line: str) -> bool:
         """Say a line to the run; False: too many wait."""

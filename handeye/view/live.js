@@ -4,7 +4,7 @@ const live = (() => {
   const byId = (id) => document.getElementById(id);
   const facts = JSON.parse(byId("facts").textContent);
   const poses = new Map(), heard = {};
-  const KEPT = 2000; // rows that are kept of what was told
+  const KEPT = 2000; // rows of the log that are kept
   let player = null, socket = null, drives = false, left = false;
 
   // -- the cell ---------------------------------------------------------------------------------------
@@ -38,7 +38,7 @@ const live = (() => {
     return button;
   }
 
-  /** A moment: figures, joints, channels, then seven numbers for each body, which are none where it is not there. */
+  /** A moment: figures, joints, channels, then seven numbers for each body, NaN if it is hidden. */
   function moment(buffer) {
     const numbers = new Float32Array(buffer), [time, gap, ...force] = numbers.subarray(0, facts.figures);
     let at = facts.figures + facts.joints;

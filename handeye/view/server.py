@@ -39,7 +39,7 @@ class Say(msgspec.Struct, tag_field="do", tag="say", forbid_unknown_fields=True)
 
 
 class Panic(msgspec.Struct, tag_field="do", tag="panic", forbid_unknown_fields=True):
-    """Press the panic button: anybody may."""
+    """Press the panic button, which every viewer may do."""
 
 
 class Drive(msgspec.Struct, tag_field="do", tag="drive", forbid_unknown_fields=True):

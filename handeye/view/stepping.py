@@ -48,7 +48,7 @@ def _controls() -> Markup:
 
 
 def drive(stepper: Stepper, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> Pause:
-    """Carry out lines until the run is left; return why it pauses. `aside` is entered while a line is waited for."""
+    """Execute lines until the user leaves the run; return why it pauses. `aside` is entered while waiting."""
     session = stepper.session
     session.output = LiveJson(session.runner, link.tell)
     session.input = LineInput(link.come, lambda line: link.tell(told(stepper, stepper.meanwhile(line))))

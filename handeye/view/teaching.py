@@ -123,7 +123,7 @@ class Watch:
 
 
 def teach(session: TeachSession, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> None:
-    """Carry out lines until teaching is left; `aside` is entered while a line is waited for."""
+    """Execute lines until the user leaves; `aside` is entered while waiting for a line."""
     link.tell(_told(session, None))
     for line in filter(str.strip, link.lines(aside)):
         link.tell(msgspec.json.encode({"begun": line.strip()}).decode())

@@ -208,7 +208,7 @@ def test_without_webgl_it_says_so_and_shows_photographs(file: Path, tmp_path: Pa
     with Browser.started(tmp_path, "--disable-3d-apis") as browser:
         page = browser.page(file, width=1360, height=860)
         told = page.wait("document.getElementById('instead')?.textContent")
-        assert told == "This browser offers no WebGL 2. Photographs stand in the place of the view."
+        assert told == "This browser offers no WebGL 2. Photographs replace the view."
         assert page.evaluate("document.querySelectorAll('#strip figure.on').length") == 1
 
 

@@ -1,4 +1,4 @@
-"""The command that carries out a run again."""
+"""The command that repeats a run."""
 
 import shlex
 from collections.abc import Sequence

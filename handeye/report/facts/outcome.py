@@ -29,11 +29,11 @@ class Outcome:
     step: StepStarted | None = None  # The step under way then, or done last
     call: OperatorCalled | None = None
     wrong: tuple[Check, ...] = ()
-    doubts: tuple[Check, ...] = ()  # What he found not as it should be, and does not hold against it
+    doubts: tuple[Check, ...] = ()  # Findings of a doubtful quality that do not make the work wrong
 
     @property
     def good(self) -> bool:
-        """Nothing went wrong, as far as anybody looked."""
+        """True if no failure is known."""
         return self.kind in ("right", "ended")
 
     @property

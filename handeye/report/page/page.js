@@ -83,7 +83,7 @@
     if (now >= run.end) go(false); else requestAnimationFrame(advance);
   }
 
-  /** Keep the moment in the address, so that it can be handed on. */
+  /** Keep the moment in the address, so that it can be shared. */
   function keep() {
     history.replaceState(null, "", `#t=${now.toFixed(2)}`);
   }
@@ -93,7 +93,7 @@
     keep();
   }
 
-  /** Go so many rows on, or back: to the beginning of this one first, if it began a while ago. */
+  /** Go a number of rows forwards or backwards: to the beginning of this one first, if it began a while ago. */
   function skip(rows, by) {
     const here = rowAt(rows, now);
     const next = by < 0 && here >= 0 && now > rows[here][0] + 0.2 ? here : here + by;
@@ -138,10 +138,10 @@
       const drawn = await createPlayer(canvas, await unpacked("scene"), await unpacked("tracks"), {});
       drawn.onpick = picked;
       byId("views").replaceChildren(...drawn.views.map(viewButton));
-      player = canvas.player = drawn;  // there for whoever asks the page
+      player = canvas.player = drawn;  // for tests
     } catch (error) {
       canvas.hidden = true;
-      byId("instead").textContent = `${error.message} Photographs stand in the place of the view.`;
+      byId("instead").textContent = `${error.message} Photographs replace the view.`;
       byId("instead").hidden = false;
       return;
     }

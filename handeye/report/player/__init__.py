@@ -1,33 +1,32 @@
 """The player: a run in three dimensions on a page, drawn by WebGL2 without any library.
 
-A page carries three things, each made here: the scene, the tracks of what is in it, and the script. The same
-trace gives the same bytes. The page decompresses scene and tracks (`DecompressionStream("gzip")`) and hands them to the
-script:
+A page contains the scene, the tracks of its bodies, and the script. The same
+trace gives the same bytes. The page decompresses scene and tracks (`DecompressionStream("gzip")`) and passes them to
+the script:
 
 ```js
 const player = await createPlayer(canvas, scene, tracks, options);
 ```
 
-The promise is rejected with an `Error`, whose message is a sentence, where there is no WebGL 2. Times are seconds since
-the run began, as people see them. Options: `still` (views change at once; by default as the browser says that its user
-prefers), `exposures` (pictures that are averaged when nothing moves).
+Without WebGL 2 the promise is rejected with an `Error` whose message is a sentence. Times are seconds since the run
+began. Options: `still` (views change at once; the default follows the browser's setting for reduced motion),
+`exposures` (pictures that are averaged when nothing moves).
 
 | member | |
 |---|---|
-| `begin`, `end`, `duration` | what the tracks cover, s |
-| `at(seconds)`, `time` | show a moment; the moment shown. The page keeps the clock |
+| `begin`, `end`, `duration` | the range of the tracks, s |
+| `at(seconds)`, `time` | show a moment; the shown moment. The page keeps the time |
 | `views`, `view(name)` | names of the views, `room` first; look from there |
-| `names`, `pose(body, seconds)` | bodies as in `Trace.poses`; place (m) and quaternion w, x, y, z, or null: not there |
-| `pick(x, y)` | the name for people of what is drawn at a point of the canvas (CSS pixels), or null |
+| `names`, `pose(body, seconds)` | bodies as in `Trace.poses`; place (m) and quaternion w, x, y, z, or null: hidden |
+| `pick(x, y)` | the displayed name of the body at a point of the canvas (CSS pixels), or null |
 | `onpick` | null or a function `(name, x, y)`, called at a click |
-| `settled()` | a promise: the averaged picture is up |
+| `settled()` | a promise: the averaged picture is shown |
 | `frames` | pictures drawn so far |
-| `destroy()` | let go of canvas and graphics memory |
+| `destroy()` | release canvas and graphics memory |
 
-Hands: one finger or the left button goes round, two fingers or the right button shift, a pinch comes nearer. While the
-canvas has the focus, so do the wheel and plus and minus; arrows go round, shift and arrows shift. How large the canvas
-is says the page, and by its style `touch-action` how much of a touch is meant for it: `none` is all, `pan-y` leaves the
-page to be scrolled.
+Gestures: one finger or the left button turns the view, two fingers or the right button shift it, a pinch zooms. While
+the canvas has the focus, the wheel, plus and minus zoom, arrows turn, shift and arrows shift. The page sets the size of
+the canvas, and its style `touch-action` the share of touches: `none` gives all to the canvas, `pan-y` leaves scrolling.
 """
 
 from pathlib import Path

@@ -29,10 +29,10 @@ class Track:
 
     @classmethod
     def of(cls, poses: NDArray[np.floating[Any]], lowest: float) -> Self | None:
-        """The track of a body from its poses in all servo periods, shape (m, 7); None if it is never there.
+        """The track of a body from its poses in all servo periods, shape (m, 7); None if it is always hidden.
 
         Args:
-            lowest: height below which a body is put away and not there, m. NaN is not there either.
+            lowest: height below which a body is hidden, m. NaN also means hidden.
         """
         there = poses[:, 2] >= lowest
         edges = np.flatnonzero(np.diff(there, prepend=False, append=False)).reshape(-1, 2).tolist()
@@ -69,7 +69,7 @@ def tracks_bytes(
     """Tracks and clock, compressed.
 
     Args:
-        poses: of bodies in all servo periods, shape (n, 7); NaN where one is not there.
+        poses: of bodies in all servo periods, shape (n, 7); NaN where one is hidden.
         times: ends of the servo periods, shape (n,), s since the run began, as `begin` and `end` of the page.
         lowest: height below which a body is put away, m.
     """

@@ -20,7 +20,7 @@ export class Bodies {
     this.depth = graphics.program(DEPTH);
   }
 
-  // Put a body where it is, null where it is not there; true if that is news.
+  // Set the pose of a body, null if it is hidden; true if that is a change.
   put(name, pose) {
     const body = this.named.get(name);
     if (!body || !moved(body.pose, pose)) return false;
@@ -60,7 +60,7 @@ export class Bodies {
     }
   }
 
-  // What is drawn at one point of a picture: the name for people of a body, or of a part of the world; or null.
+  // What is drawn at one point of a picture: the displayed name of a body, or of a part of the world; or null.
   pick(matrix) {
     const { graphics } = this, { gl } = graphics, names = [], ink = new Uint8Array(4);
     graphics.into(graphics.target("pick", 1, 1, [gl.RGBA8], gl.DEPTH_COMPONENT24), 1, 1);

@@ -6,7 +6,7 @@ const LOWEST = -0.05, HIGHEST = 1.52; // rad above it
 const BROAD = 1.15; // as wide as high a picture has to be to be shown whole
 const GLIDE = 450; // ms from view to view
 
-// Whoever looks: at a point, from a direction and a distance; both go with a body, if the view does.
+// The viewpoint: at a point, from a direction and a distance; both go with a body, if the view does.
 export class Camera {
   constructor(views, placeOf) {
     this.views = new Map(views.map(view => [view.name, view]));

@@ -90,7 +90,7 @@ export class Graphics {
     return { frame, texture, size };
   }
 
-  // Pictures that are drawn into and read again, made anew when their size changes. `depth`: null, or its format.
+  // Pictures that are drawn into and read again, made again when their size changes. `depth`: null, or its format.
   target(name, width, height, formats, depth = null) {
     const known = this.targets.get(name);
     if (known?.width === width && known.height === height) return known;

@@ -45,7 +45,7 @@ export function listen(canvas, camera, { moved, clicked, signal }) {
   on("pointercancel", released);
   on("contextmenu", event => event.preventDefault());
 
-  on("wheel", event => { // the page's own, to be scrolled, but for a hand that has taken hold of the canvas
+  on("wheel", event => { // scrolls the page, unless the canvas has the focus
     if (document.activeElement !== canvas && !event.ctrlKey) return;
     event.preventDefault();
     camera.zoom(Math.exp(0.0022 * Math.max(-60, Math.min(60, event.deltaY))));

@@ -99,7 +99,7 @@ export class Picture {
     gl.disable(gl.BLEND);
   }
 
-  // Show the mean of so many exposures.
+  // Show the mean of a number of exposures.
   develop(width, height, count) {
     this.graphics.into(null, width, height);
     this.weigh(this.sum.textures[0], 1 / count);

@@ -10,7 +10,7 @@ import { Tracks } from "./tracks.js";
 
 const DETAIL = [1, 0.75, 0.5]; // points of a draft to a point of the canvas, along a side
 const SLOW = 45, FAST = 14; // ms: longer than this a draft should not take; below that it can be finer
-const TIMED = 24; // every so many drafts one is timed
+const TIMED = 24; // one in this number of drafts is timed
 const REST = [150, 800]; // ms without a change until the finer pictures begin: at least, and at most
 const SHOWN = 8; // exposures after which their mean is shown
 const PATIENCE = 4000; // ms after which no more are made than these

@@ -50,10 +50,10 @@ export class Shadows {
     return view;
   }
 
-  fill(map, view, which, anew = true) {
+  fill(map, view, which, fresh = true) {
     const { gl } = this.graphics;
     this.graphics.into(map, map.size, map.size);
-    if (anew) gl.clear(gl.DEPTH_BUFFER_BIT);
+    if (fresh) gl.clear(gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1.5, 3);
     this.bodies.drawDepth(view, which);

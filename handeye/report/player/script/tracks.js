@@ -1,7 +1,7 @@
 import { rowsOf, summed, unpacked } from "./packed.js";
 
 const UNIT = 0x1fff; // what 1 is in a quaternion
-const SAME = 1e-3; // of a servo period: as near as times are told
+const SAME = 1e-3; // of a servo period: the resolution of times
 
 // How many of increasing numbers are not above a value.
 function countUpTo(numbers, value) {
@@ -72,7 +72,7 @@ export class Tracks {
     return i + Math.max(0, Math.min(1, (seconds - clock[i]) / span));
   }
 
-  // Place (m) and quaternion of a body, or null where it is not there.
+  // Place (m) and quaternion of a body, or null if it is hidden.
   pose(body, seconds) {
     return this.tracks.get(body)?.pose(this.period(seconds)) ?? null;
   }
