@@ -7,7 +7,7 @@ from typing import Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Overwrite, note, say
+from handeye.cli.common import CALLED, Overwrite, note, say
 
 PAGE: Final = "demo.html"
 
@@ -39,7 +39,7 @@ def demo(
     say(str(output), whole=True)
     shown = not no_browser and sys.stdout.isatty() and opened(output)
     note(f"{'Opened' if shown else 'Open'} {output} in a browser.")
-    note("Step through a run yourself: handeye view --demo. Carry one out: handeye assemble.")
+    note(f"Step through a run yourself: {CALLED} view --demo. Carry one out: {CALLED} assemble.")
     return 0
 
 

@@ -113,7 +113,9 @@ def errors(
         ),
     ] = None,
     commands: Annotated[WholeNumber, Parameter(help="Commands to draw for each.")] = 200_000,
-    seed: Annotated[WholeNumber, Parameter(help="Seed of the world: bytes, clocks, and when receivers become free.")] = 0,
+    seed: Annotated[
+        WholeNumber, Parameter(help="Seed of the world: bytes, clocks, and when receivers become free.")
+    ] = 0,
     json: Json = False,
 ) -> int:
     """Draw commands, clocks, and moments at which a receiver becomes free, and count what is misread.
