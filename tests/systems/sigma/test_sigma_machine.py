@@ -220,6 +220,12 @@ def test_loops_nest_count_down_and_are_left_by_a_jump() -> None:
     assert carried_out(text).printed == ["332211"]
 
 
+def test_a_subroutine_returns_behind_its_gosub_also_from_within_an_if() -> None:
+    main = "10 GOSUB 100\n20 IF A < 2 THEN GOSUB 100\n30 PRINT A\n40 END"
+    text = f"{main}\n100 A = A + 1\n110 IF A > 0 THEN RETURN\n120 A = 9"
+    assert carried_out(text).printed == ["2"]
+
+
 def test_input_waits_for_a_number_that_is_typed() -> None:
     ran = carried_out("10 INPUT HEIGHT\n20 PRINT HEIGHT * 2")
     assert ran.fault == "the task MAIN, line 10, waits for a number for HEIGHT, typed at the console"

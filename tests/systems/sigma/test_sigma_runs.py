@@ -2,6 +2,8 @@
 
 import json
 from collections.abc import Callable
+from pathlib import Path
+from typing import get_args
 
 import pytest
 from mal_bench import PLANS, mal
@@ -14,14 +16,15 @@ from handeye.runs.checkpoint_file import read_checkpoint, write_checkpoint
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.sigma.run.plan import MalPlan
+from handeye.systems.sigma.mal.happenings import CommandSent, Printed
+from handeye.systems.sigma.run.plan import ArmName, MalPlan
 
 Command = Callable[..., tuple[int, str, str]]
 
 
-def begin(text: str, name: str = "test.mal") -> Checkpoint:
+def begin(text: str, arm: ArmName = "none") -> Checkpoint:
     """A run of a program that has not begun."""
-    plan = MalPlan(name=name, text=text)
+    plan = MalPlan(name="test.mal", text=text, arm=arm)
     return Checkpoint(setup=Setup(system="sigma", plan=plan, world=WorldSpec(seed=0), camera="auto"))
 
 
@@ -29,19 +32,45 @@ def lines(runner: Runner) -> list[bytes]:
     return [to_line(event) for event in runner.events]
 
 
+@pytest.mark.slow
 @pytest.mark.sigma_row(40)
-def test_a_run_kept_on_disk_before_any_statement_is_resumed_to_the_same_bytes(tmp_path) -> None:  # type: ignore[no-untyped-def]
-    whole = Runner(begin(mal("handover")))
+@pytest.mark.parametrize("arm", get_args(ArmName))
+def test_a_run_kept_on_disk_before_any_statement_is_resumed_to_the_same_bytes(
+    arm: ArmName, tmp_path: Path
+) -> None:
+    whole = Runner(begin(mal("handover"), arm))
     advance(whole)
     whole.finish()
     for steps in (6, 40):
-        first = Runner(begin(mal("handover")))
+        first = Runner(begin(mal("handover"), arm))
         advance(first, steps=steps)
         write_checkpoint(tmp_path / f"{steps}.checkpoint", first.checkpoint())
         second = Runner(read_checkpoint(tmp_path / f"{steps}.checkpoint"))
         advance(second)
         second.finish()
         assert lines(second) == lines(whole)
+        first.back_to(2)
+        advance(first)
+        first.finish()
+        assert lines(first) == lines(whole)
+
+
+def test_true_firmware_on_wires_gets_the_commands_that_perfect_motors_get() -> None:
+    def sent(arm: ArmName) -> list[tuple[str, str]]:
+        runner = Runner(begin(mal("handover"), arm))
+        assert advance(runner).kind == "end"
+        return [(event.task, event.frame) for event in runner.events if isinstance(event, CommandSent)]
+
+    assert sent("wired") == sent("none")
+
+
+def test_true_firmware_stops_at_the_rail_by_its_steepest_ramp_and_says_where_it_was() -> None:
+    text = "5 ON ABORT GOTO 100\n10 ORIGIN X1\n20 MOVE X1 BY 700\n30 END\n100 PRINT CRASHPOS(X1), POS(X1)\n110 RESUME"
+    runner = Runner(begin(text, "wired"))
+    advance(runner)
+    (said,) = [event.text.split() for event in runner.events if isinstance(event, Printed)]
+    assert 599 < float(said[0]) < 601
+    assert 15 < float(said[1]) - float(said[0]) < 30
 
 
 def test_going_back_takes_all_tasks_back_together_and_forward_again_is_the_same() -> None:

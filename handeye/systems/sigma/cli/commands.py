@@ -46,7 +46,11 @@ StatementTime = Annotated[
 ]
 Arm = Annotated[
     ArmName,
-    Parameter(name="--arm", help="The machine: `none` has perfect motors, and nothing stands in their way."),
+    Parameter(
+        name="--arm",
+        help="The machine: `none` has perfect motors; `wired` has ten microcomputers with their firmware, on a bus "
+        "whose wires they sample with their own clocks. Nothing stands in the way of either.",
+    ),
 ]
 
 sigma = App(name="sigma", help="SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.")

@@ -15,7 +15,7 @@ from handeye.systems.sigma.mal.compiler import MalProgram, program_of
 from handeye.systems.sigma.mal.virtual_machine import STATEMENT_US
 from handeye.systems.sigma.mal.words import MAL_DEVICES
 
-ArmName = Literal["none"]
+ArmName = Literal["none", "wired"]
 LONGEST_STATEMENT_US: Final = 1_000_000
 
 
@@ -24,7 +24,7 @@ class MalPlan(Record, frozen=True, kw_only=True):
 
     name: str
     text: Annotated[str, msgspec.Meta(max_length=LARGEST)]
-    arm: ArmName = "none"  # perfect motors
+    arm: ArmName = "none"  # perfect motors, or the firmware of all microcomputers on the wires of the bus
     statement_us: Annotated[int, msgspec.Meta(ge=0, le=LONGEST_STATEMENT_US)] = STATEMENT_US
     task: Literal["mal"] = "mal"
 

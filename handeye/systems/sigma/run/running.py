@@ -30,7 +30,8 @@ from handeye.program.system_state import SystemState, TaskPlace
 from handeye.runs.setup import Setup
 from handeye.runs.system import RunCallbacks, RunningSystem, Settable
 from handeye.systems.sigma import ENTRY
-from handeye.systems.sigma.machine.perfect import PerfectMotors
+from handeye.systems.sigma.bus.wired import WiredBus
+from handeye.systems.sigma.machine.perfect import PerfectMemory, PerfectMotors
 from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
 from handeye.systems.sigma.protocol import STEP_MM
 from handeye.systems.sigma.run.plan import MalPlan, encode, listing
@@ -49,7 +50,7 @@ class RunningMal(RunningSystem):
         self._listing = listing(setup.plan)
         self._early: list[SystemEvent] = []
         self._begun = False
-        self._machine = PerfectMotors()
+        self._machine: PerfectMotors | WiredBus = PerfectMotors() if setup.plan.arm == "none" else WiredBus()
         self.vm = VirtualMachine(
             setup.plan.program,
             self._machine,
@@ -57,7 +58,12 @@ class RunningMal(RunningSystem):
             poll=self._poll,
             statement_us=setup.plan.statement_us,
         )
-        self._state = MalState(memory=self.vm.memory, machine=self._machine.memory)
+        self._state = MalState(memory=self.vm.memory)
+        memory = self._machine.memory
+        if isinstance(memory, PerfectMemory):
+            self._state.machine = memory
+        else:
+            self._state.bus = memory
 
     @property
     def state(self) -> MalState:
@@ -179,8 +185,11 @@ class RunningMal(RunningSystem):
             or any(not 0 <= place.step < lines for place in state.standing)
         ):
             raise BadFile("the state of the run does not fit this program")
-        self._machine.remember(state.machine)
+        machine = state.bus if isinstance(self._machine, WiredBus) else state.machine
+        if machine is None:
+            raise BadFile("the state of the run is of another machine")
         put_back(self._state, state)
+        self._machine.remember(machine)
         self._begun = True
 
     # -- display ------------------------------------------------------------------------------

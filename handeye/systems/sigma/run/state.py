@@ -3,6 +3,7 @@
 from msgspec import field
 
 from handeye.program.system_state import SystemState, TaskPlace
+from handeye.systems.sigma.bus.wired import BusMemory
 from handeye.systems.sigma.machine.perfect import PerfectMemory
 from handeye.systems.sigma.mal.memory import MalMemory
 
@@ -11,7 +12,8 @@ class MalState(SystemState, kw_only=True):
     """Everything but the program."""
 
     memory: MalMemory = field(default_factory=MalMemory)
-    machine: PerfectMemory = field(default_factory=PerfectMemory)
+    machine: PerfectMemory | None = None  # of perfect motors
+    bus: BusMemory | None = None  # of a bus with wires
     standing: list[TaskPlace] = field(default_factory=list)
     """The place of each unfinished task, that whose turn it is first."""
 

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Final
 
+from handeye.core.resources import plans
+from handeye.core.source import read_source
 from handeye.program.events import Choice
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
@@ -11,6 +13,8 @@ from handeye.systems.sigma import ENTRY
 from handeye.systems.sigma.run.plan import MalPlan, decode, encode, listing, sound
 from handeye.systems.sigma.run.running import RunningMal
 from handeye.systems.sigma.run.state import MalState
+
+OWN: Final = "handover.mal"  # the program that is run where none is named
 
 
 class SigmaSystem(System):
@@ -49,6 +53,9 @@ class SigmaSystem(System):
         self.check(setup)
         sound(setup.plan)  # type: ignore[arg-type]  # as `check` has found
         return RunningMal(setup, around)
+
+    def own_plan(self, task: str) -> MalPlan:
+        return MalPlan(name=OWN, text=read_source(plans() / OWN).text)
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
         return {
