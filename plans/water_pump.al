@@ -131,7 +131,7 @@ HOME:   SAVE    H               ;how high the socket stands on its head
 DEFINE TIGHTEN H ACROSS NR
         SEARCH  .05 STEPS 1
 TT:     SKIPN   6               ;all places tried
-        WAIT    "SCREW {NR} DOES NOT HOLD: IT MEETS NO TORQUE"
+        WAIT    "SCREW {NR} DOES NOT HOLD, OR IS GONE: IT MEETS NO TORQUE"
         MOVE    H
         RESTORE ACROSS
         RESTORE X2

@@ -108,7 +108,7 @@ def _screws() -> Iterator[MishapFault]:
             f"screw.{number}.loose", meaning, _with_turns(number - 1), expected, size, stage=LAST_STAGE
         )
     for number in range(1, len(detect.SCREWED) + 1):
-        expected = ExpectedDetection(calls=(detect.missing_head(number),))
+        expected = ExpectedDetection(calls=(detect.missing_head(number), detect.untight_screw(number)))
         meaning = f"Screw {number} is turned out behind the driver, and taken away."
         yield declared(
             f"screw.{number}.removed", meaning, always(Mishap(partial(_loose, number - 1, None))), expected,

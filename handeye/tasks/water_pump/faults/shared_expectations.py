@@ -112,7 +112,7 @@ def missing_head(number: int) -> str:
 
 
 def untight_screw(number: int) -> str:
-    return f"SCREW {number} DOES NOT HOLD: IT MEETS NO TORQUE"
+    return f"SCREW {number} DOES NOT HOLD, OR IS GONE: IT MEETS NO TORQUE"
 
 
 def shifted_head(number: int) -> str:
