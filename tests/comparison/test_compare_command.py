@@ -102,7 +102,7 @@ def test_a_run_with_a_step_that_its_plan_lacks_is_refused(tmp_path: Path) -> Non
         return msgspec.structs.replace(event, step=99) if isinstance(event, StepStarted) else event
 
     run = recorded(tmp_path / "a.mcap")
-    with pytest.raises(InvalidInput, match=r"a\.mcap tells of steps that its plan lacks$"):
+    with pytest.raises(InvalidInput, match=r"a\.mcap has steps that its plan lacks$"):
         comparison(run, changed(run, astray))
 
 
