@@ -38,6 +38,7 @@ def test_the_page_shows_what_its_commands_print(
     command: Command, request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("handeye.cli.common.screen.width", 120)
+    Path("handover.mal").write_bytes((DOCS.parent / "plans/handover.mal").read_bytes())
 
     def run(line: str) -> tuple[int, str]:
         code, out, _ = command(*shlex.split(line))

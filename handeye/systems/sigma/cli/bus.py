@@ -14,6 +14,7 @@ from handeye.core.plain_text import counted
 DRAWING: Final = Kind("SVG drawing", rb"<\?xml|<svg ", ending=".svg")
 _PERCENTS: Final = (1.0, 2.0, 4.0, 5.0, 6.0, 10.0, 15.0)
 _MOST_PERCENT: Final = 50.0
+_LONGEST_DIAGRAM: Final = 86_400.0  # s
 
 BusFaults = Annotated[
     list[str] | None,
@@ -23,6 +24,9 @@ BusFaults = Annotated[
         help="What is wrong with the bus, as KIND, KIND:WHERE or KIND:WHERE:VALUE; `handeye sigma bus faults` lists "
         "them. May be given again.",
     ),
+]
+AllLines = Annotated[
+    bool, Parameter(negative=(), help="Show status lines that do not change, too: all twenty.")
 ]
 Seed = Annotated[WholeNumber, Parameter(help="Seed of the world: when each microcomputer begins to poll.")]
 
@@ -58,9 +62,7 @@ def demo(
         Parameter(negative=(), help="Let Y1 become free in the middle of a command to X1."),
     ] = False,
     fault: BusFaults = None,
-    all_lines: Annotated[
-        bool, Parameter(negative=(), help="Show status lines that do not change, too: all twenty.")
-    ] = False,
+    all_lines: AllLines = False,
     seed: Seed = 0,
     json: Json = False,
     drawing: DrawingOptions = NO_DRAWING,
@@ -102,6 +104,68 @@ def demo(
         for line in verdict(shown):
             say(line)
     return 0 if shown.right else 1
+
+
+def run(
+    file: Annotated[Path, Parameter(help="A program in MAL, `.mal`.")],
+    /,
+    *,
+    fault: BusFaults = None,
+    begin: Annotated[float, Parameter(help="Where the diagram begins, s since power-on.")] = 0.0,
+    end: Annotated[float | None, Parameter(help="Where it ends; by default with the run.")] = None,
+    all_lines: AllLines = False,
+    statement_us: Annotated[
+        WholeNumber,
+        Parameter(name="--statement-us", help="Microseconds that the computer takes for a statement."),
+    ] = 2000,
+    seed: Seed = 0,
+    json: Json = False,
+    drawing: DrawingOptions = NO_DRAWING,
+) -> int:
+    """Carry out a program in MAL over the wires, and say how busy the bus and the computer were.
+
+    The diagram is drawn with --svg alone, of the whole run or of a part. `handeye sigma run --arm wired` keeps a run.
+
+    Exit code 0: all tasks have ended; 1: the program stands; 2: bad input; 130: interrupted.
+    """
+    from handeye.cli.panic_button import PanicButton
+    from handeye.core.source import read_source
+    from handeye.execution.servo import Halted
+    from handeye.systems.sigma.bus.diagram import as_svg, diagram
+    from handeye.systems.sigma.bus.faults import defect
+    from handeye.systems.sigma.run.over_wires import lines, over_wires
+    from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, MalPlan
+
+    drawing.check()
+    if not 0 <= statement_us <= LONGEST_STATEMENT_US:
+        raise BadArgument(f"--statement-us takes 0 to {LONGEST_STATEMENT_US}, not {statement_us}")
+    program = MalPlan(name=file.name, text=read_source(file).text).program
+    defects = [defect(text) for text in fault or ()]
+    with PanicButton() as panic:
+
+        def poll() -> None:
+            if panic():
+                raise Halted
+
+        try:
+            found, wired, log = over_wires(program, statement_us, defects, seed, poll)
+        except Halted:
+            raise KeyboardInterrupt from None
+    if drawing.svg is not None:
+        last = wired.now / 1e6 if end is None else end
+        if not 0 <= begin < last <= _LONGEST_DIAGRAM:
+            raise BadArgument(
+                f"a diagram begins at 0 s or later and ends after that, not {begin:g} to {last:g} s"
+            )
+        span = round(begin * 1e6), round(last * 1e6)
+        drawn = diagram(file.name, log, *span, wired.timing, all_lines=all_lines)
+        drawing.write(as_svg(drawn))
+    if json:
+        put_json(found)
+    else:
+        for line in lines(found, log):
+            say(line)
+    return 0 if found.completed else 1
 
 
 def errors(
@@ -201,6 +265,6 @@ def _no_bars(encoding: str) -> bool:
     return False
 
 
-for _command in (demo, errors, faults):
+for _command in (demo, run, errors, faults):
     bus.command(_command)
 bus.command(self_test, name="test")

@@ -1,0 +1,80 @@
+"""A MAL program carried out over the wires, for the bus alone: how busy it and the computer were."""
+
+from collections.abc import Callable, Sequence
+from typing import Final
+
+from handeye.core.plain_text import counted
+from handeye.core.record import Record
+from handeye.systems.sigma.bus.events import AnyBusEvent, CommandSent, FrameTaken
+from handeye.systems.sigma.bus.faults import BusDefect
+from handeye.systems.sigma.bus.wired import WiredBus
+from handeye.systems.sigma.bus.words import spaced
+from handeye.systems.sigma.mal.compiler import MalProgram
+from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
+
+_MICROSECONDS: Final = 1_000_000
+_LONGEST: Final = 3_600  # s by the clock of the machine
+
+
+class BusRun(Record, frozen=True, kw_only=True):
+    """What a program has done to the bus."""
+
+    completed: bool
+    message: str  # why it did not come to its end; empty: it did
+    seconds: float
+    commands: int  # questions among them
+    per_second: float
+    saturation: float  # share of the most that the bus carries
+    idle: float  # share of the time in which no statement could be carried out
+    misread: int  # frames that receivers took and that were never sent
+
+
+def over_wires(
+    program: MalProgram,
+    statement_us: int,
+    defects: Sequence[BusDefect] = (),
+    seed: int = 0,
+    poll: Callable[[], None] = lambda: None,
+) -> tuple[BusRun, WiredBus, list[AnyBusEvent]]:
+    """Carry a program out; what came of it, the bus, and its log."""
+    bus, log = WiredBus(defects=defects, seed=seed), list[AnyBusEvent]()
+    bus.tell.append(log.append)
+    vm = VirtualMachine(program, bus, poll=poll, statement_us=statement_us)
+    vm.begin()
+    while vm.turn and vm.memory.fault is None and bus.now < _LONGEST * _MICROSECONDS:
+        poll()
+        vm.statement()
+        vm.settle()
+    fault = vm.memory.fault
+    message = fault.told if fault else "" if not vm.memory.tasks else f"it still runs after {_LONGEST} s"
+    sent = [event.frame for event in log if isinstance(event, CommandSent)]
+    seconds = bus.now / _MICROSECONDS
+    rate = len(sent) / seconds if seconds else 0.0
+    known = {*sent}
+    found = BusRun(
+        completed=not message,
+        message=message,
+        seconds=seconds,
+        commands=len(sent),
+        per_second=rate,
+        saturation=rate * bus.timing.command / _MICROSECONDS,
+        idle=vm.idle,
+        misread=sum(isinstance(event, FrameTaken) and event.frame not in known for event in log),
+    )
+    return found, bus, log
+
+
+def lines(found: BusRun, log: Sequence[AnyBusEvent]) -> list[str]:
+    """A run in sentences."""
+    out = [
+        found.message or "all tasks have ended",
+        f"{counted(found.commands, 'command')} in {found.seconds:.3f} s: {found.per_second:.2f} a second, "
+        f"{found.saturation:.3%} of what the bus carries",
+        f"the computer is idle for {found.idle:.1%} of the time",
+    ]
+    if found.misread:
+        known = {event.frame for event in log if isinstance(event, CommandSent)}
+        first = next(e for e in log if isinstance(e, FrameTaken) and e.frame not in known)
+        frames = counted(found.misread, "frame")
+        out.append(f"{frames} taken that were never sent; the first is {spaced(first.frame)}")
+    return out
