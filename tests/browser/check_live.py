@@ -123,11 +123,11 @@ def test_others_look_on_take_the_drive_and_reload(browser: Browser, tmp_path: Pa
     with served(tmp_path, str(tmp_path / "calls.plan.json")) as address:
         first, second = opened(browser, address), opened(browser, address)
         assert re.match(
-            "2 looking; somebody else drives",
+            "2 viewers; another viewer has control",
             second.evaluate("document.getElementById('looking').textContent"),
         )
         press(second, "Take control")
-        first.wait("/somebody else drives/.test(document.getElementById('looking').textContent)")
+        first.wait("/another viewer has control/.test(document.getElementById('looking').textContent)")
         press(second, "Run")
         for page in (first, second):
             page.wait("!document.getElementById('answers').hidden")
@@ -136,9 +136,9 @@ def test_others_look_on_take_the_drive_and_reload(browser: Browser, tmp_path: Pa
         first.ask("Page.reload")
         first.wait(f"document.getElementById('told') && /> skip/.test({TOLD})")
         second.ask("Page.navigate", url="about:blank")
-        first.wait("/1 looking; nobody drives/.test(document.getElementById('looking').textContent)")
+        first.wait("/1 viewer; control is free/.test(document.getElementById('looking').textContent)")
         press(first, "Take control")
-        first.wait("/you drive/.test(document.getElementById('looking').textContent)")
+        first.wait("/you have control/.test(document.getElementById('looking').textContent)")
         press(first, "Run")
         first.wait(f"/the program has ended/.test({TOLD})")
         assert first.errors == second.errors == []

@@ -1,4 +1,4 @@
-"""A run before twenty who look on, for more than a minute: its trace is that of a run that nobody watched, to the byte.
+"""A run with twenty viewers, for more than a minute, has the same trace as a run without viewers, byte for byte.
 
 Not collected with the tests, for it takes two minutes: `python3 run.py test browser`.
 """
@@ -29,7 +29,7 @@ def handeye(*words: str) -> list[str]:
 
 
 def viewer(address: str) -> connect:
-    """Somebody who looks on; the first drives."""
+    """A viewer; the first has control."""
     origin, token = address.split("/?")
     target = f"{origin.replace('http', 'ws')}/live?{token}"
     return connect(target, origin=origin, proxy=None, open_timeout=60)

@@ -28,7 +28,7 @@ def _content(run: RecordedRun) -> Iterator[Markup]:
         yield note("The referee was not called: it judges a finished program, on request (--judge).")
     else:
         yield note(
-            "Measured on the finished work in the simulator, where the program cannot look. A bar shows the used share "
+            "Measured on the finished work in the simulator, hidden from the program. A bar shows the used share "
             "of a limit; counts have no bar."
         )
         yield findings_table(run.result.referee.values())
