@@ -447,25 +447,32 @@ DEFINE STANDS END
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] .6 .2
 
-; The rotor by an open fork, which pushes and does not pinch: so many degrees to one side, and back.
-DEFINE SWING GRIP OUT BACK
-        OPEN    .9
-        MOVE    GRIP
-        RESTORE Y1
-        RESTORE X2
+; The rotor one way by an open fork, which pushes and does not pinch. The fork is centred first, and then stands free while
+; the guard takes its zero: one that leaned on the crank would feel the rotor twice.
+DEFINE SWEEP ANGLE
         CENTER  .3
         SKIPN   2
         WAIT    "THE CRANK IS NOT WHERE IT WAS LEFT"
-        OPEN    .44
-        STOP    18
-        TURN    ROTOR OUT
+        OPEN    .5
+        STOP    15
+        TURN    AXIS ANGLE
         SKIPE   23              ;it should meet no such resistance
         WAIT    "THE ROTOR IS HARD TO TURN"
-        STOP    18
-        TURN    ROTOR BACK
-        SKIPE   23
-        WAIT    "THE ROTOR IS HARD TO TURN"
         OPEN    .9
+
+; So far to one side, and back, about the axis where the hand has it: on a circle beside it the crank would slide
+; along the fingers, and rub.
+DEFINE SWING GRIP OUT BACK
+        OPEN    .9
+        MOVE    ROTOR
+        RESTORE Y1
+        RESTORE X2
+        HERE    AXIS
+        MOVE    GRIP
+        RESTORE Y1
+        RESTORE X2
+        SWEEP   OUT
+        SWEEP   BACK
         CHANGE  [0 0 1] 1.5     ;off the crank, before the fingers shut
 
 ; What the last stage looks at. The rotor, over its whole turn and both ways: the hand cannot go all the way round.
@@ -641,7 +648,7 @@ HELD:   LOAD    84.6
         CENTER  .1
         SKIPN   2
         WAIT    "PIN 1 IS NOT IN ITS HOLDER: IT IS MISSING, OR THE HOLDER HAS MOVED, OR A JOINT READS WRONG"
-        TRAVEL  0 .2
+        TRAVEL  0 .35            ;as far as arm and holder are off together at twice their errors
         SKIPN   8
         WAIT    "THE HOLDER OF PIN 1 IS NOT WHERE IT SHOULD BE: IT HAS MOVED, OR A JOINT READS WRONG"
         SAVE    C1              ;where the holder really is
@@ -685,7 +692,7 @@ IN1:    OPEN    .5
         CENTER  .1
         SKIPN   2
         WAIT    "PIN 2 IS NOT IN ITS HOLDER: IT IS MISSING, OR THE HOLDER HAS MOVED, OR A JOINT READS WRONG"
-        TRAVEL  0 .2
+        TRAVEL  0 .35
         SKIPN   8
         WAIT    "THE HOLDER OF PIN 2 IS NOT WHERE IT SHOULD BE: IT HAS MOVED, OR A JOINT READS WRONG"
         SAVE    C2              ;where the holder really is
@@ -878,7 +885,7 @@ PINS:   FEEL    T1END           ;do both still stand?
 TOPPED: OPEN    2.2             ;for the screwdriver
 
         STAGE   "drive the first two screws"
-        DRIVER  .25
+        DRIVER  .35
         SCREW   S1 H0 Y1 1
         SCREW   S2 H2 Y1 2
         RACK

@@ -178,13 +178,15 @@ class _Phrases:
         what, si, unit = ("moment", OUNCE_INCH, "oz-in") if turning else ("force", OUNCE_FORCE, "oz")
         there = "about its axis" if turning else "along it"
         stop = f"a stop on a {what} of {math.hypot(*vector) / si:g} {unit}"
-        felt, least = found.friction / si, math.ceil(found.margin * found.friction / si)
+        felt = found.felt / si
         return problem(
             found.code,
             f"{stop} is hard to tell from joint friction here",
             self.modifier_span(found.step, "STOP"),
-            notes=(f"friction of the joints can be felt as {felt:.2g} {unit} {there}",),
-            help=f"use at least {least} {unit}",
+            notes=(
+                f"in free air the arm can feel {felt:.2g} {unit} {there}: friction that it cannot measure",
+            ),
+            help=f"use at least {math.ceil(felt)} {unit}",
         )
 
     def at_position(

@@ -91,12 +91,12 @@ CODES: Final[dict[str, Code]] = {
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "faint-force": _planning(
-        "a stop waits for less than three times the force that joint friction can be felt as",
+        "a stop waits for less than the force that can be felt in free air",
         "MOVE T\nSTOP [0 0 -5]\nCHANGE Z -1",
         "warning",
     ),
     "faint-moment": _planning(
-        "a stop waits for less than three times the moment that joint friction can be felt as",
+        "a stop waits for less than the moment that can be felt in free air",
         "MOVE T\nSTOP NIL [5 0 0]\nCHANGE Z -1",
         "warning",
     ),

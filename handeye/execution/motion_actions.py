@@ -161,10 +161,10 @@ def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
     place = run.plan.program.steps[run.state.at].place
     if not guards or place in run.state.faint:
         return
-    felt = run.felt_friction
+    drive = run.drive.state
     for guard in guards:
         waited = guard.exerted(vector(along) if along.any() else None)
-        most = None if waited is None else faint(felt, waited)
+        most = None if waited is None else faint(run.arm, drive.q, drive.friction, waited)
         if waited is not None and most is not None:
             limit = round(math.hypot(*waited.vector), 6)
             run.emit(GuardFaint(time=run.time, guard=guard.kind, limit=limit, friction=round(most, 6)))

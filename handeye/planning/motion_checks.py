@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from handeye.arm.dynamics import gravity
-from handeye.arm.friction import MARGIN, faint, felt_friction
+from handeye.arm.friction import faint
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.core.codes import CODES
@@ -225,10 +225,8 @@ class Checks:
 
     def told_from_friction(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
         """Check that guards can be told from the expected friction at the start, `q`."""
-        guarded = [demand for demand in demands if demand.guard]
-        felt = felt_friction(self.arm, q, np.array(self.arm.compliance.friction)) if guarded else None
-        for demand in guarded:
-            most = None if felt is None else faint(felt, demand.exerted)
+        expected = np.array(self.arm.compliance.friction)
+        for demand in demands:
+            most = faint(self.arm, q, expected, demand.exerted) if demand.guard else None
             if most is not None:
-                faintest = TooFaint(step=number, exerted=demand.exerted, friction=most, margin=MARGIN)
-                self.findings.add(faintest)
+                self.findings.add(TooFaint(step=number, exerted=demand.exerted, felt=most))

@@ -133,7 +133,7 @@ class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class GuardFaint(Event, frozen=True, kw_only=True):
-    """A guard waits for less than three times what joint friction can be felt as where the motion begins (N, N m)."""
+    """A guard waits for less than can be felt in free air where the motion begins: `friction` (N, N m)."""
 
     guard: GuardKind
     limit: float

@@ -32,6 +32,21 @@ class BoundingBox(NamedTuple):
     def height(self) -> int:
         return self.bottom - self.top + 1
 
+    def with_piece(self, other: "BoundingBox") -> "BoundingBox | None":
+        """The box around both, if they can be pieces of one blob; else None.
+
+        A face in the shade may part a lit blob. Its pieces are beside each other, no farther apart than the smaller is
+        long, and the larger is most of it.
+        """
+        around = BoundingBox(
+            *np.minimum(self[:2], other[:2]).tolist(), *np.maximum(self[2:], other[2:]).tolist()
+        )
+        larger, smaller = sorted((self, other), key=lambda box: box.width * box.height, reverse=True)
+        apart = around.width - larger.width - smaller.width, around.height - larger.height - smaller.height
+        most = 2 * larger.width * larger.height > around.width * around.height
+        beside = min(apart) < 0 and max(apart) <= max(smaller.width, smaller.height)
+        return around if most and beside else None
+
     def corners(self) -> Array:
         """The four corners (u, v) in order, shape (4, 2)."""
         left, top, right, bottom = self
@@ -50,7 +65,10 @@ def localise(
     *,
     whole: bool = True,
 ) -> BoundingBox | None:
-    """As `door.localise`, in a window that stays in force; a blob that is cut off counts unless it is to be `whole`."""
+    """As `door.localise`, in a window that stays in force.
+
+    Unless it is to be `whole`, a blob counts that is cut off, and one that a shadow has parted in two.
+    """
     window = np.asarray(window, dtype=float)
     scan.limit(window)
     sides = _inwards(scan, window)
@@ -74,6 +92,11 @@ def localise(
             box = _grow(scan, round(u), round(v), threshold)
             if not (whole and _is_cut(scan, box, threshold)) and fits(box):
                 return box
+            if not whole:
+                joined = filter(None, (box.with_piece(each) for each in seen))
+                fitting = next(filter(fits, joined), None)
+                if fitting is not None:
+                    return fitting
             seen.append(box)
     return None
 

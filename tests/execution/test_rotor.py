@@ -1,4 +1,4 @@
-"""Step 11: the rotor is turned, and is to resist with less than 18 ounces.
+"""Step 11: the rotor is turned, and is to resist with less than 15 ounces.
 
 That a free one turns and meets nothing is in `test_whole_run`.
 """
@@ -33,3 +33,10 @@ def test_row_56_a_jammed_rotor_stops_the_motion_and_the_operator_is_told(seed: i
     assert run.all(GuardTripped)[-1].guard == "against"
     assert run.told == "THE ROTOR IS HARD TO TURN"
     assert abs(turned(run)) < 2
+
+
+@IN_WORLDS
+def test_a_rotor_that_takes_nearly_three_times_its_friction_is_hard_to_turn(seed: int | None) -> None:
+    run = turning(friction=0.14, seed=seed)
+    assert run.all(GuardTripped)[-1].guard == "against"
+    assert run.told == "THE ROTOR IS HARD TO TURN"

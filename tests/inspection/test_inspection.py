@@ -146,9 +146,12 @@ def test_a_loop_carries_what_was_saved_in_it_back_to_its_head() -> None:
 
 def test_the_listing_fits_every_step_of_a_stage_on_a_line(pump: Plan) -> None:
     lines = inspection_text(inspection(pump), stage=11)
-    assert lines[2] == " 11  turn the rotor: 14 steps, 9.6 s"
-    assert lines[9].split("  ")[-1].strip() == "stops at 18 oz against it, else error 23; PUMP as planned"
-    assert len(lines) == 3 + 14
+    assert lines[2] == " 11  turn the rotor: 21 steps, 11.8 s"
+    assert (
+        lines[11].split("  ")[-1].strip()
+        == "stops at 15 oz against it, else error 23; AXIS defined at line 470"
+    )
+    assert len(lines) == 3 + 21
 
 
 def test_inspect_as_json_has_every_step_once(pump: Plan, command: Command) -> None:

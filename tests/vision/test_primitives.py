@@ -191,6 +191,24 @@ def test_the_localiser_passes_over_blobs_that_do_not_fit():
     assert box.contains(190, 150)
 
 
+@pytest.mark.parametrize(
+    ("piece", "found"),
+    [
+        (np.s_[97:109, 80:110], (69, 49, 131, 110)),  # beyond a wall in the shade
+        (np.s_[97:109, 140:150], None),  # beside nothing of it
+        (np.s_[140:152, 80:110], None),  # too far
+    ],
+)
+def test_a_blob_that_a_shadow_has_parted_is_one_where_its_size_asks_for_it(
+    piece: tuple[slice, slice], found: tuple[int, ...] | None
+):
+    picture = np.full((ROWS, COLUMNS), 3, np.uint8)
+    picture[50:88, 70:131] = picture[piece] = 11
+    window = np.array([[20, 20], [180, 20], [180, 180], [20, 180]])
+    assert localise(Scan(picture), window, 3, lambda box: 45 <= box.height <= 80, whole=False) == found
+    assert localise(Scan(picture), window, 3, lambda box: 45 <= box.height <= 80) is None
+
+
 def test_the_localiser_sees_nothing_outside_its_window():
     picture = np.full((ROWS, COLUMNS), 3, np.uint8)
     picture[120:180, 250:300] = 11

@@ -89,12 +89,11 @@ class TooWeak(Record, frozen=True, kw_only=True):
 
 
 class TooFaint(Record, frozen=True, kw_only=True):
-    """A guard's threshold is hard to tell from joint friction, felt there as `friction` (N, N m)."""
+    """A guard's threshold is hard to tell from joint friction: `felt` (N, N m) can be felt there in free air."""
 
     step: int
     exerted: HandLoad
-    friction: float
-    margin: float  # multiple of `friction` that would be clear of it
+    felt: float
     position: None = None
 
     @property
