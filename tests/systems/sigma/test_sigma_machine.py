@@ -226,6 +226,30 @@ def test_a_subroutine_returns_behind_its_gosub_also_from_within_an_if() -> None:
     assert carried_out(text).printed == ["2"]
 
 
+def test_functions_of_numbers_are_those_of_basic() -> None:
+    assert carried_out("10 PRINT INT(-1.5); SGN(-3); SGN(0); ABS(-2); SQR(16)").printed == ["-2-1024"]
+
+
+@pytest.mark.parametrize(("value", "printed"), [(1, ["ONE", "END"]), (2, ["OTHER", "END"]), (3, ["THREE"])])
+def test_if_does_one_of_its_branches(value: int, printed: list[str]) -> None:
+    choice = '20 IF A = 3 THEN 50 ELSE IF A = 1 THEN PRINT "ONE" ELSE PRINT "OTHER"'
+    text = f'{choice}\n30 PRINT "END"\n40 END\n50 PRINT "THREE"'
+    assert carried_out(f"10 A = {value}\n{text}").printed == printed
+
+
+def test_delays_follow_each_other() -> None:
+    assert carried_out("10 DELAY 1.5\n20 DELAY 1.5\n30 PRINT INT(TIME * 10)").printed == ["30"]
+
+
+def test_the_handler_of_an_axis_comes_before_that_of_all_and_each_abort_is_seen() -> None:
+    ran = carried_out(
+        "5 ON ABORT GOTO 200\n6 ON ABORT X1 GOTO 100\n10 ORIGIN X1\n20 MOVE X1 BY 700\n30 MOVE X1 BY -10\n"
+        "40 PRINT STATUS(X1)\n50 MOVE X1 BY 100\n60 PRINT POS(X1)\n70 END\n"
+        '100 PRINT "X1"; STATUS(X1)\n110 RESUME\n200 PRINT "ALL"\n210 RESUME'
+    )
+    assert ran.printed == ["X12", "0", "X12", "600"]
+
+
 def test_input_waits_for_a_number_that_is_typed() -> None:
     ran = carried_out("10 INPUT HEIGHT\n20 PRINT HEIGHT * 2")
     assert ran.fault == "the task MAIN, line 10, waits for a number for HEIGHT, typed at the console"

@@ -114,6 +114,7 @@ def test_after_an_abort_the_operator_goes_on_behind_the_move_or_ends_the_program
     runner.answer(choice)
     advance(runner)
     assert (runner.ended, sum(b"Printed" in line for line in lines(runner))) == (True, printed)
+    assert runner.finish()
 
 
 def test_a_statement_is_carried_out_once_more_by_retry() -> None:
@@ -185,6 +186,14 @@ def test_a_program_is_stepped_by_its_own_line_numbers_and_back(command: Command)
     assert "→ 160  TAKE PLACEFREE   [FEEDER]" in out
     assert "MAIN        50  WAIT FEEDERDONE AND SCREWERDONE, waits for flags" in out
     assert "3 steps undone" in out
+    assert code == 0
+
+
+def test_a_number_is_typed_for_a_task_in_the_stepper(command: Command, tmp_path: Path) -> None:
+    (tmp_path / "ask.mal").write_text("10 INPUT A\n20 PRINT A * 2\n30 END", encoding="utf-8")
+    code, out, _ = command("sigma", "run", "ask.mal", "--step", typed="c\ntype MAIN 21\nc\nquit\n")
+    assert "`type MAIN 5` in the stepper gives 5" in out
+    assert "MAIN prints: 42" in out
     assert code == 0
 
 

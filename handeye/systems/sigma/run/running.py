@@ -129,7 +129,8 @@ class RunningMal(RunningSystem):
         state, fault = self._state, self.vm.memory.fault
         if fault is None:
             return
-        state.stopped = OperatorCalled(time=self.time, message=printable(fault.told))
+        more = f"; `type {fault.task} 5` in the stepper gives 5" if fault.kind == "input" else ""
+        state.stopped = OperatorCalled(time=self.time, message=printable(f"{fault.told}{more}"))
         state.at, state.onward = None, self.vm.program.line_at[fault.address]
         self._around.emit(state.stopped)
 
