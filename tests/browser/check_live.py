@@ -175,7 +175,7 @@ def test_positions_are_taught_from_a_page(browser: Browser, tmp_path: Path) -> N
         press(page, "Float")
         page.wait("/brakes are off/.test(document.getElementById('state').textContent)")
         type_in(page, "push x 1 60")
-        page.wait("/the arm moves/.test(document.getElementById('state').textContent)")
+        page.wait("/the arm is moving/.test(document.getElementById('state').textContent)")
         press(page, "Where")
         page.wait(f"/`where` was not carried out/.test({TOLD})")
         press(page, "Panic")
