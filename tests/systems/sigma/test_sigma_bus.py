@@ -22,6 +22,7 @@ from handeye.systems.sigma.protocol import (
     force,
     limit_speed,
     move,
+    move_slow,
     origin,
     position,
     self_test,
@@ -123,6 +124,14 @@ def test_a_late_riser_acts_on_bytes_that_were_meant_for_another() -> None:
     taken = bus.taken("Y1")[-1]
     assert (taken.own, taken.frame.hex(" ")) == (True, "01 07 01 02 ff")
     assert signed(bus.ask(position("Y1"), 2)) == 0x02FF
+
+
+@pytest.mark.sigma_row(4)
+def test_a_strobe_shorter_than_a_poll_is_missed_by_some_and_misread_by_none() -> None:
+    bus = LoggedBus("long-strobe:4")
+    bus.send(limit_speed("X1", 500))
+    assert 2 <= len(bus.taken()) < 10
+    assert {event.frame for event in bus.taken()} == {limit_speed("X1", 500).frame}
 
 
 @pytest.mark.sigma_row(6)
@@ -240,6 +249,47 @@ def test_force_over_the_threshold_stops_the_motor_of_its_axis_alone() -> None:
     assert (bus.status(X1), bus.status(Y1), bus.interrupt) == (Status.FORCE, Status.BUSY, True)
     bus.settled("Y1")
     assert (bus.status(Y1), bus.true_place("Y1")) == (Status.FREE, 10_667 // 4 + 8000)
+
+
+@pytest.mark.sigma_row(11)
+def test_a_motor_that_is_pressed_does_not_start_but_away_from_what_it_has_hit() -> None:
+    bus, wrist = LoggedBus(), NUMBERS["FORCE1"]
+    bus.send(move("X1", 4000))
+    bus.pass_to(100_000)
+    bus.machine.memory.forces[wrist] = (9.0, 0.0, 0.0)
+    bus.touched(wrist)
+    bus.settled("X1")
+    hit = bus.true_place("X1")
+    bus.send(move("X1", 100))
+    bus.settled("X1")
+    assert (bus.status(X1), bus.true_place("X1")) == (Status.FORCE, hit)
+    bus.send(move("X1", -100))
+    bus.settled("X1")
+    assert (bus.status(X1), bus.true_place("X1")) == (Status.FREE, hit - 100)
+
+
+@pytest.mark.sigma_row(13)
+def test_the_count_at_an_abort_is_that_of_the_abort_and_the_stop_keeps_step() -> None:
+    bus, wrist = LoggedBus(), NUMBERS["FORCE1"]
+    bus.send(move_slow("X1", 2000, 50.0))
+    bus.pass_to(400_000)
+    bus.machine.memory.forces[wrist] = (9.0, 0.0, 0.0)
+    bus.touched(wrist)
+    at_scan = -(-(bus.now + 1) // 1000) * 1000
+    bus.pass_to(at_scan)
+    met = bus.true_place("X1") - 4000
+    bus.settled("X1")
+    assert abs(signed(bus.ask(position("X1", at_abort=True), 2)) - met) <= 1
+    assert signed(bus.ask(position("X1"), 2)) == bus.true_place("X1") - 4000
+    assert 0 < bus.true_place("X1") - 4000 - met < 10
+
+
+@pytest.mark.sigma_row(11)
+def test_with_a_broken_wire_the_interrupt_stays_low() -> None:
+    bus = LoggedBus("no-interrupt")
+    bus.send(move("X1", 20_000))
+    bus.settled("X1")
+    assert (bus.status(X1), bus.interrupt) == (Status.RAIL, False)
 
 
 @pytest.mark.sigma_row(12)

@@ -200,6 +200,15 @@ def test_z_follows_the_steepest_stop_and_slips_if_its_pulses_are_cut_off() -> No
     assert abs(slipped.rotor[-1] - len(cut)) > POLE
 
 
+@pytest.mark.sigma_row(13)
+@pytest.mark.parametrize("mass", [12.0, 8.0, 2.5])
+def test_a_stop_from_50_mm_s_keeps_step_so_that_the_count_is_right_to_a_step(mass: float) -> None:
+    pulses = stopped(constant(2000, 50.0 / STEP_MM, CURVES[0]), CURVES[0], 600_000)
+    followed = by_sine(pulses, Drive(mass=mass, load=9.0))
+    assert followed.kept
+    assert abs(len(pulses) - followed.rotor[-1]) < 1
+
+
 @pytest.mark.sigma_row(21)
 def test_over_the_bus_the_end_of_the_rail_stops_a_motor_on_the_steepest_curve() -> None:
     bus = LoggedBus()
@@ -273,6 +282,12 @@ def test_the_masses_of_supersigma_keep_step_and_a_rotor_that_is_asked_too_much_s
         assert study(mass=mass, steps=8000).kept
     overloaded = study(mass=12.0, steps=8000, curve=1, load=30.0)
     assert (overloaded.kept, overloaded.margin < 1) == (False, True)
+
+
+def test_a_rotor_under_half_of_its_pull_out_force_hangs_a_third_of_a_step_behind() -> None:
+    pulses = profile(STEPS_PER_TURN, CURVES[0]).pulses
+    followed = by_sine(pulses, Drive(mass=2.5, load=100.0))
+    assert STEPS_PER_TURN - followed.rotor[-1] == pytest.approx(1 / 3, abs=0.01)
 
 
 def test_an_emergency_of_x_at_top_speed_loses_steps() -> None:

@@ -82,14 +82,14 @@ class Wires:
         for speech in speeches:
             if speech.segment == segment and (byte := self._spoken(speech, at)) is not None:
                 value &= byte
-        return OPEN if self.cut_off[segment] else value
+        return value
 
     def heard(self, at: int, speeches: Iterable[Speech]) -> int:
         """The byte that the central computer reads at a moment."""
         value = OPEN
         for speech in speeches:
             byte = self._spoken(speech, at - self.settle * PS)
-            if byte is None or self.cut_off[speech.segment]:
+            if byte is None:
                 continue
             for segment in reversed(self.layout.way(speech.segment)):
                 byte = self._through(segment, byte)
@@ -104,8 +104,7 @@ class Wires:
 
     def answers(self, speeches: Iterable[Speech]) -> list[tuple[int, int]]:
         """When /ANSWER READY reads low at the central computer: ps from and to, each interval in order."""
-        heard = (speech for speech in speeches if not self.cut_off[speech.segment])
-        lows = sorted(low for speech in heard for low in speech.lows(self.timing))
+        lows = sorted(low for speech in speeches for low in speech.lows(self.timing))
         joined: list[tuple[int, int]] = []
         for start, end in lows:
             if joined and start <= joined[-1][1]:
