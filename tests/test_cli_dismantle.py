@@ -94,7 +94,7 @@ def test_the_page_of_a_run_that_was_undone_so_far_says_so(command: Command, take
     assert command("dismantle", str(taken), "--to", "draw", "--out", "apart")[0] == 0
     assert command("report", "apart")[0] == 0
     page = tree(Path("apart/report.html").read_text(encoding="utf-8"))
-    assert page.all("h1")[0].text == "What the arm was to undo is undone."
+    assert page.all("h1")[0].text == "The undo is complete."
 
 
 def test_a_guard_stops_it_with_exit_code_1_and_says_why(command: Command, dropped: Path) -> None:

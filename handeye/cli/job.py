@@ -393,7 +393,8 @@ class _Work:
         assert self.folder is not None
         named = () if self.unnamed is not None else (str(self.folder.path),)
         if not self.job.report and "plans" in entry_named(self.job.start.setup.system).can:
-            say(f"see it:     {CALLED} {shlex.join(('report', *named))}", notes, whole=True)
+            words = ("report", *named, *option(self.job.start.setup.task))
+            say(f"see it:     {CALLED} {shlex.join(words)}", notes, whole=True)
         if not self.job.details:
             say(f"all tables: {CALLED} {shlex.join(('show', *named))}", notes, whole=True)
 

@@ -78,7 +78,7 @@ def test_the_same_trace_gives_the_same_file(
     record(tmp_path / "a.mcap")
     files = []
     for _ in range(2):
-        assert command("trace", "plot", "a.mcap", "-o", name)[0] == 0
+        assert command("trace", "plot", "a.mcap", "-o", name, "--overwrite")[0] == 0
         files.append(Path(name).read_bytes())
     assert files[0] == files[1]
     assert files[0].startswith(begins)

@@ -36,12 +36,14 @@ def test_the_second_task_passes_the_ordinary_commands(command: Command) -> None:
     assert "The block stands where it should." in done
     stepped = told(command, "run", *BLOCK, PLAN, "--step", "--out", "stepped", *RAY, typed="step\nquit\n")
     assert "resume with: handeye resume stepped --task block_task:BLOCK" in stepped
-    assert "put it down        done" in told(command, "resume", "stepped", *BLOCK)
+    assert "put it down        done" in told(command, "resume", "stepped", "--details", *BLOCK)
     told(command, "report", "whole", *BLOCK)
     page = Path("whole/report.html").read_text(encoding="utf-8")
     assert f"handeye run plan.json {' '.join(BLOCK)} --judge --seed 0" in page
     assert "pump" not in page.lower()
-    assert "both did the same" in told(command, "compare", "whole", "stepped", *BLOCK, "-o", "both.html")
+    assert "Both runs are identical" in told(
+        command, "compare", "whole", "stepped", *BLOCK, "-o", "both.html"
+    )
     assert "pump" not in Path("both.html").read_text(encoding="utf-8").lower()
     tried = told(command, "trials", "assembly", "--plan", PLAN, *BLOCK, "--n", "1", "--out", "batch", *RAY)
     assert "1 of 1 assembled" in tried
