@@ -123,7 +123,9 @@ def test_a_state_that_points_outside_its_plan_is_refused() -> None:
 def test_an_unknown_system_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     data = encode(Runner(begin_toy()).checkpoint())
     monkeypatch.setattr(entries, "_registered", {})
-    with pytest.raises(InvalidInput, match=r"^there is no system `toy` here; there are program, trig$"):
+    with pytest.raises(
+        InvalidInput, match=r"^there is no system `toy` here; there are program, trig, sigma$"
+    ):
         decode(data, "it")
 
 
