@@ -11,11 +11,14 @@ from figures import as_recorded
 from walked_pages import walked, with_outputs
 
 from handeye.systems.sigma.bus.demo import demonstrate
-from handeye.systems.sigma.bus.diagram import as_svg
+from handeye.systems.sigma.bus.diagram import as_svg, diagram
 from handeye.systems.sigma.bus.faults import defect
+from handeye.systems.sigma.mal.virtual_machine import STATEMENT_US
 from handeye.systems.sigma.motors import drawing
 from handeye.systems.sigma.motors.study import study
 from handeye.systems.sigma.protocol import Timing
+from handeye.systems.sigma.run.over_wires import over_wires
+from handeye.systems.sigma.run.plan import MalPlan
 
 DOCS: Final = Path(__file__).parents[3] / "docs"
 PAGE: Final = DOCS / "microbus.md"
@@ -25,7 +28,12 @@ Command = Callable[..., tuple[int, str, str]]
 def _pictures() -> dict[str, str]:
     shown = demonstrate()
     late = demonstrate([defect("long-strobe")], late_riser=True)
+    program = MalPlan(
+        name="handover.mal", text=(DOCS.parent / "plans/handover.mal").read_text("utf-8")
+    ).program
+    _, bus, log = over_wires(program, STATEMENT_US)
     return {
+        "microbus_run.svg": as_svg(diagram("handover.mal", log, 0, bus.now, bus.timing)),
         "microbus_command.svg": as_svg(shown.diagrams[0]),
         "microbus_answer.svg": as_svg(shown.diagrams[1]),
         "microbus_late_riser.svg": as_svg(late.diagrams[0]),

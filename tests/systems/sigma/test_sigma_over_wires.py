@@ -1,6 +1,7 @@
 """MAL programs over the wires: the frames that Python sends, kept and resumed, with faults, and the load of the bus."""
 
 import json
+import re
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from pathlib import Path
@@ -91,10 +92,14 @@ def test_the_bus_of_a_program_is_a_command_with_a_drawing(command: Command) -> N
     assert found["saturation"] == pytest.approx(found["per_second"] / 10_000)
 
 
-def test_a_drawing_of_a_whole_run_has_every_command(command: Command) -> None:
-    command("sigma", "bus", "run", str(PLANS / "dead.mal"), "--svg", "whole.svg")
+def test_a_drawing_of_a_whole_run_has_every_command_and_a_row_a_receiver(command: Command) -> None:
+    command("sigma", "bus", "run", str(PLANS / "handover.mal"), "--svg", "whole.svg")
     root = ElementTree.fromstring(Path("whole.svg").read_text("utf-8"))  # noqa: S314 - our own
-    assert len([e for e in root.iter() if e.tag.endswith("rect") and e.get("class") == "d"]) >= 5 * 4
+    assert len([e for e in root.iter() if e.tag.endswith("rect") and e.get("class") == "d"]) == 5 * 87
+    texts = [e.text or "" for e in root.iter() if e.tag.endswith("text")]
+    assert [texts.count(name) for name in ("X1", "FORCE2", "ms")] == [1, 1, 1]
+    own = [int(found[1]) for text in texts if (found := re.fullmatch(r"\d+ frames, (\d+) own", text))]
+    assert sum(own) == 87
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,13 @@
 """Timing diagrams of the bus, made from its log: what is on the lines, and what each receiver took when."""
 
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
 from handeye.core.markup import Markup, element, joined
-from handeye.ports.microbus import Status
+from handeye.core.plain_text import counted
+from handeye.ports.microbus import COMMAND_BYTES, Status
 from handeye.systems.sigma.bus.events import (
     AnyBusEvent,
     ByteHeard,
@@ -39,6 +41,8 @@ class Mark:
     at: int
     byte: int
     right: bool  # the byte that was on the lines for it
+    own: bool  # of a frame that its receiver acted on, or of an answer
+    first: bool  # of its frame
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +61,7 @@ class Diagram:
     title: str
     begin: int
     end: int
+    slot: int  # ps, of a byte of a command
     data: tuple[tuple[int, int, int], ...]  # from, to, byte
     strobes: tuple[Wave, ...]
     lines: tuple[Wave, ...]  # status lines and interrupt
@@ -83,6 +88,7 @@ def diagram(
         title=title,
         begin=first,
         end=last,
+        slot=timing.slot * PS,
         data=tuple(sorted(piece for piece in bytes_on if piece[0] < last and piece[1] > first)),
         strobes=strobes,
         lines=tuple(_status_lines(log, first, last, all_lines=all_lines)),
@@ -129,18 +135,32 @@ def _receivers(
     log: Sequence[AnyBusEvent], sent: Sequence[CommandSent], first: int, last: int
 ) -> Iterator[Receiver]:
     taken = [e for e in log if isinstance(e, FrameTaken) and first <= e.noticed < last]
+    starts = [s.at for s in sent]
     for number in sorted({e.number for e in taken}):
-        for e in (e for e in taken if e.number == number):
-            meant = next((s.frame for s in reversed(sent) if s.at <= e.noticed), b"")
-            pairs = zip(e.sampled, e.frame, meant, strict=False)
-            marks = tuple(Mark(at, byte, byte == right) for at, byte, right in pairs)
-            yield Receiver(name_of(number), marks, f"{spaced(e.frame)}{' own' if e.own else ''}")
+        mine = [e for e in taken if e.number == number]
+        marks: list[Mark] = []
+        for e in mine:
+            meant = sent[bisect_right(starts, e.noticed) - 1].frame if sent else b""
+            trios = zip(e.sampled, e.frame, meant, strict=False)
+            marks += [
+                Mark(at, byte, byte == right, e.own, n == 0) for n, (at, byte, right) in enumerate(trios)
+            ]
+        says = f"{spaced(mine[0].frame)}{' own' if mine[0].own else ''}"
+        if len(mine) > 1:
+            says = f"{counted(len(mine), 'frame')}, {sum(e.own for e in mine)} own"
+        yield Receiver(name_of(number), tuple(marks), says)
     heard = [e for e in log if isinstance(e, ByteHeard) and first <= e.at < last]
     spoken = [e for e in log if isinstance(e, ByteSpoken)]
     if heard:
         right = [any(s.at <= e.at < s.until and s.byte == e.byte for s in spoken) for e in heard]
-        marks = tuple(Mark(e.at, e.byte, well) for e, well in zip(heard, right, strict=True))
-        yield Receiver("computer", marks, spaced(bytes(e.byte for e in heard)))
+        pairs = zip(heard, right, strict=True)
+        all_heard = tuple(Mark(e.at, e.byte, well, own=True, first=True) for e, well in pairs)
+        says = (
+            spaced(bytes(e.byte for e in heard))
+            if len(heard) <= COMMAND_BYTES
+            else counted(len(heard), "byte")
+        )
+        yield Receiver("computer", all_heard, says)
 
 
 # -- as text ---------------------------------------------------------------------------------------------
@@ -156,6 +176,7 @@ def as_text(drawn: Diagram, width: int = 100, *, ascii: bool = False) -> list[st
     columns = max(20, width - _NAME - behind)
     scale = (drawn.end - drawn.begin) / columns
     high, low, edge = _ASCII if ascii else _UNICODE
+    narrow = scale > drawn.slot / 2  # bytes lie too close to each other to be told apart
 
     def column(at: int) -> int:
         return int((at - drawn.begin) / scale)
@@ -169,9 +190,9 @@ def as_text(drawn: Diagram, width: int = 100, *, ascii: bool = False) -> list[st
             out.append(edge if changed else high if now else low)
         return "".join(out)
 
-    out = [drawn.title, f"{'microseconds':<{_NAME}}{_axis(drawn, columns)}"]
+    out = [drawn.title, f"{_unit(drawn)[0]:<{_NAME}}{_axis(drawn, columns)}"]
     data = [" "] * columns
-    for start, _end, byte in drawn.data:
+    for start, _end, byte in () if narrow else drawn.data:
         for offset, sign in enumerate(f"{edge}{byte:02X}"):
             if 0 <= (place := column(start) + offset) < columns:
                 data[place] = sign
@@ -180,8 +201,8 @@ def as_text(drawn: Diagram, width: int = 100, *, ascii: bool = False) -> list[st
     for receiver in drawn.receivers:
         row = [" "] * columns
         for mark in receiver.marks:
-            if 0 <= (place := column(mark.at)) < columns:
-                row[place] = "^" if mark.right else "!"
+            if 0 <= (place := column(mark.at)) < columns and row[place] in " .":
+                row[place] = "!" if not mark.right else "^" if mark.own or not narrow else "."
         out.append(f"{receiver.name:<{_NAME}}{''.join(row)} {receiver.says}")
     out += [f"{wave.name:<{_NAME}}{level(wave)}" for wave in drawn.lines]
     return [line.rstrip() for line in out]
@@ -191,11 +212,18 @@ def _axis(drawn: Diagram, columns: int) -> str:
     row, last = [" "] * (columns + 12), -2
     for at in _ticks(drawn, columns // 9):
         place = int((at - drawn.begin) / (drawn.end - drawn.begin) * columns)
-        text = f"{at // PS}"
+        text = f"{at / PS / _unit(drawn)[1]:g}"
         if place > last + 1 and place + len(text) <= columns:
             row[place : place + len(text)] = text
             last = place + len(text)
     return "".join(row).rstrip()
+
+
+def _unit(drawn: Diagram) -> tuple[str, int]:
+    """The unit of an axis, and its microseconds."""
+    units = (("microseconds", 1), ("milliseconds", 1_000), ("seconds", 1_000_000))
+    span = (drawn.end - drawn.begin) // PS
+    return max((unit for unit in units if span >= 20 * unit[1]), key=lambda unit: unit[1], default=units[0])
 
 
 def _ticks(drawn: Diagram, most: int) -> list[int]:
@@ -218,12 +246,14 @@ _HIGH: Final = 13  # px between levels
 _SAYS: Final = 150  # px behind
 _HEAD: Final = 46
 _BELOW: Final = 14
+_SHORT: Final = {"microseconds": "µs", "milliseconds": "ms", "seconds": "s"}
+_READABLE: Final = 16  # px that a byte in hexadecimal takes
 _STYLE: Final = (
     "text{font:11px ui-monospace,'DejaVu Sans Mono',Menlo,Consolas,monospace;fill:#222}"
     ".t{font:600 14px system-ui,'DejaVu Sans',Helvetica,Arial,sans-serif}.a{fill:#777;font-size:10px}"
     ".w{fill:none;stroke:#3b75af;stroke-width:1.5}.s{fill:none;stroke:#b98113;stroke-width:1.5}"
     ".b{fill:none;stroke:#3f8f52;stroke-width:1.5}.g{stroke:#eceef1}.m{stroke:#333}.x{stroke:#c8382e;stroke-width:2}"
-    ".d{fill:#dbe9f6;stroke:#3b75af}.r{fill:#c8382e}.c{text-anchor:middle}"
+    ".o{stroke:#c9ced6}.d{fill:#dbe9f6;stroke:#3b75af}.r{fill:#c8382e}.c{text-anchor:middle}"
 )
 
 
@@ -283,17 +313,17 @@ def _grid(drawn: Diagram, top: int, bottom: int) -> Iterator[Markup]:
     for at in _ticks(drawn, 16):
         x = _x(drawn, at)
         yield element("line", x1=x, x2=x, y1=top - 6, y2=bottom, class_="g")
-        yield element("text", f"{at // PS}", x=x, y=top - 10, class_="a c")
-    yield element("text", "µs", x=_LEFT + _WIDTH + 12, y=top - 10, class_="a")
+        yield element("text", f"{at / PS / _unit(drawn)[1]:g}", x=x, y=top - 10, class_="a c")
+    yield element("text", _SHORT[_unit(drawn)[0]], x=_LEFT + _WIDTH + 12, y=top - 10, class_="a")
 
 
 def _bytes(drawn: Diagram, y: int) -> Markup:
     pieces = [element("text", "data", x=10, y=y + 14)]
     for start, end, byte in drawn.data:
         left, right = _x(drawn, start), _x(drawn, end)
-        box = element("rect", x=left, y=y + 2, width=round(right - left, 1), height=16, class_="d")
+        box = element("rect", x=left, y=y + 2, width=round(max(right - left, 0.5), 1), height=16, class_="d")
         pieces.append(box)
-        if right - left > 16:
+        if right - left > _READABLE:
             pieces.append(
                 element("text", f"{byte:02X}", x=round((left + right) / 2, 1), y=y + 14, class_="c")
             )
@@ -313,13 +343,15 @@ def _wave(drawn: Diagram, wave: Wave, kind: str, y: int) -> Markup:
 
 def _receiver(drawn: Diagram, receiver: Receiver, y: int) -> Markup:
     pieces = [element("text", receiver.name, x=10, y=y + 14)]
-    for mark in receiver.marks:
-        if not drawn.begin <= mark.at < drawn.end:
+    readable = drawn.slot * _WIDTH > _READABLE * (drawn.end - drawn.begin)
+    for mark in sorted(receiver.marks, key=lambda mark: mark.own):  # what it acted on over the rest
+        if not drawn.begin <= mark.at < drawn.end or not (readable or mark.first or not mark.right):
             continue
         x = _x(drawn, mark.at)
-        pieces.append(element("line", x1=x, x2=x, y1=y + 3, y2=y + 18, class_="m" if mark.right else "m x"))
-        pieces.append(
-            element("text", f"{mark.byte:02X}", x=x + 3, y=y + 14, class_=None if mark.right else "r")
-        )
+        kind = "m x" if not mark.right else "m" if readable else "m b" if mark.own else "o"
+        pieces.append(element("line", x1=x, x2=x, y1=y + 3, y2=y + 18, class_=kind))
+        if readable:
+            wrong = None if mark.right else "r"
+            pieces.append(element("text", f"{mark.byte:02X}", x=x + 3, y=y + 14, class_=wrong))
     pieces.append(element("text", receiver.says, x=_LEFT + _WIDTH + 8, y=y + 14, class_="a"))
     return joined(pieces)
