@@ -56,7 +56,7 @@ class Way:
         return median(self.seconds)
 
     def as_json(self, ours: "Way") -> dict[str, object]:
-        """What was measured, beside our own way."""
+        """Measured values, beside our own way."""
         read = [outcome.read for outcome in self.outcomes if outcome.read is not None]
         return {
             "task": self.task,

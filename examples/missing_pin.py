@@ -1,4 +1,4 @@
-"""A pin is missing where the hand reaches for it: the operator is called, and a program answers for them."""
+"""A pin is missing where the hand reaches for it: the program calls the operator, and a program answers for them."""
 
 import handeye
 

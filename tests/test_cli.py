@@ -228,7 +228,7 @@ def test_a_picture_that_cannot_be_is_told_by_the_size_that_was_typed(
 ) -> None:
     code, _, err = command("render", "-o", "it.png", *words)
     assert (code, err) == (
-        2, f"handeye: a picture of {size} cannot be made; a side has 8 to 2048 points\n"
+        2, f"handeye: a picture of {size} is not possible; a side has 8 to 2048 pixels\n"
     )  # fmt: skip
 
 

@@ -59,7 +59,7 @@ def test_without_a_folder_it_says_that_nothing_is_kept(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("HANDEYE_CACHE", "")
-    assert command("cache")[1].startswith("nothing is kept: ")
+    assert command("cache")[1].startswith("no calibrations are kept: ")
     assert json.loads(command("cache", "--json")[1])["folder"] is None
 
 

@@ -67,7 +67,7 @@ def test_what_a_run_did_is_undone_and_its_folder_stays_as_it_was(command: Comman
     assert "The pump is taken apart." in out
     assert "lost or damaged" not in err
     assert files(taken) == before
-    assert command("dismantle", "apart")[0::2] == (2, "handeye: apart is undone already\n")
+    assert command("dismantle", "apart")[0::2] == (2, "handeye: apart is already undone\n")
     again = command("resume", "apart")
     assert (again[0], "taken apart" in again[1]) == (0, True)
 
@@ -78,7 +78,7 @@ def test_as_json_the_referee_tells_how_far_each_part_is_from_where_it_was(
     code, out, _ = command("dismantle", str(taken), "--json")
     told = json.loads(out)
     assert (code, told["apart"], told["assembled"], told["completed"]) == (0, True, None, True)
-    assert told["message"] == "what the arm was to undo is undone"
+    assert told["message"] == "the arm has undone what it was asked to undo"
     assert told["referee"]["pins"]["value"] < 0.5
     assert {stage["status"] for stage in told["stages"]} == {"undone"}
 
@@ -100,7 +100,7 @@ def test_the_page_of_a_run_that_was_undone_so_far_says_so(command: Command, take
 def test_a_guard_stops_it_with_exit_code_1_and_says_why(command: Command, dropped: Path) -> None:
     code, out, _ = command("dismantle", str(dropped))
     assert code == 1
-    assert "the fingers stand at" in " ".join(out.split())
+    assert "the gap is" in " ".join(out.split())
 
 
 @pytest.mark.parametrize("inner", ["", "apart", "checkpoints/apart"])
@@ -137,7 +137,7 @@ def test_what_is_not_carried_out_again_as_it_was_is_not_undone(command: Command,
     events.write_text(f"{told[:last]}9{told[last + 1 :]}", encoding="utf-8")
     code, _, err = command("dismantle", "other")
     assert code == 2
-    assert "other did since its newest checkpoint comes out otherwise here" in err
+    assert "other did since its newest checkpoint gives a different result here" in err
 
 
 def test_an_event_list_that_is_not_of_the_run_is_left_out(command: Command, taken: Path) -> None:
@@ -182,7 +182,7 @@ def test_a_run_that_has_not_begun_leaves_nothing_to_undo(command: Command) -> No
     Path("new.checkpoint").write_bytes(encode(Checkpoint(setup=begin(TAKE).setup)))
     code, _, err = command("dismantle", "new.checkpoint")
     assert code == 2
-    assert err == "handeye: new.checkpoint is no run of a program that has begun: there is nothing to undo\n"
+    assert err == "handeye: new.checkpoint has not run any program: there is nothing to undo\n"
 
 
 def test_a_way_that_was_tampered_with_stops_the_arm(command: Command, taken: Path) -> None:
@@ -195,7 +195,7 @@ def test_a_way_that_was_tampered_with_stops_the_arm(command: Command, taken: Pat
     Path("bad.checkpoint").write_bytes(encode(newest))
     code, out, _ = command("dismantle", "bad.checkpoint")
     assert code == 1
-    assert "what the step has left for undoing it cannot be used" in " ".join(out.split())
+    assert "the record for undoing this step cannot be used" in " ".join(out.split())
 
 
 # -- built, unbuilt, and built again ------------------------------------------------------------------

@@ -124,7 +124,7 @@ def test_a_disk_that_is_full_costs_a_sentence_and_not_the_run(
     plan = planned("OPEN 1\n")
     monkeypatch.setattr(RunFolder, method, full)
     code, out, err = command("run", plan, "--camera", "ray")
-    assert (code, out.splitlines()[0]) == (0, "The program came to its end.")
+    assert (code, out.splitlines()[0]) == (0, "The program finished.")
     assert err.count("the run is kept no further: no space left\n") == 1
     assert "kept in" not in err
 
@@ -136,5 +136,5 @@ def test_a_place_that_cannot_be_had_costs_a_sentence_and_not_the_run(
     plan = planned("OPEN 1\n")
     RUNS.write_text("a file")
     code, out, err = command("run", plan, "--camera", "ray")
-    assert (code, out.splitlines()[0]) == (0, "The program came to its end.")
+    assert (code, out.splitlines()[0]) == (0, "The program finished.")
     assert err.startswith("the run is not kept: runs cannot be written: ")

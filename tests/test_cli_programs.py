@@ -46,8 +46,9 @@ def test_a_file_of_the_name_wins_and_a_folder_does_not(command: Command) -> None
     ("words", "said"),
     [
         ("run water_pmup", "water_pmup: there is no such file, and no program of that name; did you mean"),
-        ("run palletise", "the task `palletise`: TRIG cannot follow a plan of motions: its programs are taught in the "
-         "world they work in; `handeye trig palletise`, "),
+        ("run palletise",
+         "the task `palletise`: TRIG cannot run a plan of motions: its programs are taught in the world "
+         "they work in; run them with `handeye trig palletise`, "),
         ("export mjcf --task palletise -o out", "the task `palletise` exports no scene\n"),
         ("trig palletise --task bucket", "`trig palletise` has no option `--task` (see"),
         (
@@ -58,10 +59,10 @@ def test_a_file_of_the_name_wins_and_a_folder_does_not(command: Command) -> None
             "world --task clock:TASK",
             "the task `clock:TASK` cannot be imported: ModuleNotFoundError: No module named 'clock'",
         ),
-        ("world --task block_task:HALF", "`block_task:HALF` is no task, which is an object of a class that is derived "
-         "from handeye.Task"),
-        ("world --task clock-TASK", "no task is called `clock-TASK`; "),
-        ("world --task :x", "a task is named as MODULE:NAME, such as my_task:TASK; `:x` is not"),
+        ("world --task block_task:HALF",
+         "`block_task:HALF` is not a task: an instance of a class derived from handeye.Task"),
+        ("world --task clock-TASK", "there is no task `clock-TASK`; "),
+        ("world --task :x", "name a task as MODULE:NAME, such as my_task:TASK; `:x` is not"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_taken_is_told_in_a_sentence(command: Command, words: str, said: str) -> None:
@@ -82,7 +83,7 @@ def test_no_plan_has_a_module_imported(command: Command) -> None:
         ("trials", "assembly", "--n", "1", "--plan", "plan.json"),
     ):
         code, _, err = command(*words)
-        assert (code, err[:40]) == (2, "handeye: no task is called `exits:TASK`;")
+        assert (code, err[:40]) == (2, "handeye: there is no task `exits:TASK`;")
     assert not Path("run").exists()
     code, _, err = command("world", "--task", "exits:TASK")
     assert (code, err) == (2, "handeye: the task `exits:TASK` cannot be imported: SystemExit: 7\n")

@@ -55,7 +55,7 @@ def test_the_folder_of_a_run_of_one_step_gets_its_page(command: Command, kept: P
     code, out, _ = command("report", "kept")
     assert (code, out) == (0, "kept/report.html\n")
     page = tree((kept / "report.html").read_text(encoding="utf-8"))
-    assert page.all("h1")[0].text == "The program came to its end."
+    assert page.all("h1")[0].text == "The program finished."
     assert "No photograph: OpenGL does not work on this machine." in page.text
 
 
@@ -100,7 +100,7 @@ def test_what_is_no_trace(command: Command) -> None:
 def test_a_file_of_somebody_is_left_alone(command: Command, kept: Path) -> None:
     Path("page.html").write_text("<p>mine</p>", encoding="utf-8")
     assert refused(command, "kept", "-o", "page.html") == (
-        "page.html exists and is no report of handeye; nothing was written"
+        "page.html exists and is not a report of handeye; nothing was written"
     )
 
 

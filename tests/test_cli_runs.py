@@ -302,7 +302,7 @@ def test_stepping_from_standard_input_answers_every_command(command: Command, pl
     assert code == 2
     assert "MOVE    HERE_" in out
     assert "wobble" in out
-    assert "The program came to its end." in out
+    assert "The program finished." in out
 
 
 @pytest.mark.parametrize(
@@ -527,7 +527,7 @@ def test_a_trace_that_was_lost_is_told_of_and_shows_nothing_that_it_does_not_hol
         checkpoint.unlink()
     _, _, err = command("resume", "again")
     assert "resuming after 5 steps: feel" in err
-    assert "the trace in again was lost or damaged: it lacks the motions before " in err
+    assert "the trace in again was lost or damaged: it does not hold the motions before " in err
     code, _, err = command("trace", "verify", "again")
     assert (code, "are not in this trace and were not compared" in err) == (0, True)
     code, _, err = command("trace", "photograph", "again", "--at", "1", "-o", "it.png")
@@ -541,7 +541,7 @@ def test_an_event_list_that_was_lost_is_told_of(command: Command, folder: Path, 
     Path("again/events.jsonl").unlink()
     if left is not None:
         Path("again/events.jsonl").write_bytes(left)
-    said = "the event list again/events.jsonl was lost, damaged or of another run, and is begun anew "
+    said = "the event list again/events.jsonl was lost, damaged or of another run, and starts again "
     assert said in command("resume", "again")[2]
 
 

@@ -139,7 +139,7 @@ def test_a_wrong_argument_is_told_in_a_sentence(kept: Path, wrong: dict[str, Any
 
 REFUSALS = {
     ("--size", "480"): "`480` is not a size; write it as 480x360",
-    ("--size", "4x4"): "a video of 4 x 4 cannot be made; a side has 8 to 2048 points",
+    ("--size", "4x4"): "a video of 4 x 4 is not possible; a side has 8 to 2048 pixels",
     ("--seconds", "0"): "a video takes up to 600 s, and not 0.0 s",
     ("--speed", "nan"): "a video is some times as fast as the run, and not nan times",
     ("--speed", "2", "--seconds", "2"): "a video has a length or a speed; the other follows",
@@ -149,7 +149,7 @@ REFUSALS = {
     ("--to", "3"): "there is no stage 3; the program has stages 1 to 2",
     ("--from", "shut", "--to", "open"): "stage `open` comes before `shut`",
     ("-o", "it.webm", "--size", "65x48"): "a WebM video of 65 x 48 cannot be made; both sides must be even",
-    ("-o", "it.gif"): "it.gif: a GIF would be seven times as large, in 256 colours",
+    ("-o", "it.gif"): "it.gif: a GIF would be seven times as large, with only 256 colours",
     ("-o", "nowhere/it.webp"): "nowhere/it.webp cannot be written: No such file or directory",
 }
 
@@ -174,7 +174,7 @@ def test_a_video_in_the_folder_of_its_run_is_renewed_and_one_elsewhere_only_on_r
 def test_a_file_of_somebody_is_left_alone(command: Command, kept: Path) -> None:
     Path("it.webm").write_text("mine", encoding="utf-8")
     assert refused(command, "kept", "-o", "it.webm", "--overwrite") == (
-        "it.webm exists and is no WebM video; nothing was written"
+        "it.webm exists and is not a WebM video; nothing was written"
     )
 
 

@@ -135,7 +135,7 @@ def test_without_a_group_nothing_else_changes(command: Command) -> None:
             ("--without", "weather"),
             "the world has no quantity `weather`; there are `pump`, `base`, `arm`",
         ),
-        (("--set", "part_mass"), "`part_mass` sets nothing; write NAME=VALUE"),
+        (("--set", "part_mass"), "`part_mass` is not a setting; write NAME=VALUE"),
         (("--set", "part_mass=5kg"), "part_mass is not measured in `kg`; known: `%`"),
         (("--set", "camera.place.x=3inn"), "camera.place.x is not measured in `inn`; did you mean `in`?"),
         (("--set", "part_mass=-95"), "part_mass cannot be `-95`; it can be -90 to 1000 %"),
@@ -185,10 +185,10 @@ def test_an_unknown_level_is_refused(command: Command) -> None:
 @pytest.mark.parametrize(
     ("scale", "told"),
     [
-        ("unsourced", "`unsourced` scales nothing; write NAME=FACTOR"),
-        ("unsourced=2x", "`unsourced=2x` scales nothing; write NAME=FACTOR"),
-        ("unsourced=5", "`unsourced` cannot be scaled by 5.0: at the level nominal, by 0 to 4"),
-        ("base=2", "the world has no error in `base`, which could be scaled"),
+        ("unsourced", "`unsourced` is not a factor; write NAME=FACTOR"),
+        ("unsourced=2x", "`unsourced=2x` is not a factor; write NAME=FACTOR"),
+        ("unsourced=5", "`unsourced` cannot be scaled by 5.0; at the level nominal, factors are 0 to 4"),
+        ("base=2", "the world has no error in `base` to scale"),
         ("camrea=2", "the world has no quantity `camrea`; did you mean `camera`?"),
     ],
 )
@@ -290,7 +290,7 @@ def test_a_fault_sets_in_with_a_stage_by_a_piece_of_its_name_or_not_at_all(comma
     assert (code, err.count("\n")) == (2, 1)
     assert "`aligning`" in err
     code, _, err = command("do", "PARK", "--fault", "lamp.dead@2")
-    assert (code, err) == (2, "handeye: a fault is there from the beginning here; leave out `@2`\n")
+    assert (code, err) == (2, "handeye: here, a fault is present from the start; leave out `@2`\n")
 
 
 @pytest.mark.parametrize("columns", ["80", "120"])
@@ -326,4 +326,4 @@ def test_faults_are_listed_for_programs(command: Command) -> None:
     assert known["gap_potentiometer.off"]["size"] == {"unit": "in", "usual": 0.5, "limits": [-4.0, 4.0]}
     assert known["lamp.dead"]["size"] is None
     assert known["gap_potentiometer.off"]["must"].startswith("The program stops by error 51 (the gap is not")
-    assert known["thread.1.scarred"]["must"] == "The pump comes out right."
+    assert known["thread.1.scarred"]["must"] == "The pump is right."

@@ -89,8 +89,8 @@ def test_what_is_typed_while_the_run_goes_is_heard_then_and_not_later(stepping: 
     assert "2 steps undone" in paused
     stepping.until(PROMPT)
     paused = stepping.say("continue\npause")
-    assert "the run pauses behind this step" in paused
-    assert paused.endswith("paused as asked")
+    assert "the run pauses after this step" in paused
+    assert paused.endswith("paused on request")
 
 
 def test_a_wrong_command_at_a_terminal_is_no_failure(stepping: Terminal) -> None:

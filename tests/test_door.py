@@ -90,7 +90,7 @@ def test_the_package_says_that_it_has_types() -> None:
 
 @pytest.mark.parametrize("wrong", [None, 3, "", b"run"])
 def test_what_is_no_trace_is_refused_in_one_sentence(wrong: object) -> None:
-    with pytest.raises(InvalidInput, match=r"^a trace is a file or the folder of a run, not "):
+    with pytest.raises(InvalidInput, match=r"^a trace must be a file or the folder of a run, not "):
         handeye.open(wrong)
 
 

@@ -54,7 +54,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     lowered = lower(placed, source, found.append, inner=inner)
     found = _without_lost_labels(source, found)
     if not lowered.steps and not has_errors(found):
-        nothing = "the program has no instruction to carry out"
+        nothing = "the program has no instructions"
         found.append(problem("empty-program", nothing, Span(start=0, end=0)))
     if has_errors(found):  # what follows would tell a mistake twice, as what it leads to
         return None, arranged(found)

@@ -11,7 +11,7 @@ from handeye.core.record import Record
 from handeye.ports import camera
 
 MAX_NUMBER: Final = 1e6  # keeps squares of numbers finite
-ANY: Final = "numbers in a program go up to a million"
+ANY: Final = "numbers in a program are at most one million"
 MIN_POSITIVE: Final = 0.001
 
 AXES: Final = ("X", "Y", "Z")  # unit vectors where a vector stands; counted by `FREE` and `SPIN`
@@ -178,7 +178,7 @@ MOMENT: Final = Operand(
 )
 ERROR: Final = count("error", 1, 63, "errors have numbers from 1 to 63")
 LENS: Final = Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES_MM)
-_STEP_WHY = f"a step is {MIN_POSITIVE:g} to {MAX_STEP_IN:g} in: a search extends several to each side"
+_STEP_WHY = f"a step is {MIN_POSITIVE:g} to {MAX_STEP_IN:g} in: a search takes several steps to each side"
 SEARCH_STEP: Final = replace(number("step", IN, MIN_POSITIVE), high=MAX_STEP_IN, why=_STEP_WHY)
 STEPS: Final = count("number", 1, 20, "a search extends 1 to 20 steps to each side", word="STEPS")
 TIMES: Final = count("number", 1, 100, "a stage is undone 1 to 100 times", word="TIMES")

@@ -12,7 +12,7 @@ from handeye.core.diagnostics import Diagnostic, arranged, problem, quoted
 from handeye.core.source import Source, Span
 
 _ours = partial(problem, "extension-used")
-_AGAINST = "the period stops on a vector: `STOP [0 0 -50]`"
+_AGAINST = "in 1973, a stop is a vector: `STOP [0 0 -50]`"
 
 
 def extensions(source: Source) -> list[Diagnostic]:
@@ -25,7 +25,9 @@ def _found(source: Source) -> Iterator[Diagnostic]:
     for macro in script.macros.values():
         if macro.parameters:
             span = Span(start=macro.parameters[0].start, end=macro.parameters[-1].end)
-            yield _ours("parameters of a macro are ours", span, help="write a macro for each use of it")
+            yield _ours(
+                "parameters of a macro are an addition of handeye", span, help="write a macro for each use"
+            )
     for statement in as_called(script, expand(script, lambda _: None)):
         definition = INSTRUCTIONS.get(statement.word.text) if statement.word is not None else None
         if statement.word is None or definition is None:
@@ -39,7 +41,9 @@ def _found(source: Source) -> Iterator[Diagnostic]:
             if isinstance(value, Number) and value.value == 0 and operand.name == "speed":
                 continue  # the 0 of the dialect of 1977
             if operand.ours:
-                message = f"{quoted(operand.shown.strip('()'))} of `{definition.op}` is ours"
+                message = (
+                    f"{quoted(operand.shown.strip('()'))} of `{definition.op}` is an addition of handeye"
+                )
                 yield _ours(message, value.span)
             elif definition.op == "STOP" and isinstance(value, Number):
-                yield _ours("`STOP` with a number is ours", value.span, help=_AGAINST)
+                yield _ours("`STOP` with a number is an addition of handeye", value.span, help=_AGAINST)

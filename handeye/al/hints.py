@@ -6,20 +6,20 @@ from typing import Final
 from handeye.core.diagnostics import LOOKALIKES
 
 _COMMENT: Final = "a comment begins with `;`"
-_BLANKS: Final = "operands follow their instruction after a blank"
+_BLANKS: Final = "a space separates an instruction from its operands"
 _VECTOR: Final = "write a vector in brackets, as `[0 0 -1]`"
 _NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _PLAIN: Final = re.compile(_NUMBER, re.ASCII)
 _WITH_UNIT: Final = re.compile(rf"({_NUMBER})([A-Za-z]+)", re.ASCII)
 
-_ENDS: Final = "a program ends where its text ends"
+_ENDS: Final = "a program ends at the end of its text"
 _MACRO_ENDS: Final = f"a macro ends with a blank line; {_ENDS}"
 _TESTS: Final = "`SKIPE` and `SKIPN` test an error, and skip one instruction"
-_ROUNDS: Final = "`JUMP` goes back to a label; `ASSIGN` and `SOJG` count the rounds"
-_MACRO: Final = "`DEFINE` makes a macro, which ends with a blank line"
-_CALL: Final = "the name of a macro calls it, with its operands behind"
-_PAUSE: Final = "no instruction waits for a time; `WAIT` calls the operator"
-_STRAIGHT: Final = "`CHANGE` moves straight from where the hand is, `MOVE` goes to a position"
+_ROUNDS: Final = "`JUMP` repeats from a label; `ASSIGN` and `SOJG` count the rounds"
+_MACRO: Final = "`DEFINE` begins a macro, and a blank line ends it"
+_CALL: Final = "to call a macro, write its name and then its operands"
+_PAUSE: Final = "no instruction waits for a number of seconds; `WAIT` calls the operator"
+_STRAIGHT: Final = "`CHANGE` moves in a straight line from where the hand is, `MOVE` goes to a position"
 _GRASP: Final = "`CLOSE` grasps; `CENTER` grasps without pushing"
 
 _ELSEWHERE: Final[dict[str, str]] = {
@@ -32,19 +32,21 @@ _ELSEWHERE: Final[dict[str, str]] = {
     **dict.fromkeys(("MACRO", "PROC", "PROCEDURE", "SUB", "SUBROUTINE", "FUNCTION", "DEF"), _MACRO),
     **dict.fromkeys(("INCLUDE", "IMPORT", "USE"), "`REQUIRE` reads another file"),
     **dict.fromkeys(("DELAY", "PAUSE", "SLEEP", "DWELL", "TIMER"), _PAUSE),
-    **dict.fromkeys(("PRINT", "SAY", "TYPE", "MESSAGE"), "`WAIT` shows the operator a text, and stops"),
+    **dict.fromkeys(
+        ("PRINT", "SAY", "TYPE", "MESSAGE"), "`WAIT` shows the operator a text and stops the program"
+    ),
     **dict.fromkeys(("MOVEL", "MOVES", "MOVEJ", "LINEAR", "APPRO", "DEPART", "LIFT", "LOWER"), _STRAIGHT),
     **dict.fromkeys(("GRASP", "GRIP", "GRAB", "PICK", "CLAMP"), _GRASP),
-    **dict.fromkeys(("RELEASE", "LETGO", "UNGRASP", "DROP"), "`OPEN` lets go"),
+    **dict.fromkeys(("RELEASE", "LETGO", "UNGRASP", "DROP"), "`OPEN` releases what the fingers hold"),
     **dict.fromkeys(("HOME", "REST"), "`PARK` goes to the position called PARK"),
-    **dict.fromkeys(("SPEED", "VELOCITY"), "`CHANGE` takes a speed last, in inches a second"),
+    **dict.fromkeys(("SPEED", "VELOCITY"), "the last operand of `CHANGE` is its speed, in inches per second"),
     **dict.fromkeys(("LET", "SET", "VAR", "INT"), "`ASSIGN` sets a counter"),
     **dict.fromkeys(("POINT", "FRAME", "POSE"), "`TRANS` defines a position"),
 }
 
 
 # for a STOP without its operand, as other languages have it
-STOP_ALONE: Final = f"it ends the motion after it when the hand presses with so many ounces; {_ENDS}"
+STOP_ALONE: Final = f"it ends the next motion when the hand presses with this force, in ounces; {_ENDS}"
 
 
 def elsewhere(word: str) -> str | None:
@@ -75,7 +77,7 @@ def strange(text: str) -> str | None:
     """Help for characters outside the language; None if nothing helps."""
     first = text[0]
     if first == ":":
-        return "a colon belongs after a label, at the beginning of a line"
+        return "a colon ends a label, which begins a line"
     if first in "#/'":
         return _COMMENT
     if first in "({<" or text[-1] in ")}>":
@@ -88,9 +90,9 @@ def strange(text: str) -> str | None:
     if first in "“”„«»‘’":
         return 'use straight quotes, as `"this"`'
     if first in "+-" and text[1:2].isalpha():
-        return letters_for_digits(text) or f"a name has no sign; {_VECTOR}"
+        return letters_for_digits(text) or f"a name cannot have a sign; {_VECTOR}"
     if first == "\N{NO-BREAK SPACE}":
-        return "use an ordinary blank"
+        return "use an ordinary space"
     if first.isalpha():
         return "names consist of letters from A to Z, digits and `_`"
     return None
@@ -98,7 +100,7 @@ def strange(text: str) -> str | None:
 
 _LENGTH, _ANGLE = "distances are in inches", "angles are in degrees"
 _FORCE = "forces and weights are in ounces, moments and torques in ounce-inches"
-_SPEED = "speeds are in inches a second, the screwdriver's in revolutions a minute"
+_SPEED = "speeds are in inches per second, the screwdriver's in revolutions per minute"
 UNIT_WORDS: Final = {
     **dict.fromkeys(("in", "inch", "inches", "ft", "mm", "cm", "m"), _LENGTH),
     **dict.fromkeys(("oz", "ounce", "ounces", "lb", "lbs", "g", "kg", "n", "nm", "ozin"), _FORCE),
@@ -110,4 +112,4 @@ UNIT_WORDS: Final = {
 def no_units(word: str) -> str | None:
     """Help for a word that may be a unit; None otherwise."""
     said = UNIT_WORDS.get(word.lower())
-    return None if said is None else f"numbers are written without a unit: {said}"
+    return None if said is None else f"write numbers without a unit: {said}"

@@ -126,7 +126,7 @@ class Requirements:
         key = key_of(file.text, self.reading[-1])
         found = self.texts.get(key)
         if key.lower().endswith(".toml"):
-            help = "handeye reads the taught file with the script's name by itself; remove this line"
+            help = "remove this line: handeye always reads the taught file that has the script's name"
             message = f"{quoted(file.text)} is a taught file, not a file of instructions"
             return problem("unreadable-file", message, file.span, help=help)
         if key in self.reading:
@@ -146,10 +146,10 @@ class Requirements:
         message = f"{quoted(file.text)} cannot be read"
         if found is not None:
             slashed = file.text.replace("\\", "/")
-            divided = None if slashed == file.text else f"folders are divided by `/`: {quoted(slashed)}"
+            divided = None if slashed == file.text else f"separate folders with `/`: {quoted(slashed)}"
             return problem("unreadable-file", message, file.span, notes=(found.problem,), help=divided)
-        notes = ("this text is not in a file",)
-        help = "paths are relative to the file that requires them: save this text as a file"
+        notes = ("this text has not been saved as a file",)
+        help = "paths are relative to the file that requires them: save this text first"
         return problem("unreadable-file", message, file.span, notes=notes, help=help)
 
     def _circle(self, key: str, file: Text) -> Diagnostic:

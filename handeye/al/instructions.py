@@ -49,8 +49,8 @@ _POSITION = name_of("position", Refers.POSITION)
 _AXES = vector(x=ONE, y=ONE, z=ONE)
 _PICTURE = name_of("picture", Refers.PICTURE)
 _PART = name_of("part", Refers.PART)
-_VALUE = count("value", 0, MAX_COUNT, f"a counter is set to 0 to {MAX_COUNT}")
-_ZERO_WHY = "its meaning of 1977 is lost; only 0 is known to change nothing"
+_VALUE = count("value", 0, MAX_COUNT, f"a counter can be set to 0 to {MAX_COUNT}")
+_ZERO_WHY = "what it meant in 1977 is lost; only 0, which changes nothing, is certain"
 _ZERO = Operand(name="0", takes=(Number,), units=(ONE,), low=0.0, high=0.0, why=_ZERO_WHY, optional=True)
 _FORCE = Operand(name="force", takes=(Vector, Name), units=(OZ,) * 3, nil=True, refers=Refers.VECTOR)
 _STOP_FORCE = replace(
@@ -62,26 +62,28 @@ MOTIONS, MODIFIER_GROUP, HAND_WORDS, FLOW = "Motions", "Modifiers", "Hand", "Flo
 PLACES, TOOL, VISION, RUN = "Positions", "Tool and load", "Vision", "Order of the work"
 
 _MEANINGS: Final = {
-    "MOVE": "go to a position: up first, over it, and down; with DIRECT, straight there",
-    "CHANGE": "move straight from the present place: direction in table coordinates, inches, inches a second "
-    "(0: the usual speed)",
+    "MOVE": "go to a position: up, across and down; with DIRECT, straight there",
+    "CHANGE": "move in a straight line from the present place: direction in table coordinates, inches, inches per "
+    "second (0: the usual speed)",
     "PLACE": "lower the hand, at most 3 in, until it meets the smallest force it can reliably feel; else error 23",
     "PARK": "go to the position called PARK",
-    "TURN": "move on a circle about the vertical through a position, degrees counter-clockwise",
-    "STOP": "end the next motion when the hand presses along the vector with more than its length (oz), "
-    "or, for one number (ours), when anything opposes the motion with more; or when it exerts "
-    "more than the moment (oz-in); else error 23",
+    "TURN": "move on a circle about the vertical line through a position, degrees counter-clockwise",
+    "STOP": "end the next motion when the hand presses along the vector with more than its length (oz); with a "
+    "single number (ours), when anything opposes the motion with more; or when the hand exerts more than the moment "
+    "(oz-in); else error 23",
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
     "FREE": "yield to forces along these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
     "SPIN": "yield to moments about these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
-    "VIA": "on the way to the goal of the next MOVE, pass these positions, in this order, without stopping",
-    "TOUCH": "end the next motion when a finger touches something: 1 is the finger on the side that angle O "
-    "points to, 2 the other, 3 either; else error 25",
+    "VIA": "pass these positions on the next MOVE, in this order, without stopping",
+    "TOUCH": "end the next motion when a finger touches something: 1 is the finger on the side to which angle O "
+    "points, 2 the other, 3 either; else error 25",
     "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); else error 24",
-    "RESTORE": "shift the goal of the MOVE just before by a saved difference; with LEVEL, only horizontally",
-    "OPEN": "drive the fingers to this gap (in)",
-    "CLOSE": "close on something; error 2 on nothing or less than the minimum (in), 7 on more than the maximum",
-    "CENTER": "close without pushing the part: the arm moves instead; error 2 on nothing or less than the minimum (in)",
+    "RESTORE": "shift the goal of the preceding MOVE by a saved difference; with LEVEL, only horizontally",
+    "OPEN": "open or close the fingers to this gap (in)",
+    "CLOSE": "close on a part; error 2 if there is none or it is thinner than the minimum (in), 7 if thicker than "
+    "the maximum",
+    "CENTER": "close without pushing the part: the arm moves instead; error 2 if there is none or it is thinner than "
+    "the minimum (in)",
     "SKIPE": "skip the next instruction if the last action raised this error; clears it",
     "SKIPN": "skip the next instruction if the last action did not raise this error; clears it",
     "SEARCH": "start a spiral search with this step (in), or a search along a line in a direction, degrees from table "
@@ -90,29 +92,31 @@ _MEANINGS: Final = {
     "ASSIGN": "set a counter",
     "SOJG": "subtract one from a counter, and jump to the label while it is still positive",
     "JUMP": "continue at the label",
-    "WAIT": "set the brakes and show the operator a text; without an operator the run ends there",
+    "WAIT": "set the brakes and show the operator a text; without an operator the run ends here",
     "UNDO": "have the arm undo its stage and start it again, once or the given number of times; then continue",
-    "TRANS": "define a hand position: x, y, z (in), angles O, A, T (degrees); in table coordinates, or a part's",
+    "TRANS": "define a hand position: x, y, z (in), angles O, A, T (degrees); in table coordinates, or in those of a "
+    "part",
     "VECT": "define a vector for STOP, FORCE and CHANGE, in the unit of its use: ounces, ounce-inches or none; "
     "X, Y and Z are predefined",
     "SAVE": "save the offset of the hand from the goal of the last MOVE; after CENTER only along the finger line",
-    "HERE": "define a position as where the hand is; a taught position of a part stays on that part",
-    "WHERE": "show where the hand is, as `TRANS` writes it: inches and degrees",
-    "TRAVEL": "check how far (in) the last CHANGE, PLACE or CENTER went; error 8 outside the range",
+    "HERE": "define a position as the present place of the hand; a taught position of a part stays relative to that "
+    "part",
+    "WHERE": "show the place of the hand in inches and degrees, in the form of `TRANS`",
+    "TRAVEL": "check how far (in) the hand moved in the last CHANGE, PLACE or CENTER; error 8 outside the range",
     "HEIGHT": "check how much higher (in) the last motion ended than the one before the SAVE of this name; error 9 "
     "outside the range",
     "TOOL": "run the screwdriver (rpm, positive drives in); 0 is off",
-    "LOAD": "declare the weight in the hand (oz), so that the arm carries it",
+    "LOAD": "declare the weight in the hand (oz), so that the arm supports it",
     "LENS": "turn the lens turret to the 25 or the 50 mm lens",
     "AIM": "point the camera at a position or a part, and focus",
     "LOOK": "take a picture; with HOLD, at the target voltage (the gain) of the last one",
-    "GENERAL": "find the part's outline in the picture; error 30 when it is not seen",
-    "SPECIFIC": "find the part's holes in the picture; error 31 when they are not seen",
-    "INSPECT": "compare two pictures and check that the part lies where it should; error 32 when it does not",
-    "MATCH": "compare two pictures and check that the part has not moved; error 33 when it has",
+    "GENERAL": "find the part's outline in the picture; error 30 if it is not seen",
+    "SPECIFIC": "find the part's holes in the picture; error 31 if they are not seen",
+    "INSPECT": "compare two pictures and check that the part is in place; error 32 if it is not",
+    "MATCH": "compare two pictures and check that the part has not moved; error 33 if it has",
     "REQUIRE": "read a file of instructions, as if its lines were here; its path is relative to this file",
-    "STAGE": "begin a stage of the work, under this name in the reports",
-    "DEFINE": "begin a macro, perhaps with parameters, for which each call gives operands; a blank line ends it",
+    "STAGE": "begin a stage of the work; reports use this name",
+    "DEFINE": "begin a macro; each call gives operands for its parameters, if it has any; a blank line ends it",
 }
 _GROUPS: Final = {
     MOTIONS: ("MOVE", "CHANGE", "PLACE", "PARK", "TURN", "RESTORE"),

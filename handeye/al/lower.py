@@ -154,8 +154,8 @@ class _Lowerer:
             self.problem("label-twice", f"label {quoted(label.text)} is defined twice", label, first)
         if self.pending:
             word = _word(self.pending[0])
-            first = Label(span=word.span, text="a jump to the label would lose this")
-            message = f"label {quoted(label.text)} stands between `{word.text}` and its motion"
+            first = Label(span=word.span, text="a jump to the label would skip this")
+            message = f"label {quoted(label.text)} is between `{word.text}` and its motion"
             help = f"put the label before `{word.text}`"
             self.problem("label-splits-modifier", message, label, first, help=help)
         self.shiftable = False
@@ -175,7 +175,7 @@ class _Lowerer:
     def restore(self, statement: Statement) -> None:
         assert statement.word is not None
         if not self.shiftable:
-            help = "a `RESTORE` shifts the goal of the `MOVE` on the line above it"
+            help = "a `RESTORE` shifts the goal of the `MOVE` on the line before it"
             self.problem("restore-without-move", "there is no `MOVE` to shift", statement.word, help=help)
         elif self.drafts and isinstance(move := self.drafts[-1].operation, Move):
             shifts = (*move.restore, restore(statement))
@@ -242,7 +242,7 @@ class _Lowerer:
     def no_motion(self, after: Label | None) -> None:
         word = _word(self.pending[0])
         secondary = () if after is None else (after,)
-        message, help = f"no motion follows `{word.text}`", "a modifier stands before the motion it modifies"
+        message, help = f"no motion follows `{word.text}`", "a modifier must be before the motion it modifies"
         self.problem("modifier-without-motion", message, word, *secondary, help=help)
         self.pending.clear()
 
@@ -296,10 +296,10 @@ class _Lowerer:
         if inner is not None:
             there = Label(span=inner.span, text="this is inside a macro")
             message = f"label {quoted(label.text)} belongs to a macro"
-            help = "the labels of a macro are local; a macro ends with the first blank line"
+            help = "labels of a macro are local to it; a macro ends with the first blank line"
             self.problem("unknown-label", message, label, there, *uses(label), help=help)
             return
-        message = f"no statement has the label {quoted(label.text)}"
+        message = f"there is no label {quoted(label.text)}"
         # Looking for what was meant takes time: only for those that will be shown.
         known = [name for scope, name in self.labels if scope in scopes] if self.unresolved <= LIMIT else []
         meant = alternatives(label.text, known)
@@ -337,7 +337,7 @@ class _Lowerer:
 
     def skips_modifier(self, skip: Name, modifier: Name) -> None:
         skipped = Label(span=modifier.span, text="only this would be skipped")
-        message = f"`{skip.text}` would skip `{modifier.text}` and not the motion it modifies"
+        message = f"`{skip.text}` would skip `{modifier.text}`, but not the motion it modifies"
         help = "jump over both with the opposite test and `JUMP`"
         self.problem("skip-over-modifier", message, skip, skipped, help=help)
 

@@ -138,7 +138,7 @@ class _Expansion:
         """Operands of a line; None after reporting a mistake."""
         try:
             if len(line.text) > LONGEST_LINE:
-                message = f"with its operands the line has {len(line.text)} characters"
+                message = f"with the operands filled in, the line has {len(line.text)} characters"
                 help = f"a line has at most {LONGEST_LINE}"
                 raise Mistake("line-too-long", message, line.statement.span, help=help)
             return read_operands(definition, line.head, line.tokens)

@@ -22,7 +22,7 @@ def takes(definition: Instruction, operand: Operand) -> str:
         Text: "text, up to the end of the line" if operand.free else "text in quotes",
     }
     choices = [*(kinds[kind] for kind in operand.takes), *["`NIL`"] * operand.nil]
-    said = ", or ".join(choices) or "the word itself"
+    said = ", or ".join(choices) or "this word"
     counted = ", or how many axes and which, `2 X Y`" if definition.axes else ""
     return "; ".join([said, *_limits(operand)]) + counted
 

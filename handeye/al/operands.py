@@ -64,7 +64,7 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
     for token in tokens:
         if token.text == "]" and not opened:
             help = "write a vector in brackets, as `[0 0 -1]`"
-            return Mistake("unopened-vector", "a vector has no opening bracket", token.span, help=help)
+            return Mistake("unopened-vector", "the vector has no opening bracket", token.span, help=help)
         if token.text in ("[", "]"):
             opened = token.text == "["
     for before, token in pairwise(tokens):
@@ -77,7 +77,7 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
     commas = [at for at, token in enumerate(tokens) if token.text == ","]
     if len(commas) == 1 and _is_decimal(tokens[commas[0] - 1 : commas[0] + 2]):
         whole, _, part = tokens[commas[0] - 1 : commas[0] + 2]
-        help = f"write a number with a point: `{whole.text}.{part.text}`"
+        help = f"write a number with a decimal point: `{whole.text}.{part.text}`"
         span = Span(start=whole.start, end=part.end)
         return Mistake("malformed-number", "a comma separates two operands", span, help=help)
     return None
@@ -244,7 +244,7 @@ class _Reader(msgspec.Struct, gc=False):
             message = "a number in the vector is too large"
             raise Mistake("number-out-of-range", message, value.span, operand.why)
         if len(value.values) == 3 and math.hypot(*value.values) < _NO_LENGTH:
-            raise Mistake("zero-vector", "a vector of no length has no direction", value.span)
+            raise Mistake("zero-vector", "a vector of length 0 has no direction", value.span)
 
     def check_number(self, value: Number, operand: Operand, token: Token) -> None:
         if operand.choices and value.value not in operand.choices:
@@ -275,7 +275,7 @@ class _Reader(msgspec.Struct, gc=False):
             raise Mistake("missing-operand", message, self.tokens[-1].span, help=self.usage())
 
     def missing(self, operand: Operand) -> Mistake:
-        message, help = f"`{self.definition.op}` lacks its {operand.plain}", self.usage()
+        message, help = f"`{self.definition.op}` needs its {operand.plain}", self.usage()
         end = (self.tokens[self.at - 1] if self.at else self.head).end
         if self.definition.op == "STOP" and not self.tokens:
             help += f": {STOP_ALONE}"
@@ -292,7 +292,7 @@ class _Reader(msgspec.Struct, gc=False):
         message = f"`{self.definition.op}` takes no {'more ' if count else ''}operands"
         early = next((token for token in self.tokens[: self.at] if self.is_too_early(token)), None)
         if early is not None:
-            message = f"`{early.text}` comes too early"
+            message = f"`{early.text}` is too early"
             raise Mistake("wrong-operand", message, early.span, help=self.usage())
         second = next((token.text for token in self.tokens if token.text.upper() in INSTRUCTIONS), None)
         help = self.usage() if second is None else _begins_a_line(second)
@@ -325,7 +325,7 @@ def _number(token: Token) -> float:
     if "_" in token.text:
         raise _malformed(token)
     if math.isinf(value):
-        raise Mistake("number-out-of-range", f"{quoted(token.text)} is too large for a number", token.span)
+        raise Mistake("number-out-of-range", f"{quoted(token.text)} is too large a number", token.span)
     return value
 
 

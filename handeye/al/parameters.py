@@ -124,7 +124,7 @@ def braced(token: Token) -> Iterator[tuple[str, Span]]:
 
 def used(parameter: Span) -> Label:
     """Label at the parameter that an argument replaces."""
-    return Label(span=parameter, text="it stands here in the macro")
+    return Label(span=parameter, text="in the macro it is here")
 
 
 def uses(operand: Operand) -> tuple[Label, ...]:

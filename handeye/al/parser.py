@@ -119,7 +119,7 @@ class _Parser:
 
     def end(self) -> None:
         if self.opened is not None and self.errors < LIMIT:
-            self.unterminated("the text ends before the macro")
+            self.unterminated("the text ends inside the macro")
         self.close()
 
     def close(self) -> None:
@@ -156,7 +156,7 @@ class _Parser:
     def parameter(self, token: Token) -> None:
         """Add a parameter to the open macro; raises Mistake if it cannot be one."""
         if token.kind is not NAME:
-            said = "a call gives the numbers and vectors; the macro names them"
+            said = "the macro names its parameters; a call gives the numbers and vectors"
             message = f"a parameter is a name, not {quoted(token.text)}"
             raise Mistake("wrong-operand", message, token.span, help=said)
         name = _name(token)
@@ -227,9 +227,9 @@ class _Parser:
         if word.text in self.known:
             return
         if word.text in _CONSOLE_WORDS:
-            alone = "a script is carried out as a whole"
+            alone = "a script runs as a whole"
             if rest and rest[0].text.upper() in INSTRUCTIONS:
-                alone += f"; write the instruction alone: {quoted(free_text(rest))}"
+                alone += f"; write only the instruction: {quoted(free_text(rest))}"
             message = f"`{word.text}` is a console command, not an instruction of a script"
             self.tell(problem("typed-word", message, word.span, help=alone))
             return

@@ -34,8 +34,8 @@ from handeye.program.diagnosis.reach import (
 from handeye.program.program import Program, SourcePlace, Step
 
 RIDDLE: Final = (
-    "in the print of 1973 the second stop of the pin insertion can be read as 60 or as 600 oz; "
-    "it must have been 60, for at 600 the search would never end"
+    "in the 1973 print, the second stop of the pin insertion can be read as 60 or 600 oz; it must be 60, because at "
+    "600 the search would never end"
 )  # reference D1
 _TOLERANCE: Final = 0.004
 _EIGHTHS: Final = 8
@@ -63,7 +63,7 @@ class _Phrases:
             return self.off_the_way(found, self.along(found.step, found.along))
         name, arm = found.position or self.word(found.step), self.arm.name
         note = reach_sentence(self.arm, found.reason)
-        help = f"put it elsewhere, or turn it{self.counted(name)}"
+        help = f"move it, or turn it{self.counted(name)}"
         match found.reason:
             case JointLimit() as reason:
                 word = self.word(found.step)
@@ -71,20 +71,22 @@ class _Phrases:
             case OutOfReach() | TooNear() | InnerCylinder() as reason:
                 inches = f"{enough_digits(reason.excess / INCH, 2)} in"
                 least = f"{enough_digits(reason.excess / INCH, 2, up=True)} in"
-                away, nearer = f"too near to the column of the {arm} arm", "farther from"
+                away, nearer = f"too close to the column of the {arm} arm", "away from"
                 if isinstance(reason, OutOfReach):
-                    away, nearer = f"beyond the reach of the {arm} arm", "nearer to"
+                    away, nearer = f"beyond the reach of the {arm} arm", "closer to"
                 message = f"{name} is {inches} {away}"
                 help = f"move it at least {least} {nearer} the arm{self.counted(name)}"
                 return self.at_position(found, message, help=help, notes=(note,))
             case BelowTable():
-                return self.at_position(found, f"{note} on its way to {name}", help="pass a position between")
+                return self.at_position(
+                    found, f"{note} on its way to {name}", help="add a position on the way with `VIA`"
+                )
         message = f"the {arm} arm cannot put the hand at {name}"
         return self.at_position(found, message, help=help, notes=(note,))
 
     def off_the_way(self, found: NoConfiguration, place: str) -> Diagnostic:
         message = f"the hand would leave the arm's reach {place}"
-        help = "shorten the motion, or begin elsewhere"
+        help = "shorten the motion, or start it from another place"
         match found.reason:
             case JointLimit() as reason:
                 return self.joint_limit(found, reason, self.word(found.step), place)
@@ -93,7 +95,7 @@ class _Phrases:
                 help = "tilt the hand a little, or go there with a `MOVE`"
             case TooFast(joint=joint):
                 message = f"{named(self.arm, joint)} would have to move too fast {place}"
-                help = "move more slowly, or begin elsewhere"
+                help = "move more slowly, or start from another place"
         return self.at_position(found, message, help=help, notes=(reach_sentence(self.arm, found.reason),))
 
     def joint_limit(
@@ -109,7 +111,9 @@ class _Phrases:
             help = self.radians(found.position)
             help = help or "turn the hand: other angles O, A, T can be within the limits"
             return self.at_position(found, message, help=help)
-        help = "shorten the motion" if self.goal(found.step) is None else "pass a position between"
+        help = (
+            "shorten the motion" if self.goal(found.step) is None else "add a position on the way with `VIA`"
+        )
         return self.at_position(found, message, help=help, notes=(f"it reaches its limit {place}",))
 
     def radians(self, name: str | None) -> str | None:
@@ -141,12 +145,15 @@ class _Phrases:
         into = f"would be {depth} below the table"
         if found.fixture is not None:
             into = f"would go {depth} into {quoted(found.fixture)}"
-        place, help = self.along(found.step, found.along), "go around by a position between, or higher"
+        place, help = (
+            self.along(found.step, found.along),
+            "go around it, or higher, with a position on the way",
+        )
         if self.goal(found.step) is None:
             place = f"at the end of this `{self.word(found.step)}`" if found.at_end else place
             help = "shorten the motion, or give it a `STOP` if it should touch something"
         elif found.position is not None:
-            place, help = f"at {found.position}", "raise the position, or put it elsewhere"
+            place, help = f"at {found.position}", "raise the position, or move it"
         taken = None if found.held is None else found.grasp
         labels = () if taken is None else (Label(span=self.word_span(taken), text="grasped here"),)
         return self.at_position(found, f"{what} {into} {place}", help=help, secondary=labels)
@@ -181,7 +188,7 @@ class _Phrases:
         felt = found.felt / si
         return problem(
             found.code,
-            f"{stop} is hard to tell from joint friction here",
+            f"{stop} is hard to distinguish from joint friction here",
             self.modifier_span(found.step, "STOP"),
             notes=(
                 f"in free air the arm can feel {felt:.2g} {unit} {there}: friction that it cannot measure",

@@ -100,7 +100,7 @@ def begin(
     number = None if stage is None else stage_number(stage, listing_of(start.state.setup))
     folder = start.folder
     if folder is None and out is not None:
-        folder = _new_folder(given_file(out, "a run is kept in a folder"), start.state, overwrite)
+        folder = _new_folder(given_file(out, "out= must be a folder"), start.state, overwrite)
     judged = start.state.setup.judged if judge is None else judge
     spent = None if start.folder is None else start.folder.spent
     meter = Meter(timer=timer, planning_cpu_s=start.planning_cpu_s, before=spent)
@@ -169,7 +169,7 @@ def _rule(on_stop: object) -> Operator:
     with suppress(InvalidInput):  # whose sentence speaks of the command line
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
     if operator is None:
-        raise BadArgument(f"on_stop is `abort`, `retry:N` with N from 1 up, or `unwind`; not {on_stop!r}")
+        raise BadArgument(f"on_stop is `abort`, `retry:N` with N of 1 or more, or `unwind`; not {on_stop!r}")
     return operator
 
 
@@ -181,7 +181,7 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
         name = repr(str(path))
         raise CannotWrite(
             f"{path} holds a run: overwrite=True replaces it, another folder keeps it, and "
-            f"handeye.begin({name}, out={name}) goes on with it"
+            f"handeye.begin({name}, out={name}) continues it"
         ) from None
 
 
@@ -211,5 +211,5 @@ def _built(start: Start, parts: Parts, keeping: RunEnding) -> Run:
         keep=(lambda _: None) if folder is None else folder.kept.save,
         pictures=None if folder is None else folder.path / PICTURES,
     )
-    why = "ready" if state.position < 1 else f"taken up after {counted(state.position, 'step')}"
+    why = "ready" if state.position < 1 else f"resumed after {counted(state.position, 'step')}"
     return Run(stepper, keeping, why)

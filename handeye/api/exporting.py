@@ -15,10 +15,10 @@ def exported(given: object, shown: Callable[[], ExportedState], part: object, *,
     """Write an export; arguments are those of `Run.export`."""
     from handeye.results.export import export  # with libraries that take a while to load
 
-    path = given_file(given, "an export is written to a folder, or to a file that ends in .glb")
+    path = given_file(given, "the destination of an export is a folder, or a file that ends in .glb")
     if part is not None and not isinstance(part, str):
-        raise BadArgument(f"a part is given by its name, not {part!r}")
+        raise BadArgument(f"give a part by its name, not by {part!r}")
     try:
         return export(path, shown, part=part, overwrite=overwrite)
     except Taken:
-        raise CannotWrite(f"{path} holds an export of handeye already; overwrite=True replaces it") from None
+        raise CannotWrite(f"{path} already holds an export of handeye; overwrite=True replaces it") from None

@@ -31,7 +31,7 @@ def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
         maker = None
     else:
         if not callable(camera):
-            raise BadArgument(f"a camera is `auto`, `gl`, `ray`, or is called with a scene; not {camera!r}")
+            raise BadArgument(f"a camera is `auto`, `gl`, `ray`, or a function of a scene; not {camera!r}")
         name = name_of(camera)
         maker = _named(lambda model: ReplacedCamera(name, camera, model), camera)
     return Parts(search=None if search is None else _checked_search(search), camera=maker)
@@ -48,7 +48,7 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
         return None
     if not callable(given):
         raise BadArgument(
-            f"a referee is called with the truth of a cell, or is a table of limits; not {given!r}"
+            f"a referee is a function of the truth of a cell, or a table of limits; not {given!r}"
         )
     name = name_of(given)
     return _named(lambda truth: checked_findings(name, given(truth)), given)
@@ -56,7 +56,7 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
 
 def _checked_search(search: SearchPattern) -> SearchPattern:
     if not callable(search):
-        raise BadArgument(f"a search is called with the number of a place and gives it; not {search!r}")
+        raise BadArgument(f"a search is a function from the number of a place to the place; not {search!r}")
 
     name = name_of(search)
 
@@ -78,7 +78,7 @@ def _checked_place(name: str, number: int, given: object) -> tuple[float, float]
     except (TypeError, ValueError):
         x = y = np.nan
     if not np.isfinite([x, y]).all():
-        raise BadArgument(f"the search `{name}` must give two numbers for place {number}, not {given!r}")
+        raise BadArgument(f"the search `{name}` must return two numbers for place {number}, not {given!r}")
     return x, y
 
 

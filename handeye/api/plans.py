@@ -126,7 +126,7 @@ class Plan:
         Raises:
             InvalidInput: it cannot be written there, or a file that is no plan is there.
         """
-        file = given_file(path, "a plan is saved in a file")
+        file = given_file(path, "the destination of a plan must be a file")
         write_plan(file, self.record)
         return file
 
@@ -193,14 +193,14 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
     if isinstance(script, str) and "\n" in script:
         made = plan_text(script, known or Taught(), work or tasks.task())
     else:
-        file = given_file(script, "a script is a file or a text")
+        file = given_file(script, "a script must be a file or a text")
         if file.suffix == ".json":
             _check_untaught(file, taught)
             return _for_task(Plan(record=decode(read_whole(file), str(file))), task)
         if isinstance(script, str) and not file.exists() and (program := program_named(script)) is not None:
             file, work = program[0], work or program[1]
         elif isinstance(script, str) and not file.exists():
-            raise BadFile(f"{script}: there is no such file; a text has a line end in it")
+            raise BadFile(f"{script}: there is no such file; a script given as text must contain a line end")
         made = plan_script(file, known, work)
     found = tuple(Diagnostic.of(each, made.source) for each in made.diagnostics)
     if made.plan is None or has_errors(made.diagnostics):
@@ -218,10 +218,10 @@ def _for_task(made: Plan, task: str | None) -> Plan:
 def _check_untaught(made: object, taught: object) -> None:
     """Raises InvalidInput if taught positions are given for a finished plan."""
     if taught is not None:
-        raise BadArgument(f"{made} is a plan, which has its positions; nothing can be taught for it")
+        raise BadArgument(f"{made} is a plan, which already has its positions; leave out taught=...")
 
 
 def _taught(given: FileName) -> Taught:
     if isinstance(given, str) and "\n" in given:
         return read_taught(Source(name="taught.toml", text=given))
-    return load_taught(given_file(given, "what is taught is a file or a text"))
+    return load_taught(given_file(given, "taught= must be a file or a text"))

@@ -106,7 +106,7 @@ class Run:
         if place is not None:
             stops.append(breakpoint(given_place(place), self._runner.listing))
             if not is_ahead(stops[0], self._runner.checkpoint()):
-                raise BadArgument(f"the run never comes to {place} from here")
+                raise BadArgument(f"the run cannot reach {place} from here")
         return self._go(stops)
 
     def back(self, steps: Place = 1) -> State:
@@ -130,7 +130,7 @@ class Run:
             if position < 0:
                 raise _too_many(count, self._runner.position, "done")
         self._session.back_to(position)
-        return self._stand("gone back")
+        return self._stand("went back")
 
     def undo(self, steps: Place = 1) -> State:
         """Have the arm undo what it did, the last step first, under guards; the program can go on from there.
@@ -203,7 +203,7 @@ class Run:
         """
         self._check_open()
         if not isinstance(line, str):
-            raise BadArgument(f"a command of the stepper is a text, not {line!r}")
+            raise BadArgument(f"a command of the stepper must be a text, not {line!r}")
         reply = self._stepper.do(line)
         self._why = None if reply.pause is None else reason(reply.pause)
         if self._stepper.over:
@@ -227,7 +227,7 @@ class Run:
             return self.state
         try:
             if not is_ahead(begins, self._runner.checkpoint()):
-                raise BadArgument(f"the run never comes to “{name}” from where it begins")
+                raise BadArgument(f"the run never reaches “{name}” from where it starts")
             state = self._go([begins])
             if not begins.met_before(self._runner):
                 raise Refused(f"the run stopped before “{name}”: {state.why}")
@@ -294,7 +294,7 @@ class Run:
             InvalidInput: the run has no folder, or is not closed.
         """
         if self.out is None:
-            raise Refused("the run has no folder, and so no trace; begin it with out=...")
+            raise Refused("the run has no folder and therefore no trace; begin it with out=...")
         if self._closed is None:
             raise Refused("the trace is complete when the run is closed: leave its `with`, or close() it")
         return read_trace_as(Trace, self.out / TRACE)
@@ -340,7 +340,7 @@ class Run:
             if folder is None:
                 raise Refused("this run has no folder for checkpoints; name a file")
             return folder.kept.save(kept)
-        file = given_file(path, "a checkpoint is kept in a file")
+        file = given_file(path, "the destination of a checkpoint must be a file")
         check_place(file, CHECKPOINT)
         write_checkpoint(file, kept)
         return file
@@ -396,7 +396,7 @@ class Run:
 
     def _check_open(self) -> None:
         if self._closed is not None:
-            raise Refused("the run is closed; begin another, or go on from a checkpoint of it")
+            raise Refused("the run is closed; begin another, or continue from one of its checkpoints")
 
     def __enter__(self) -> Self:
         return self
@@ -431,4 +431,4 @@ def reason(pause: Pause) -> str:
     if isinstance(pause.met, AfterSteps):
         return f"paused after {counted(pause.met.count, 'step')}"
     said = pause_sentence(pause)
-    return f"the operator is called: {said}" if pause.kind == "operator" else said
+    return f"the program called the operator: {said}" if pause.kind == "operator" else said

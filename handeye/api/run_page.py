@@ -28,17 +28,18 @@ def run_page(result: Result, state: State, name: str | None, webp: bytes | None)
             (_indented(name), *("" if each is None else clock(each) for each in seconds[: 1 + len(years)]))
             for name, *seconds in rows
         )
-        pieces.append(table(("on the cell's clock", "this run", *years), cells))
+        pieces.append(table(("simulated time", "this run", *years), cells))
     if result.referee:
         pieces.append(_findings(result))
     pieces += [line(inked(f"broken: {told}", "doubtful")) for told in told_faults(result)]
     limits = (result.limits or {}).items()
     pieces += [
-        line(inked(f"limit of {name} set by the caller: {limit:g}", "doubtful")) for name, limit in limits
+        line(inked(f"limit of {name} set by the calling program: {limit:g}", "doubtful"))
+        for name, limit in limits
     ]
     pieces += [line(inked(f"by a person: {each}", "doubtful")) for each in result.interventions]
     pieces += [
-        line(inked(f"{part}: the caller's own, {code}", "doubtful"))
+        line(inked(f"{part}: of the calling program, {code}", "doubtful"))
         for part, code in (result.replaced or {}).items()
     ]
     if name is not None and webp is not None:

@@ -80,7 +80,7 @@ def start_of(
     """The start of a run; takes the arguments of `handeye.begin` and raises InvalidInput as it does."""
     if isinstance(script, (str, os.PathLike)) and _is_kept(script):
         if taught is not None:
-            raise Refused("a run that is taken up has its positions; nothing can be taught for it")
+            raise Refused("a resumed run already has its positions; leave out taught=...")
         if out is not None and stage is None and os.path.realpath(out) == os.path.realpath(script):
             return _again(script, wanted)
         return Start(state=_kept(script, stage, wanted))
@@ -109,7 +109,7 @@ def _is_kept(given: FileName) -> bool:
 
 def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
     """The state in a checkpoint, the newest of a folder, or the one nearest before a stage; raises InvalidInput."""
-    path = given_file(given, "a run is taken up from a file or a folder")
+    path = given_file(given, "resume a run from a file or a folder")
     start = open_again(path)[1] if path.is_dir() else read_checkpoint(path)
     if at is not None and path.is_dir():
         number = stage_number(at, listing_of(start.setup))
@@ -121,14 +121,14 @@ def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
 
 def _again(given: FileName, wanted: RunRequest) -> Start:
     """The folder of a run and its newest state, to go on in the same folder; raises InvalidInput."""
-    path = given_file(given, "a run is taken up from a folder")
+    path = given_file(given, "resume a run from a folder")
     folder, start, _ = open_again(path)
     if has_ended(path, start, judged=start.setup.judged):
-        raise Refused(f"the run in {path} has ended; without out=..., it can be taken up and go back")
+        raise Refused(f"the run in {path} has ended; leave out out=... to open it and go back")
     _check_same(path, start.setup, wanted)
     if wanted.replaced or wanted.limits not in (None, start.setup.limits):
         raise Refused(
-            f"parts of a run that is in {path} cannot be replaced there; choose another folder as out=..."
+            f"parts of the run in {path} cannot be replaced in the same folder; choose another folder as out=..."
         )
     return Start(state=start, folder=folder)
 
@@ -140,7 +140,7 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
         told = f"{quoted(begun.task)}, not of {quoted(str(wanted.of_task))}"
         raise Refused(f"the run in {path} is of the task {told}")
     if wanted.spec is not None and wanted.spec != begun.world:
-        raise Refused(f"the run in {path} is in the world of {begun.world}, not of {wanted.spec}")
+        raise Refused(f"the run in {path} is in the world of {begun.world}, not that of {wanted.spec}")
     if wanted.camera is not None and wanted.camera != begun.camera:
         raise Refused(f"the run in {path} has the camera `{begun.camera}`, not `{wanted.camera}`")
 
@@ -154,7 +154,7 @@ def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
     for part, name in setup.replaced.items():
         if part != "referee" and part in wanted.replaced and wanted.replaced[part] != name:
             raise Refused(
-                f"the run was begun with `{name}` as its {part}; `{wanted.replaced[part]}` is another"
+                f"the run began with `{name}` as its {part}, but `{wanted.replaced[part]}` was given"
             )
     events = start.events
     if wanted.replaced and events and isinstance(events[0], RunStarted):

@@ -81,7 +81,7 @@ class Trace(recorded.Trace):
         try:
             return make_video(self, file, wanted, overwrite=overwrite)
         except Taken:
-            raise CannotWrite(f"{file} is there already; overwrite=True replaces it") from None
+            raise CannotWrite(f"{file} already exists; overwrite=True replaces it") from None
 
     def _repr_html_(self) -> str:
         """The report in its own frame, with its size, or why there is none."""
@@ -103,7 +103,7 @@ def open(path: str | os.PathLike[str]) -> Trace:
     >>> handeye.open(folder).head.program
     'script'
     """
-    file = given_file(path, "a trace is a file or the folder of a run")
+    file = given_file(path, "a trace must be a file or the folder of a run")
     return read_trace_as(Trace, file / TRACE if file.is_dir() else file)
 
 

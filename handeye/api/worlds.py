@@ -69,9 +69,11 @@ class World:
         if not isinstance(level, str) or level not in SPREADS:
             raise NoSuchName(f"there is no level {level!r}; there are {', '.join(SPREADS)}")
         if not isinstance(set, Mapping | None):
-            raise BadArgument(f"`set` is a table of values by the names of quantities, not {set!r}")
+            raise BadArgument(f"`set` must be a dictionary of values by the names of quantities, not {set!r}")
         if not isinstance(scale, Mapping | None):
-            raise BadArgument(f"`scale` is a table of factors by the names of quantities, not {scale!r}")
+            raise BadArgument(
+                f"`scale` must be a dictionary of factors by the names of quantities, not {scale!r}"
+            )
         self._without, self._set = given_names(without, "`without`"), dict(set or {})
         self._scale = dict(scale or {})
         self._faults = given_names(faults, "`faults`")
@@ -153,7 +155,7 @@ class World:
     def _quantity(self, name: str) -> str:
         """The name of one quantity."""
         if not isinstance(name, str):
-            raise BadArgument(f"a quantity is given by its name, not {name!r}")
+            raise BadArgument(f"give a quantity by its name, not by {name!r}")
         found = self._table.select(name, self.spec.overrides.set)
         if name not in self._table.quantities:
             group = [quantity.name for quantity in found]

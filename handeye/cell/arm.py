@@ -138,7 +138,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
             joints = len(self.dofs)
             if np.shape(torque) != (joints,):
                 raise BadArgument(
-                    f"torques of shape {np.shape(torque)} were put out to an arm of {counted(joints, 'joint')}"
+                    f"torques of shape {np.shape(torque)} were sent to an arm of {counted(joints, 'joint')}"
                 )
             torque = finite(np.array(torque, dtype=float), "the torque")  # a copy of its own
             if not self._lines.carried("servo", 1.0):
@@ -200,7 +200,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
             raise ValueError("its arm has another number of joints")
         finite([*state.q, *state.qd, *(state.command or ()), state.unanswered], "the arm")
         if state.unanswered < 0:
-            raise ValueError("its watchdog waits for what is past")
+            raise ValueError("its watchdog waits for a time in the past")
 
     def restore(self, state: ArmState) -> None:
         self._read(np.array(state.q), np.array(state.qd), braked=state.braked)

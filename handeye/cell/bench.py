@@ -100,7 +100,7 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     def advance(self, seconds: float) -> None:
         if self._passing:
-            raise BadArgument("time passes on the bench already: no hook and no event can let it pass")
+            raise BadArgument("time is already advancing on the bench: a hook or an event cannot advance it")
         end = self._steps + whole_steps(seconds, float(self.tick))
         self._passing = True
         try:
@@ -114,7 +114,7 @@ class Bench(Clock, Mechanism[BenchTime]):
     def call_at(self, microseconds: int, name: str) -> None:
         """Have an event handled at the first physics step that begins at a time or after it, by its name."""
         if name not in self.handlers:
-            raise NoSuchName(f"nothing on the bench is called {name}; there are {', '.join(self.handlers)}")
+            raise NoSuchName(f"the bench has no {name}; there are {', '.join(self.handlers)}")
         if microseconds >= _LATEST:
             raise BadArgument(f"an event cannot happen as late as at {microseconds / MICROSECONDS:g} s")
         self._due.append(Due(microseconds=microseconds, name=name))
@@ -137,7 +137,7 @@ class Bench(Clock, Mechanism[BenchTime]):
             if self._before_event() > 0:
                 return
             self.handlers[(due := self._due.pop(0)).name]()
-        raise HandeyeError(f"events follow each other without end at {self.now:g} s; the last is {due.name}")
+        raise HandeyeError(f"events repeat without end at {self.now:g} s; the last is {due.name}")
 
     def _pass(self, most: int) -> None:
         """Let at most `most` physics steps pass: a stretch of them, or all of them if everything sleeps."""
@@ -178,7 +178,7 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     def check(self, state: BenchTime) -> None:
         if not 0 <= state.steps < _LATEST or any(due.microseconds >= _LATEST for due in state.due):
-            raise BadFile("its clock shows what it cannot")
+            raise BadFile("its clock shows an impossible time")
         if not {due.name for due in state.due} <= {*self.handlers}:
             raise BadFile("it waits for events that this bench does not know")
 

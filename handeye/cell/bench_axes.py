@@ -72,7 +72,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         self._senses, self._bent = channels or {}, bent
         parts = [part for channel in self._senses for part in channel.parts]
         if len({*parts}) < len(parts):
-            raise BadArgument(f"values of {name} have names of their own; these are {', '.join(parts)}")
+            raise BadArgument(f"values of {name} need different names; these are {', '.join(parts)}")
         self._holds = np.array([spec.holds for spec in specs])
         self._gradual = np.array([spec.name not in at_once for spec in specs])
         self._powered, self._latched = True, dict[str, tuple[float, ...]]()
@@ -135,7 +135,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
                 f"{channel.name} of {self.name} has {counted(channel.width, 'value')}, not {len(values)}"
             )
         if not all(map(isfinite, values)):
-            raise PhysicsFailed(f"{channel.name} of {self.name} shows what is not a finite number")
+            raise PhysicsFailed(f"{channel.name} of {self.name} shows a value that is not a finite number")
         return values
 
     def _true(self) -> Array:
@@ -268,7 +268,7 @@ class BenchOutputs(Outputs, Mechanism[OutputsState]):
         if name not in self._outputs:
             raise NoSuchName(f"there is no output {name}; there are {', '.join(self._outputs)}")
         if not np.isfinite(value):
-            raise BadArgument(f"the output {name} is set to what is not a finite number")
+            raise BadArgument(f"the output {name} is set to a value that is not a finite number")
         self._values[name] = float(value)
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
@@ -283,7 +283,7 @@ class BenchOutputs(Outputs, Mechanism[OutputsState]):
 
     def check(self, state: OutputsState) -> None:
         if {*state.values} != {*self._outputs} or not np.isfinite([*state.values.values()]).all():
-            raise BadFile("its outputs are those of another machine")
+            raise BadFile("its outputs belong to another machine")
 
     def restore(self, state: OutputsState) -> None:
         self._values = dict(state.values)

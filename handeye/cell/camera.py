@@ -96,7 +96,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
     def focus(self, distance: float) -> float:
         nearest = max(lens.focal_length for lens in self._model.lenses)
         if not distance > nearest:
-            raise Refused(f"the camera cannot be focused at {distance:g} m; it must be over {nearest:g} m")
+            raise Refused(f"the camera cannot be focused at {distance:g} m; the minimum is {nearest:g} m")
         way = abs(1 / distance - 1 / self._focus)
         self._focus = distance
         return way / REFOCUS

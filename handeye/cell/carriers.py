@@ -37,7 +37,7 @@ class Carriers:
         self._body = np.array([model.body(f"carrier{k}").id for k in holes])
         bases = {int(model.body_parentid[body]) for body in self._body}
         if len(bases) != 1:
-            raise BadArgument(f"screw threads are holes of one body in a scene, not of {len(bases)}")
+            raise BadArgument(f"screw threads must be holes of one body in a scene, not of {len(bases)}")
         (self.base,) = bases  # the body that has the holes
         self._slide = [model.joint(f"thread_slide{k}").id for k in holes]
         self._turn = [model.joint(f"thread_turn{k}").id for k in holes]

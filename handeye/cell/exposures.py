@@ -124,7 +124,7 @@ class ExposurePlan:
             raise NoSuchName(f"there is no film {quoted(self.film)}; there are {', '.join(FILMS)}")
         whole = isinstance(self.exposures, (int, np.integer))
         if not whole or not 1 <= self.exposures <= MOST:
-            raise BadArgument(f"{self.exposures} exposures cannot be made; there are 1 to {MOST}")
+            raise BadArgument(f"{self.exposures} exposures are not possible; choose 1 to {MOST}")
 
 
 def exposing(*, fine: bool, film: str | None, exposures: int | None) -> ExposurePlan | None:

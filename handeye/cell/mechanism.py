@@ -41,7 +41,7 @@ class Mechanism(ABC, Generic[S]):
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """Go on in a changed scene, where numbers of bodies, joints and servos may be others, if it can."""
-        raise Refused(f"{self.name} cannot go on in a scene that changes")
+        raise Refused(f"{self.name} cannot continue in a changed scene")
 
     def after(self) -> None:
         """Read the simulator when time has passed, and once when the cell is switched on."""

@@ -83,7 +83,7 @@ def _in_full() -> Iterator[None]:
         functions._mjPRIVATE__set_xml_precision(_ALL)
     except (ValueError, OSError, AttributeError):
         raise Refused(
-            f"MuJoCo {mujoco.__version__} writes figures to six places only, which is too coarse for a scene"
+            f"MuJoCo {mujoco.__version__} writes only six digits, which is too coarse for a scene"
         ) from None
     try:
         yield

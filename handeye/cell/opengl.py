@@ -122,7 +122,7 @@ def drawing(model: mujoco.MjModel, quality: Mapping[str, int], width: int, heigh
             made = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
         mujoco.mjr_resizeOffscreen(width, height, made)
     except mujoco.FatalError as error:
-        raise Refused(f"the OpenGL of this machine cannot draw {width} x {height} points: {error}") from None
+        raise Refused(f"OpenGL on this machine cannot draw {width} x {height} pixels: {error}") from None
     return made
 
 
@@ -163,7 +163,7 @@ def context() -> tuple[str, Any]:
                 continue
             return name, gl
     if present and set_here:
-        reasons.append(f"it may work without {' and '.join(set_here)} in the environment")
+        reasons.append(f"try without {' and '.join(set_here)} in the environment")
     if not reasons:
         reasons.append("on Debian, install libegl1, libgl1-mesa-dri and libopengl0")
     raise Refused(

@@ -129,7 +129,7 @@ def check_size(width: int, height: int) -> None:
     whole = all(isinstance(side, (int, np.integer)) for side in (width, height))
     if not (whole and SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
         raise BadArgument(
-            f"a picture of {width} x {height} cannot be made; a side has {SMALLEST} to {LARGEST} points"
+            f"a picture of {width} x {height} is not possible; a side has {SMALLEST} to {LARGEST} pixels"
         )
 
 

@@ -69,7 +69,8 @@ class ReplacedCamera(SceneRenderer):
         self._maker = camera(self._scene)
         if not callable(getattr(self._maker, "render", None)):
             raise BadArgument(
-                f"the camera `{self.identity.platform}` must give an object that has `render`, not {self._maker!r}"
+                f"the camera `{self.identity.platform}` must return an object with a method `render`, not "
+                f"{self._maker!r}"
             )
         self._model, self._data = model, mujoco.MjData(self._scene)
 
@@ -83,7 +84,7 @@ class ReplacedCamera(SceneRenderer):
         if light.shape != (ROWS, COLUMNS):
             raise self._no_picture(f"of shape {light.shape}")
         if not np.isfinite(light).all():
-            raise self._no_picture("with some that are not finite")
+            raise self._no_picture("with some values that are not finite")
         return light
 
     def _no_picture(self, what: str) -> InvalidInput:

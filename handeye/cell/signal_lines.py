@@ -115,13 +115,13 @@ class SignalLines(Mechanism[SignalLinesState]):
         for defect, own in zip(self.defects, state.defects, strict=True):
             first, pictured = own.first or b"", defect.line == PICTURE
             if len(first) not in (0, ROWS * COLUMNS if pictured else _NUMBER):
-                raise ValueError(f"what the line {defect.line} carried is of another size")
+                raise ValueError(f"the value on the line {defect.line} has another size")
             if pictured and max(first, default=0) > _BRIGHTEST:
-                raise ValueError("a picture was brighter than any can be")
+                raise ValueError("a picture was impossibly bright")
             if not pictured:
                 finite(np.frombuffer(first), f"the line {defect.line}")
             if not 0 <= (own.seconds or 0.0) < np.inf:
-                raise ValueError(f"the defect of the line {defect.line} set in when it cannot have")
+                raise ValueError(f"the defect of the line {defect.line} began at an impossible time")
 
     def restore(self, state: SignalLinesState) -> None:
         self._states = list(state.defects)

@@ -35,7 +35,7 @@ class SnapshotCell:
         names = [part.name for part in self._mechanisms]
         if len({*names}) < len(names):
             raise ValueError(
-                f"devices and mechanisms of a cell have names of their own; these are {', '.join(names)}"
+                f"devices and mechanisms of a cell need different names; these are {', '.join(names)}"
             )
         self._changes = sorted({field for part in self._mechanisms for field in part.changes})
 
@@ -96,14 +96,14 @@ class SnapshotCell:
         if state.physics.shape != (mujoco.mj_stateSize(self._model, INTEGRATION),):
             raise ValueError("its physics belong to another scene")
         if set(state.figures) != set(self._changes):
-            raise ValueError("it lacks figures that change in this scene")
+            raise ValueError("it lacks values that change in this scene")
         for name, values in state.figures.items():
             if values.shape != getattr(self._model, name).shape:
                 raise ValueError(f"{name} has another size here")
         if not all(np.isfinite(values).all() for values in (state.physics, *state.figures.values())):
-            raise ValueError("some of its figures are not finite numbers")
+            raise ValueError("some of its values are not finite numbers")
         if not 0 <= state.time < 1e9:
-            raise ValueError("its clock shows what it cannot")
+            raise ValueError("its clock shows an impossible time")
         if set(state.mechanisms) != {part.name for part in self._mechanisms}:
             raise ValueError("it has other devices and mechanisms")
         check_noise(state.noise)

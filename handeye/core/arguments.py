@@ -52,15 +52,15 @@ def given_names(given: object, what: str) -> tuple[str, ...]:
 
 
 def given_count(given: object, what: str) -> int:
-    """A whole number from 1 up."""
+    """A whole number of 1 or more."""
     count = whole(given)
     if count is None or count < 1:
-        raise BadArgument(f"{what} are a whole number from 1 up, not {given!r}")
+        raise BadArgument(f"{what} must be a whole number of 1 or more, not {given!r}")
     return count
 
 
 def given_place(given: object) -> str:
     """A place in a program, as text; a line may be given as a number."""
     if isinstance(given, bool) or not isinstance(given, (str, int)):
-        raise BadArgument(f"a place is a text or the number of a line, not {given!r}")
+        raise BadArgument(f"a place must be a text or a line number, not {given!r}")
     return str(given)

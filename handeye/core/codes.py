@@ -33,9 +33,9 @@ def _planning(meaning: str, example: str, severity: Severity = "error") -> Code:
 
 
 CODES: Final[dict[str, Code]] = {
-    "always-undone": _warning("a stage is undone and nothing is tested before", "MOVE P\nUNDO STAGE"),
-    "aoj-without-search": _warning("no SEARCH comes before an AOJ on any path to it", "L: MOVE T\nAOJ L"),
-    "axis-count": _error("a FREE or SPIN names more or fewer axes than its count", "FREE 2 X\nCHANGE X 1"),
+    "always-undone": _warning("a stage is undone without a test before it", "MOVE P\nUNDO STAGE"),
+    "aoj-without-search": _warning("there is no SEARCH before an AOJ on any path to it", "L: MOVE T\nAOJ L"),
+    "axis-count": _error("the count of a FREE or SPIN is not its number of axes", "FREE 2 X\nCHANGE X 1"),
     "carries-through-fixture": _planning(
         "what the hand holds would go through a fixture",
         "TRANS OVER [32 46 3 90 90 0]\nOPEN 1\nMOVE P\nCLOSE\nMOVE OVER",
@@ -49,17 +49,17 @@ CODES: Final[dict[str, Code]] = {
         "LOOK BEFORE\nLOOK AFTER\nINSPECT BASE BEFORE AFTER",
     ),
     "count-begun-anew": _warning(
-        "an ASSIGN sets a counter anew in every round that counts it down",
+        "an ASSIGN sets a counter again in every round that counts it down",
         "L: ASSIGN N 2\nMOVE T\nSOJG N L",
     ),
-    "empty-program": _error("there is no instruction to carry out", "; nothing"),
+    "empty-program": _error("the program has no instructions", "; nothing"),
     "endless-loop": _warning("a loop moves the arm, and only an untested error ends it", "L: MOVE T\nJUMP L"),
     "error-never-raised": _warning(
-        "a test asks for an error that the action before it does not raise", "OPEN 1\nSKIPE 23\nPARK"
+        "a test is for an error that the action before it does not raise", "OPEN 1\nSKIPE 23\nPARK"
     ),
     "extension-used": Code(
         severity="error",
-        meaning="a word or an operand is ours, and only the language of the seventies is allowed",
+        meaning="a word or an operand is an addition of handeye, and only the language of the seventies is allowed",
         example="LOAD 4",
         phase="strict",
     ),
@@ -78,7 +78,7 @@ CODES: Final[dict[str, Code]] = {
         "a joint would have to move faster than it can", "PARK\nCHANGE [1 0 0] 10 70"
     ),
     "label-splits-modifier": _error(
-        "a label stands between a modifier and its motion, so that a jump would lose the modifier",
+        "a label is between a modifier and its motion, so that a jump would skip the modifier",
         "STOP 50\nL: MOVE T\nJUMP L",
     ),
     "label-twice": _error("two statements have the same label", "L: OPEN 1\nL: OPEN 2"),
@@ -102,22 +102,26 @@ CODES: Final[dict[str, Code]] = {
     ),
     "malformed-number": _error("a number is malformed", "OPEN 1.2.3"),
     "misplaced-comma": _error("a comma is not between two operands", "CLOSE .1,"),
-    "missing-operand": _error("an instruction lacks an operand", "OPEN"),
+    "missing-operand": _error("an instruction needs another operand", "OPEN"),
     "modifier-misplaced": _error(
-        "a modifier stands before a motion it cannot modify", "FORCE [0 0 -9]\nMOVE T"
+        "a modifier is before a motion that it cannot modify", "FORCE [0 0 -9]\nMOVE T"
     ),
     "modifier-twice": _error("a motion has two modifiers of one kind", "STOP 50\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
-    "never-saved": _warning("no SAVE saves a restored difference on any path to it", "MOVE T\nRESTORE H"),
+    "never-saved": _warning(
+        "there is no SAVE of a restored difference on any path to it", "MOVE T\nRESTORE H"
+    ),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
-    "opened-too-little": _warning("a grasp asks for more than the hand is open", "OPEN .2\nCLOSE .25"),
+    "opened-too-little": _warning(
+        "a grasp needs a wider part than the open hand can hold", "OPEN .2\nCLOSE .25"
+    ),
     "parameter-name-taken": _error(
         "a parameter has the name of an instruction, of another word of the language, of an axis or of a label",
         "DEFINE PRESS X\nCHANGE X 1\n\nPARK\nPRESS Z",
     ),
     "parameter-twice": _error("a macro has two parameters of one name", "DEFINE A S S\nMOVE S\n\nA T T"),
     "part-not-described": _error(
-        "too little is taught of a part to find it in a picture",
+        "the taught file says too little about a part to find it in a picture",
         "LOOK V\nGENERAL GASKET V",
     ),
     "path-leaves-reach": _planning("a motion leaves the arm's reach on its way", "MOVE T\nCHANGE [0 1 0] 30"),
@@ -142,16 +146,18 @@ CODES: Final[dict[str, Code]] = {
         {"pins.al": "PARK"},
     ),
     "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
-    "save-without-move": _warning("no MOVE comes before a SAVE on any path to it", "CLOSE\nSAVE H"),
+    "save-without-move": _warning("there is no MOVE before a SAVE on any path to it", "CLOSE\nSAVE H"),
     "search-begun-anew": _warning(
-        "a SEARCH starts anew in every round of its own loop",
+        "a SEARCH starts again in every round of its own loop",
         "L: SEARCH .07\nMOVE T\nSTOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
     "search-stands-still": _warning(
         "a search has no MOVE between its label and its AOJ",
         "MOVE T\nSEARCH .07\nL: STOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
-    "search-without-aoj": _warning("no AOJ comes after a SEARCH on any path from it", "SEARCH .07\nMOVE T"),
+    "search-without-aoj": _warning(
+        "there is no AOJ after a SEARCH on any path from it", "SEARCH .07\nMOVE T"
+    ),
     "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),
     "skip-over-modifier": _error(
         "a skip would skip a modifier and not its motion", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
@@ -161,11 +167,11 @@ CODES: Final[dict[str, Code]] = {
         "        CLOSE   .1\n        SKIPN   2\n            OPEN    1\n            PARK\n        WHERE",
     ),
     "specific-without-general": _warning(
-        "no GENERAL comes before a SPECIFIC on any path to it", "LOOK V\nSPECIFIC BASE V"
+        "there is no GENERAL before a SPECIFIC on any path to it", "LOOK V\nSPECIFIC BASE V"
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-away-from-motion": _warning(
-        "a motion goes away from what its STOP should press on", "STOP [0 0 -50]\nCHANGE Z 1"
+        "a motion moves away from what its STOP should press on", "STOP [0 0 -50]\nCHANGE Z 1"
     ),
     "stop-beyond-arm": _planning(
         "a motion should stop on a force or moment that the arm cannot exert",
@@ -184,40 +190,40 @@ CODES: Final[dict[str, Code]] = {
         {f"{n}.al": f"REQUIRE {n + 1}.al" for n in range(1, 102)},
     ),
     "torque-without-tool": _warning(
-        "a torque should end a motion, but no TOOL runs the screwdriver", "TORQUE 42\nCHANGE Z -.5"
+        "a motion should end on a torque, but no TOOL runs the screwdriver", "TORQUE 42\nCHANGE Z -.5"
     ),
     "touch-while-closed": _warning(
-        "a touch should end a motion, but the fingers are already closed",
+        "a motion should end on a touch, but the fingers are already closed",
         "CLOSE .1\nTOUCH 3\nCHANGE Z -1",
     ),
     "travel-too-long": _warning(
-        "a TRAVEL asks for more than the motion before it can go", "CHANGE Z .6\nTRAVEL .7 .9"
+        "a TRAVEL needs more than the length of the motion before it", "CHANGE Z .6\nTRAVEL .7 .9"
     ),
     "travel-without-change": _warning(
-        "no CHANGE comes before a TRAVEL on any path to it", "PARK\nTRAVEL .1 .2"
+        "there is no CHANGE before a TRAVEL on any path to it", "PARK\nTRAVEL .1 .2"
     ),
     "typed-word": _error("a console command is written in a script", "OPEN 3\nDO PARK"),
     "unexpected-character": _error("a character is not part of the language", "OPEN = 1"),
     "unit-written": _error("a unit follows a number", "OPEN 1.5 in"),
-    "unknown-axis": _error("an axis is none of X, Y and Z", "FREE 1 W\nCHANGE X 1"),
+    "unknown-axis": _error("an axis is not X, Y or Z", "FREE 1 W\nCHANGE X 1"),
     "unknown-counter": _error("no ASSIGN sets a counter of that name", "L: PARK\nSOJG N L"),
     "unknown-error-number": _warning(
-        "a test asks for an error that nothing raises", "PARK\nSKIPE 42\nPARK\nPARK"
+        "a test is for an error that nothing raises", "PARK\nSKIPE 42\nPARK\nPARK"
     ),
     "unknown-instruction": _error("a word is neither an instruction nor a macro", "GRAB 1"),
     "unknown-label": _error("a jump goes to a label that no statement has", "JUMP NOWHERE"),
     "unknown-lens": _error("the turret has no such lens", "LENS 35"),
     "unknown-parameter": _warning(
-        "a text in a macro has something in braces that is no parameter",
+        "a text in a macro has a name in braces that is not a parameter",
         'DEFINE A S\nMOVE S\nWAIT "NOT AT {P}"\n\nA T',
     ),
-    "unknown-part": _error("a part is not known", "TRANS A [0 0 0 0 0 0] OF LID\nPARK"),
+    "unknown-part": _error("a part is unknown", "TRANS A [0 0 0 0 0 0] OF LID\nPARK"),
     "unknown-picture": _error("no LOOK takes a picture of that name", "GENERAL BASE VIEW"),
-    "unknown-position": _error("a position is neither taught nor defined by TRANS", "MOVE X9"),
+    "unknown-position": _error("a position is not in the taught file, and no TRANS defines it", "MOVE X9"),
     "unknown-target": _error("the target of the camera is neither a position nor a part", "AIM X9"),
     "unknown-vector": _error("a vector is neither an axis nor defined by VECT", "CHANGE DOWN 1"),
     "unopened-vector": _error("a vector has no opening bracket", "CHANGE 0 0 -1] 0.6"),
-    "unreachable-code": _warning("a statement is never carried out", "JUMP L\nOPEN 1\nL: PARK"),
+    "unreachable-code": _warning("a statement is never executed", "JUMP L\nOPEN 1\nL: PARK"),
     "unreachable-position": _planning("a position is out of the arm's reach", "MOVE FAR"),
     "unreadable-file": _error("a required file cannot be read", "REQUIRE pins.al\nPARK"),
     "unterminated-macro": _error("a macro is not ended by a blank line", "PARK\nDEFINE A\nOPEN 1"),
@@ -225,18 +231,18 @@ CODES: Final[dict[str, Code]] = {
     "unterminated-vector": _error("a vector has no closing bracket", "CHANGE [0 0 -1 0.6"),
     "unused-label": _warning("no instruction jumps to a label", "L: PARK"),
     "unused-macro": _warning("a macro is never used", "PARK\nDEFINE A\nOPEN 1\n\n"),
-    "unused-parameter": _warning("no line of a macro has a parameter of it", "DEFINE A S\nPARK\n\nA T"),
+    "unused-parameter": _warning("a parameter of a macro is never used", "DEFINE A S\nPARK\n\nA T"),
     "unused-position": _warning("a position is defined but never used", "TRANS A [1 2 3 0 0 0]\nPARK"),
     "unused-vector": _warning("a vector is defined but never used", "VECT D [0 0 1]\nPARK"),
     "vector-size": _error("a vector has too few or too many numbers", "CHANGE [0 0] 1"),
     "vector-twice": _error(
         "two vectors have the same name, or one has the name of an axis", "VECT Z [0 0 1]\nCHANGE Z 1"
     ),
-    "wait-for-time": _warning("a WAIT should let time pass, but calls the operator", "PARK\nWAIT 2"),
+    "wait-for-time": _warning("a WAIT seems meant to pass time, but calls the operator", "PARK\nWAIT 2"),
     "wrist-in-line": _planning(
-        "the axes of two joints come into line on a straight motion, where the hand cannot keep its angles",
+        "the axes of two joints line up on a straight motion, and there the hand cannot keep its angles",
         "TRANS AHEAD [14 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4",
     ),
     "wrong-operand": _error("an operand has the wrong kind", "OPEN T"),
-    "zero-vector": _error("a vector that gives a direction has no length", "CHANGE [0 0 0] 1"),
+    "zero-vector": _error("a direction vector has length 0", "CHANGE [0 0 0] 1"),
 }

@@ -29,17 +29,17 @@ Capability = Literal[
     "plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format", "console", "python"
 ]
 VERBS: Final[Mapping[Capability, str]] = {
-    "plans": "follow a plan of motions",
+    "plans": "run a plan of motions",
     "undo": "undo what it did",
     "compare": "compare two of its runs",
-    "faults": "have something broken in its world",
-    "levels": "set the errors of its world",
+    "faults": "simulate faults",
+    "levels": "change the errors of its world",
     "senses": "do without a sense",
-    "video": "make a film of its run",
-    "chaos": "be broken off by chance",
+    "video": "make a video of its run",
+    "chaos": "run chaos tests",
     "format": "format its scripts",
-    "console": "take lines that are typed",
-    "python": "have its runs taken up from Python",
+    "console": "accept typed lines",
+    "python": "continue its runs from Python",
 }  # what a system may be asked for, as it stands behind `cannot`
 
 
@@ -88,10 +88,10 @@ def _installed() -> list[Entry]:
 def _sound(entry: object) -> Entry:
     """An entry with fields of the right types that takes no other's name; raises BadFile or msgspec.ValidationError."""
     if not isinstance(entry, Entry):
-        raise BadFile(f"its entry point leads to {entry!r}, which is no Entry")
+        raise BadFile(f"its entry point leads to {entry!r}, which is not an Entry")
     msgspec.convert(msgspec.to_builtins(entry), Entry)
     if entry.name in (other.name for other in _found):
-        raise BadFile(f"there is a system called {quoted(entry.name)} already")
+        raise BadFile(f"there is already a system called {quoted(entry.name)}")
     return entry
 
 

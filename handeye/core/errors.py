@@ -95,30 +95,30 @@ JOINT_STIFF: Final = 57
 
 ERRORS: Final[dict[int, str]] = {
     JOINT_LIMIT: "a joint would move beyond its limit",
-    NOTHING_HELD: "the fingers closed beyond the minimum gap: nothing, or something too thin, is between them",
+    NOTHING_HELD: "the fingers closed beyond the minimum gap: there is nothing between them, or something too thin",
     NO_SOLUTION: "the position is out of the arm's reach",
     SERVO_LAG: "the arm did not follow its set-points: something is in the way",
     WATCHDOG: "the computer missed a servo period: drives cut, brakes set",
     SEARCH_EXHAUSTED: "the search has tried all its places",
-    WRONG_THICKNESS: "the thing between the fingers is thicker than the maximum",
-    WRONG_TRAVEL: "the last CHANGE, PLACE or CENTER went too far, or not far enough",
-    WRONG_HEIGHT: "the hand has not come to the height it should over where a SAVE was",
-    NO_FORCE: "the motion ended without meeting the force it was to stop on",
-    NO_TORQUE: "the motion ended without meeting the torque it was to stop on",
+    WRONG_THICKNESS: "the object between the fingers is thicker than the maximum",
+    WRONG_TRAVEL: "the last CHANGE, PLACE or CENTER moved too far, or not far enough",
+    WRONG_HEIGHT: "the hand stopped at a wrong height above the place of a SAVE",
+    NO_FORCE: "the motion ended without meeting the force of its STOP",
+    NO_TORQUE: "the motion ended without meeting the torque of its TORQUE",
     NO_TOUCH: "the motion ended without a finger touching anything",
     PART_NOT_SEEN: "the part is not seen in the picture",
     FEATURES_NOT_SEEN: "the holes of the part are not found in the picture",
-    GASKET_WRONG: "the gasket is not on properly",
-    PART_ASTRAY: "the part does not stand as it stood in the earlier picture",
-    SWITCH_WRONG: "a finger switch does not tell what its finger touches, or the fingers press too weakly for it",
-    GAP_WRONG: "the gap is not as the fingers were driven: its potentiometer fails, something holds or forces them, "
-    "or what they hold has slipped",
-    FORCE_WRONG: "the hand feels a force in free air: something touches it, the load is not as declared, "
+    GASKET_WRONG: "the gasket is not in place",
+    PART_ASTRAY: "the part has moved since the earlier picture",
+    SWITCH_WRONG: "a finger switch does not show what its finger touches, or the fingers press too weakly",
+    GAP_WRONG: "the gap is not the commanded one: its potentiometer fails, something holds or forces the fingers, or "
+    "the held part has slipped",
+    FORCE_WRONG: "the hand feels a force in free air: something touches it, the load differs from the declared one, "
     "or the force sense or a drive fails",
     JOINT_SENSE_WRONG: "the potentiometer and the tachometer of a joint disagree: one of them fails",
-    CURRENT_WRONG: "the current of the screwdriver's motor is not that of its torque and speed",
-    PICTURE_WRONG: "the camera gives a picture that is not a live one",
-    JOINT_STIFF: "a joint alone does not follow its drive: its drive, its brake or its friction is not as it was",
+    CURRENT_WRONG: "the current of the screwdriver's motor does not fit its torque and speed",
+    PICTURE_WRONG: "the camera gives a picture that is not live",
+    JOINT_STIFF: "one joint alone does not follow its drive: its drive, brake or friction has changed",
 }
 """Error numbers a script can test, with the operator's message. 2 and 23 are from the period; from 50 on, a
 sensor is faulty."""
@@ -129,6 +129,6 @@ class MissingExtra(Refused):
 
     def __init__(self, command: str, package: str, extra: str) -> None:
         super().__init__(
-            f"`{command}` needs {package}, which is not installed: `pip install {package}` brings it, and so does the "
-            f"extra `{extra}` of handeye"
+            f"`{command}` needs {package}, which is not installed: `pip install {package}` installs it, and so does "
+            f"the extra `{extra}` of handeye"
         )

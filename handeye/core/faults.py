@@ -102,7 +102,7 @@ class FaultKind:
         """Raise BadArgument unless the fault's value and stage fit."""
         if fault.stage is not None and self.from_start:
             raise BadArgument(
-                f"the fault {quoted(self.name)} cannot set in while the cell works; leave out `@{fault.stage}`"
+                f"the fault {quoted(self.name)} cannot begin while the cell works; leave out `@{fault.stage}`"
             )
         if self.size is None and fault.value is not None:
             raise BadArgument(f"the fault {quoted(self.name)} has no value")
@@ -110,7 +110,7 @@ class FaultKind:
             low, high = (limit * self.measure.size for limit in self.limits)
             if fault.value is None or not low <= fault.value <= high:
                 raise BadArgument(
-                    f"the fault {quoted(self.name)} cannot be of {fault.value!r}: it can be {low:g} to {high:g} in SI "
+                    f"the fault {quoted(self.name)} cannot be {fault.value!r}: it can be {low:g} to {high:g} in SI "
                     "units"
                 )
 
@@ -123,7 +123,7 @@ class Catalogue:
         self.kinds = {kind.name: kind for kind in kinds}
         assert len(self.kinds) == len(kinds), "two faults have one name"
         self.matrix = tuple(matrix) or tuple(self.kinds)
-        assert {*self.matrix} <= self.kinds.keys(), "the matrix names a fault that there is not"
+        assert {*self.matrix} <= self.kinds.keys(), "the matrix names a fault that does not exist"
 
     def kind(self, name: str) -> FaultKind:
         """The fault of a name; raises NoSuchName."""

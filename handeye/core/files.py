@@ -41,7 +41,7 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
     try:
         if not file.exists():
             if file.is_symlink():
-                raise BadFile(f"{path} is a link that leads nowhere")
+                raise BadFile(f"{path} is a broken link")
             raise BadFile(f"{path}: there is no such file")
         if file.is_dir():
             raise BadFile(f"{path} is a directory, not a file")
@@ -161,7 +161,7 @@ def _check_file(place: Path, named: Path) -> None:
 
 def unguarded(path: Path, why: str) -> str:
     """The sentence that a file system has no locks."""
-    return f"{path} cannot be locked ({why}): see to it that no other command writes to it meanwhile"
+    return f"{path} cannot be locked ({why}): make sure that no other command writes to it"
 
 
 class LineFile:

@@ -44,11 +44,11 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
     others = [n for n in inside if not any(n.match(p) and len(n.parts) == depth for p, depth in kinds)]
     if others:
         what = quoted(str(others[0]))
-        raise CannotWrite(f"{path} holds other things ({what}); choose a new folder, or an empty one")
+        raise CannotWrite(f"{path} holds other files ({what}); choose a new folder, or an empty one")
     if inside and not overwrite:
-        raise Taken(f"{path} holds {kind.name} already; --overwrite replaces it")
+        raise Taken(f"{path} already holds {kind.name}; --overwrite replaces it")
     if path.exists() and path.samefile(Path.cwd()):
-        raise CannotWrite(f"{path} is the folder that you are in, which cannot be replaced; name another")
+        raise CannotWrite(f"{path} is the current folder, which cannot be replaced; choose another")
 
 
 def write_folder(path: Path, files: Mapping[str, bytes]) -> None:

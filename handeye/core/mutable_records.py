@@ -48,7 +48,7 @@ def _copied(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         value.setflags(write=False)
     elif not isinstance(value, (*_SHARED, np.generic)) and not _frozen(value):
-        raise TypeError(f"a {type(value).__name__} in a record can be changed and cannot be copied")
+        raise TypeError(f"a {type(value).__name__} in a record is mutable and cannot be copied")
     return value
 
 

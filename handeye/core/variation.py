@@ -137,12 +137,12 @@ class Variation:
     def __init__(self, *quantities: Quantity) -> None:
         self.quantities = {quantity.name: quantity for quantity in quantities}
         assert len({crc32(name.encode()) for name in self.quantities}) == len(quantities), (
-            "two share a stream"
+            "two quantities share a stream"
         )
-        assert not self.groups & self.quantities.keys(), "a name stands for a quantity and for a group"
-        assert UNSOURCED not in {*self.groups, *self.quantities}, "a name stands for all that have no source"
+        assert not self.groups & self.quantities.keys(), "a name is both a quantity and a group"
+        assert UNSOURCED not in {*self.groups, *self.quantities}, "a name is reserved"
         choices = {q.name for q in quantities if isinstance(q.distribution, Choice)}
-        assert {q.where[0] for q in quantities if q.where} <= choices, "one depends on what is no choice"
+        assert {q.where[0] for q in quantities if q.where} <= choices, "a quantity depends on no choice"
 
     @cached_property
     def groups(self) -> frozenset[str]:
@@ -208,7 +208,7 @@ class Variation:
         found = tuple(q for q in those if q.distribution.is_error and (name != UNSOURCED or q.unsourced))
         if not found:
             what = "no error without a source" if name == UNSOURCED else f"no error in {quoted(name)}"
-            raise BadArgument(f"the world has {what}, which could be scaled")
+            raise BadArgument(f"the world has {what} to scale")
         return found
 
     def check(self, spec: WorldSpec) -> None:
@@ -217,22 +217,23 @@ class Variation:
             raise NoSuchName(f"there is no level {spec.level!r}; there are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:
             raise Refused(
-                f"the world of seed {spec.seed} was drawn by another handeye; this one draws another world from that "
-                "seed, so begin the run again"
+                f"the world of seed {spec.seed} comes from another version of handeye; this version gives another "
+                f"world for that seed: start the run again"
             )
         for name in spec.overrides.without:
             self.select(name, spec.overrides.set)
         for name in spec.overrides.set:
             self.select(name, spec.overrides.set)
             if name not in self.quantities:
-                raise BadArgument(f"{quoted(name)} is a group of quantities, which cannot have one value")
+                raise BadArgument(f"{quoted(name)} is a group of quantities and cannot have one value")
             self.quantities[name].check(spec.overrides.set[name])
         most = LARGEST_SCALE / SPREADS[spec.level]
         for name, factor in spec.overrides.scale.items():
             self.scalable(name)
             if type(factor) not in (int, float) or not 0 <= factor <= most:  # not a number is not between two
                 raise BadArgument(
-                    f"{quoted(name)} cannot be scaled by {factor!r}: at the level {spec.level}, by 0 to {most:g}"
+                    f"{quoted(name)} cannot be scaled by {factor!r}; at the level {spec.level}, factors are 0 to "
+                    f"{most:g}"
                 )
 
 

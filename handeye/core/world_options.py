@@ -62,7 +62,7 @@ def _scale(variation: Variation, text: str) -> tuple[str, float]:
     name, equals, factor = (part.strip() for part in text.partition("="))
     written = split_value(factor)
     if not equals or written is None or written[1]:
-        raise BadArgument(f"{quoted(text)} scales nothing; write NAME=FACTOR")
+        raise BadArgument(f"{quoted(text)} is not a factor; write NAME=FACTOR")
     variation.scalable(name)
     return name, written[0]
 
@@ -71,7 +71,7 @@ def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:
     """Name of a quantity or group, and the values of those that any world has of it."""
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:
-        raise BadArgument(f"{quoted(text)} sets nothing; write NAME=VALUE")
+        raise BadArgument(f"{quoted(text)} is not a setting; write NAME=VALUE")
     values = {quantity.name: value_of(quantity, value) for quantity in variation.select(name)}
     for quantity_name, each in values.items():
         variation.quantities[quantity_name].check(each)
@@ -104,7 +104,7 @@ def _unit(quantity: WritableQuantity, word: str) -> Unit:
 def _limits(quantity: WritableQuantity) -> str:
     (low, high), unit = quantity.limits, quantity.unit and f" {quantity.unit}"
     if np.isinf(high):
-        return "" if np.isinf(low) else f"; {low:g}{unit} is the least"
+        return "" if np.isinf(low) else f"; {low:g}{unit} is the minimum"
     return f"; it can be {low:g} to {high:g}{unit}"
 
 
@@ -123,7 +123,7 @@ def _fault(catalogue: Catalogue, text: str, stage: StageNumber) -> Fault:
     name, equals, value = (part.strip() for part in what.partition("="))
     where = where.strip().strip('"').strip()
     if not name or (at and not where) or (equals and not value):
-        raise BadArgument(f"{quoted(text)} names no fault; write NAME, NAME=VALUE or NAME@STAGE")
+        raise BadArgument(f"{quoted(text)} is not a fault; write NAME, NAME=VALUE or NAME@STAGE")
     kind = catalogue.kind(name)
     return Fault(name=name, value=_value(kind, value), stage=stage(where) if at else kind.usual_stage)
 
@@ -139,10 +139,10 @@ def _value(kind: FaultKind, text: str) -> float | None:
 def by_number(text: str) -> int:
     """The number of a stage, from 1, where stage names are not known."""
     if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
-        raise BadArgument(f"{quoted(text)} is no number of a stage, from 1 up")
+        raise BadArgument(f"{quoted(text)} is not the number of a stage, which starts at 1")
     return int(text)
 
 
 def from_start_only(text: str) -> int:
     """Refuse a stage, for a task without stages."""
-    raise BadArgument(f"a fault is there from the beginning here; leave out {quoted(f'@{text}')}")
+    raise BadArgument(f"here, a fault is present from the start; leave out {quoted(f'@{text}')}")

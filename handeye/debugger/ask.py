@@ -38,7 +38,7 @@ class Ask:
                 continue
             if answer is not None:
                 return answer
-        self._say(["no more answers: abort"])
+        self._say(["no more answers: aborting"])
         return "abort"
 
     def _understood(self, runner: Runner, word: str, rest: str) -> OperatorChoice | None:
@@ -57,7 +57,7 @@ class Ask:
         if choice is None or rest or not choice.startswith(word) or choice not in (*given, "abort"):
             said = quoted(f"{word} {rest}".strip())
             letters = ", ".join(name[0] for name in given)
-            raise BadArgument(f"{said} is not an answer; answer {letters}, b, u, a or show")
+            raise BadArgument(f"{said} is not an answer; type {letters}, b, u, a or show")
         return choice
 
     def _say(self, lines: Sequence[str]) -> None:
@@ -78,7 +78,7 @@ def _question(runner: Runner, sentence: str) -> list[str]:
     assert stage is not None
     step = next(event for event in reversed(runner.events) if isinstance(event, StepStarted))
     return [
-        f"The operator is called in {numbered_stage(program, stage)}:",
+        f"The program calls the operator in {numbered_stage(program, stage)}:",
         f"    {sentence}",
         *excerpt_lines(excerpt(program, step.line, step.line, 2, step.file), "■"),
         *_choices(runner),
@@ -89,7 +89,7 @@ def _choices(runner: Runner) -> list[str]:
     return [
         *(f"{word[0]:10} {does}" for word, does in runner.kind.choices(runner).items()),
         "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",
-        "u [STAGE]  unwind: the arm undoes what it did, as far as that, and the program goes on from there",
+        "u [STAGE]  unwind: the arm undoes its work back to this stage, and the program continues from there",
         "a          abort",
         "show       show the state of the run, or a topic of it",
     ]

@@ -31,7 +31,7 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
         raise BadArgument("give an error (error:23), a line, a label, an instruction or a stage")
     if error := _ERROR.fullmatch(text):
         if not listing.errors:
-            raise Refused("steps of this program raise no errors; where it is stopped, the run stops")
+            raise Refused("steps of this program raise no errors; a stop of the program stops the run")
         return _on_error(error["number"] or error["any"], listing)
     place = named_place(text, listing)
     if place is not None:
@@ -63,7 +63,7 @@ def step_number(text: str, listing: Listing) -> int:
         raise BadArgument(f"{quoted(text)} is neither a step's number nor a label{meant(text, known)}")
     if len(found) > 1:
         where = ", ".join(map(str, found))
-        raise BadArgument(f"label {quoted(text)} belongs to steps {where}; give one by its number")
+        raise BadArgument(f"several steps have label {quoted(text)}: {where}; give one by its number")
     return found[0]
 
 
@@ -91,7 +91,7 @@ def _at_line(place: Place, listing: Listing) -> AnyStop:
     file, line = place
     lines = {i: step.line for i, step in enumerate(listing.steps) if step.file == file}
     if not lines:
-        raise BadArgument(f"no step stands in {quoted(file or listing.name)}")
+        raise BadArgument(f"no step is in {quoted(file or listing.name)}")
     last = max(lines.values())
     if line > last:
         wanted, on = line_name(line, file), line_name(last, file)

@@ -39,7 +39,7 @@ def check_bare(named: Iterable[Command[Any]], rest: str) -> None:
     """Raise BadArgument if something follows a command that takes nothing; `named` are those of one name."""
     commands = list(named)
     if rest and all(command.bare for command in commands):
-        raise BadArgument(f"`{commands[0].name}` takes nothing after it; {quoted(rest)} is too much")
+        raise BadArgument(f"`{commands[0].name}` takes no operand; remove {quoted(rest)}")
 
 
 def rows(commands: Iterable[Command[Any]]) -> list[str]:

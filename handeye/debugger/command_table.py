@@ -64,8 +64,8 @@ def manual(runner: Runner) -> str:
             "",
             *words.places,
             f"    {', '.join(runner.kind.topics)}.",
-            f"Units: {words.units}. On a terminal an empty line repeats the last step, stage",
-            "or continue.",
+            f"Units: {words.units}. On a terminal, an empty line repeats the last",
+            "step, stage or continue.",
         ]
     )
 
@@ -102,11 +102,11 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="pause", group=_GOING, act=acts.pause, meanwhile=True,
-        help="while the run goes on: pause behind the step under way",
+        help="during the run: pause after the current step",
     ),
     Command(
         usage="pace [1x|4x|free]", group=_GOING, act=acts.pace, meanwhile=True,
-        help="go as fast as the clock, 4 times as fast, or as fast as it goes",
+        help="run in real time, 4 times as fast, or as fast as possible",
     ),
     Command(
         usage="back [N]", short="b", group=_BACK, act=acts.back,
@@ -114,14 +114,14 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="back stage", short="bs", group=_BACK, act=acts.back,
-        help="go back to the beginning of this stage; from there, of the one before",
+        help="go back to the beginning of this stage; from there, of the previous one",
     ),
     Command(
         usage="undo [N|stage]", group=_BACK, act=acts.undo,
-        help="have the arm undo the last step, the last N or the stage: `back` puts the simulator back",
+        help="have the arm undo the last step, the last N or the stage (`back` resets the simulator instead)",
     ),
     Command(
-        usage="break PLACE", group=_BREAKS, act=acts.set_break, help="pause there every time"
+        usage="break PLACE", group=_BREAKS, act=acts.set_break, help="pause there each time"
     ),
     Command(usage="breaks", group=_BREAKS, act=acts.breaks, help="list the breakpoints, with their numbers"),
     Command(usage="delete N", group=_BREAKS, act=acts.delete, help="delete the breakpoint with that number"),
@@ -138,7 +138,8 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
         help="write the last picture, with what was found in it, to a new PNG file",
     ),
     Command(
-        usage="set KIND NAME x y z", group=_TRYING, act=acts.experiment, help="set what the program remembers"
+        usage="set KIND NAME x y z", group=_TRYING, act=acts.experiment,
+        help="change a value that the program remembers"
     ),
     Command(
         usage="type TASK TEXT", group=_TRYING, act=acts.type_line,
@@ -149,7 +150,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="retry", group=_CALLED, act=acts.answer("retry"),
-        help="repeat the stage from its first step, with the world as it is now",
+        help="repeat the stage from its first step, in the world as it is now",
     ),
     Command(usage="skip", group=_CALLED, act=acts.answer("skip"), help="skip the rest of the stage"),
     Command(usage="abort", group=_CALLED, act=acts.abort, help="end the run"),

@@ -34,7 +34,7 @@ LISTED_AROUND: Final = 8  # lines that `list` shows before and after one
 
 
 def step(session: DebugSession, rest: str) -> CommandResult:
-    count = _count(rest, "step takes a number from 1 up")
+    count = _count(rest, "step takes a number of 1 or more")
     pause = session.go(steps=count)
     as_asked = isinstance(pause.met, AfterSteps)
     return CommandResult(pause=pause, source=session.source()) if as_asked else _told(session, pause)
@@ -58,13 +58,13 @@ def until(session: DebugSession, rest: str) -> CommandResult:
 
 def pause(session: DebugSession, _: str) -> CommandResult:
     session.ask_pause()
-    return CommandResult(said="the run pauses behind this step")
+    return CommandResult(said="the run pauses after this step")
 
 
 def pace(session: DebugSession, rest: str) -> CommandResult:
     if rest:
         session.pace.factor = factor(rest)
-    return CommandResult(said=f"the run goes {session.pace}")
+    return CommandResult(said=f"pace: {session.pace}")
 
 
 def _told(session: DebugSession, pause: Pause) -> CommandResult:
@@ -90,7 +90,7 @@ def back(session: DebugSession, rest: str) -> CommandResult:
     if rest.casefold() == "stage":
         position = session.stage_began()
     else:
-        position = done - _count(rest, "back takes a number from 1 up, or `stage`")
+        position = done - _count(rest, "back takes a number of 1 or more, or `stage`")
     if position is None or not done:
         raise Refused("this is the beginning of the run")
     first = session.first()
@@ -107,9 +107,9 @@ def undo(session: DebugSession, rest: str) -> CommandResult:
     if rest.casefold() == "stage":
         left = next((n for n in reversed(range(len(done))) if done[n].enters), 0)
     else:
-        left = len(done) - _count(rest, "undo takes a number from 1 up, or `stage`")
+        left = len(done) - _count(rest, "undo takes a number of 1 or more, or `stage`")
     if not done:
-        raise Refused("the arm has done nothing that it could undo")
+        raise Refused("there is nothing for the arm to undo")
     if left < 0:
         raise Refused(f"`undo` can undo only {counted(len(done), 'step')}")
     return _told(session, session.have_undone(left))
@@ -200,7 +200,7 @@ def abort(session: DebugSession, _: str) -> CommandResult:
 
 def _check_called(session: DebugSession, word: str) -> None:
     if session.runner.call is None:
-        raise Refused(f"`{word}` answers a call of the operator, and there is none")
+        raise Refused(f"`{word}` answers a call of the operator, but there is none")
 
 
 # -- keeping and leaving --------------------------------------------------------------------------------
@@ -234,7 +234,7 @@ def leave(session: DebugSession, _: str) -> CommandResult:
     if session.runner.ended and session.runner.call is None:
         return CommandResult(said="the run has ended; nothing was saved")
     if session.idle:
-        return CommandResult(said="nothing was done; nothing was saved")
+        return CommandResult(said="no step has run; nothing was saved")
     path = session.keep(session.runner.checkpoint())
     if path is None:
         return CommandResult(said="nothing was saved")
@@ -251,9 +251,9 @@ def _set(runner: Runner, text: str) -> None:
     settable = settables.get(kind.casefold())
     if settable is None:
         known = " or ".join(f"`set {name} {each.usage}`" for name, each in settables.items())
-        raise BadArgument(f"an experiment is {known}" if known else "nothing can be set in this run")
+        raise BadArgument(f"an experiment is {known}" if known else "this run has nothing to set")
     if runner.trouble is not None:
-        raise Refused("no experiment is possible here; go back first")
+        raise Refused("you cannot set anything here; go back first")
     name, numbers = _read(rest, settable, kind.casefold())
     values = tuple(number * unit for number, unit in zip(numbers, settable.units, strict=False))
     runner.experiment(kind.casefold(), name, values + settable.present(name)[len(values) :])

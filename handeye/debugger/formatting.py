@@ -120,7 +120,7 @@ def _tasks(tasks: tuple[TaskView, ...]) -> list[str]:
     width = max(len(each.task) for each in tasks)
     return [
         f"{each.task:{width}}  {line_name(each.line, each.file):>5}  {each.text}"
-        + (f", waits for {each.waits_for}" if each.waits_for else "")
+        + (f", waiting for {each.waits_for}" if each.waits_for else "")
         for each in tasks
     ]
 
@@ -136,7 +136,7 @@ def _positions(positions: dict[str, PositionView]) -> list[str]:
     return lines
 
 
-_NOTHING: Final = {"force_oz": "not estimated here: no guard has just stopped the hand"}
+_NOTHING: Final = {"force_oz": "no estimate here: the last step was not stopped by a guard"}
 _JOINTS_PER_LINE: Final = 3
 _LINES: Final[dict[str, Callable[[Any], Sequence[str]]]] = {
     "time_s": lambda seconds: [f"{seconds:.2f} s"],

@@ -38,8 +38,8 @@ class Pace(Observer):
 
     def __str__(self) -> str:
         if self.factor is None:
-            return "as fast as it goes"
-        return "as fast as the clock" if self.factor == 1 else f"{self.factor:g} times as fast as the clock"
+            return "as fast as possible"
+        return "real time" if self.factor == 1 else f"{self.factor:g} times real time"
 
     def tick(self, period: ServoPeriod) -> None:
         if self.factor is None:

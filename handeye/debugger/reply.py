@@ -68,7 +68,7 @@ def _outcome(
             where = "to the end" if onward is None else f"continue at line {program.steps[onward].place}"
             said.append(f"{sentence(event)}: {where}")
         elif isinstance(event, happened.OperatorCalled) and event.error is not None:
-            said.append("the operator is called")
+            said.append("the program calls the operator")
         elif not isinstance(event, _SILENT):
             said.append(sentence(event, measures))
     busy = sum(event.seconds for event in group if isinstance(event, happened.CameraBusy))

@@ -112,9 +112,9 @@ class DebugSession:
     def ask_pause(self) -> None:
         """Ask a run that goes on to pause behind the step under way; raises InvalidInput if it does not go on."""
         if self.going is None:
-            raise Refused("the run pauses already")
+            raise Refused("the run is already paused")
         if self.going == "back":
-            raise Refused("the run goes back, and pauses where that ends")
+            raise Refused("the run is going back and will pause there")
         self._pause_asked = True
 
     @contextmanager
@@ -144,7 +144,7 @@ class DebugSession:
             return f"the run cannot continue from here, only go back: {runner.trouble}"
         if runner.call is not None:
             given = ", ".join(f"`{word}`" for word in runner.kind.choices(runner))
-            return f"the operator is called: answer {given} or `abort`, go back, or `undo`"
+            return f"the program calls the operator: answer {given} or `abort`, go back, or `undo`"
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:
@@ -156,7 +156,7 @@ class DebugSession:
             self.runner.rollback()
             done = self.runner.position
             raise Refused(
-                f"stopped by the panic button on the way back to {counted(position, 'step')} done, "
+                f"stopped by the panic button while going back to {counted(position, 'step')} done, "
                 f"with {counted(done, 'step')} done"
             ) from None
 

@@ -69,9 +69,7 @@ class Stepper:
         try:
             command, rest = find(line)
             if not command.meanwhile:
-                raise Refused(
-                    f"`{command.name}` was not carried out: while the run goes, only {MEANWHILE} can be said"
-                )
+                raise Refused(f"`{command.name}` was ignored: during the run, only {MEANWHILE} are accepted")
             told = command.act(self.session, rest)
         except HandeyeError as error:
             self.refused = True

@@ -56,10 +56,10 @@ def listing() -> str:
     width = max(map(len, CODES))
     out = []
     for severity in ("error", "warning"):
-        out.append(f"{severity}s a script can have")
+        out.append(f"{severity}s in a script")
         out += [f"  {c:<{width}}  {e.meaning}" for c, e in sorted(CODES.items()) if e.severity == severity]
         out.append("")
-    out.append("error numbers a script can test")
+    out.append("error numbers that a script can test")
     out += [f"  {number:>2}  {meaning}" for number, meaning in sorted(ERRORS.items())]
     return "\n".join(out)
 
@@ -127,117 +127,118 @@ class Remedy:
 
 REMEDIES: Final[dict[int, Remedy]] = {
     errors.JOINT_LIMIT: Remedy(
-        "The planner tells of it where a place is planned. In work it comes up when a part lies farther off than "
-        "planned: go another way.",
+        "The planner reports it for a planned place. During a run it happens when a part lies farther away than "
+        "planned: take another path.",
         "MOVE T\nSKIPE 1 ;T has come to lie too far off\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.NOTHING_HELD: Remedy(
-        "Give CLOSE or CENTER a minimum gap. When there is nothing, open the hand and try elsewhere, or ask.",
+        "Give CLOSE or CENTER a minimum gap. If there is nothing, open the hand and try elsewhere, or ask the "
+        "operator.",
         'MOVE P\nCLOSE .1\nSKIPN 2 ;something is in the hand\nWAIT "NO PIN THERE"\nMOVE T',
     ),
     errors.NO_SOLUTION: Remedy(
-        "The planner tells of it where a place is planned. In work it comes up when what was seen lies too far "
-        "off: leave that part alone.",
+        "The planner reports it for a planned place. During a run it happens when the camera sees a part too far "
+        "away: leave that part alone.",
         "MOVE T\nSKIPE 3 ;T has come to lie out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.SERVO_LAG: Remedy(
-        "Something stands where nothing was expected. Expect it with a STOP, on which the motion ends, or "
-        "ask.",
+        "Something is where nothing was expected. Expect it with a STOP, which ends the motion, or ask the operator.",
         'MOVE T\nCHANGE [0 0 -1] .5\nSKIPN 4 ;nothing is in the way\nWAIT "CLEAR THE TABLE"\nMOVE P',
     ),
     errors.WATCHDOG: Remedy(
-        "It is the computer that failed, and not the work: leave it untested, or put it into words for the operator.",
+        "The computer failed, not the work: do not test for it, or tell the operator with a WAIT.",
         'MOVE T\nSKIPN 5 ;the computer kept up\nWAIT "THE COMPUTER WAS LATE"\nMOVE P',
     ),
     errors.SEARCH_EXHAUSTED: Remedy(
-        "A search has 49 places, or what its STEPS say. Untested, the error calls the operator, which is mostly right: "
-        "it is not here. Count with SOJG to give up sooner.",
+        "A search has 49 places, or what its STEPS say. If you do not test for it, the error calls the operator, "
+        "which is usually right: the hole is not here. Count with SOJG to give up sooner.",
         "ASSIGN TRIES 9\nSEARCH .07\nL: MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPN 23 ;it met something\n"
         'JUMP IN\nSOJG TRIES NEXT\nWAIT "NO HOLE HERE"\nNEXT: AOJ L\nIN: OPEN 1',
     ),
     errors.WRONG_THICKNESS: Remedy(
-        "Give CLOSE a maximum gap too. What is too thick is something else: let go of it.",
+        "Give CLOSE a maximum gap as well. If it is too thick, it is another part: release it.",
         "MOVE P\nCLOSE .1 .3\nSKIPE 7 ;too thick for a pin\nJUMP HELD\nOPEN 1\nHELD: PARK",
     ),
     errors.WRONG_TRAVEL: Remedy(
-        "A motion that a force ended may have ended too soon, as with a pin on the rim of its hole. TRAVEL asks how "
-        "far it went.",
+        "A motion that ended on a force may have ended too soon, such as with a pin on the rim of its hole. TRAVEL "
+        "checks how far it moved.",
         "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met at all\nJUMP OUT\nTRAVEL .5 .6\n"
         'SKIPN 8 ;as deep as the hole\nOUT: WAIT "NOT IN ITS HOLE"\nOPEN 1',
     ),
     errors.WRONG_HEIGHT: Remedy(
-        "HEIGHT compares two touches at one place, so that what the arm is off by cancels: a layer is missing, or it "
-        "is not the one that was meant.",
+        "HEIGHT compares two touches at one place, so that the error of the arm cancels. If it fails, a layer is "
+        "missing, or it is the wrong one.",
         "OPEN 0\nMOVE T\nSTOP [0 0 -40]\nCHANGE [0 0 -1] .7 .5\nSAVE BARE\nPARK\nMOVE T\nSTOP [0 0 -40]\n"
         'CHANGE [0 0 -1] .7 .5\nHEIGHT BARE .04 .08\nSKIPN 9 ;one gasket thick\nWAIT "SEE TO THE GASKET"\nPARK',
     ),
     errors.NO_FORCE: Remedy(
-        "It says that nothing was met. That may be what was hoped for: a pin that meets nothing is in its hole.",
+        "The hand met nothing. This may be what you want: a pin that meets nothing is in its hole.",
         "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met: the pin is in\n"
         'WAIT "THERE IS NO HOLE"\nOPEN 1',
     ),
     errors.NO_TORQUE: Remedy(
-        "The screw never resisted: it has found no thread, or there is none in the driver.",
+        "The screw never resisted: it has not found its thread, or the driver holds no screw.",
         'MOVE T\nTOOL 100\nTORQUE 42\nCHANGE [0 0 -1] .5\nSKIPN 24 ;it is tight\nWAIT "NOT TIGHT"\nTOOL 0',
     ),
     errors.NO_TOUCH: Remedy(
-        "Neither finger met anything: the thing is not where the hand felt for it.",
+        "Neither finger met anything: the part is not where the hand felt for it.",
         'MOVE P\nOPEN 1\nTOUCH 3\nCHANGE X 1\nSKIPN 25 ;a finger touches it\nWAIT "NOTHING THERE"\nPARK',
     ),
     errors.PART_NOT_SEEN: Remedy(
-        "Nothing of the size of the part stands out in the picture: ask for the part.",
+        "Nothing of the part's size is visible in the picture: ask the operator for the part.",
         'LOOK V\nGENERAL BASE V\nSKIPN 30 ;it is there\nWAIT "PUT A BASE ON THE TABLE"\nMOVE P',
     ),
     errors.FEATURES_NOT_SEEN: Remedy(
-        "The part is there, but its two largest holes do not show: it lies upside down, or in a shadow.",
+        "The part is there, but its two largest holes are not visible: it is upside down, or in a shadow.",
         'LOOK V\nGENERAL BASE V\nLOOK W\nSPECIFIC BASE W\nSKIPN 31 ;its holes are found\nWAIT "TURN THE BASE"\nMOVE P',
     ),
     errors.GASKET_WRONG: Remedy(
-        "The pictures before and after do not differ as a gasket makes them differ: lay it on anew, or ask.",
+        "The pictures before and after do not differ as they would with the gasket in place: put it on again, or ask "
+        "the operator.",
         "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
         'WAIT "CHECK THE GASKET"\nPARK',
     ),
     errors.PART_ASTRAY: Remedy(
-        "Somebody has moved the part since the earlier picture, or taken it away; or the arm stands elsewhere and "
-        "throws its shadow there: look again, or ask.",
+        "The part was moved or removed since the earlier picture; or the arm is elsewhere and casts its shadow "
+        "there: look again, or ask the operator.",
         "LOOK BEFORE\nMOVE P\nLOOK AFTER HOLD\nMATCH BASE BEFORE AFTER\nSKIPN 33 ;it stands as it stood\n"
         'WAIT "SOMEBODY HAS MOVED THE BASE"\nPARK',
     ),
     errors.SWITCH_WRONG: Remedy(
-        "A switch that is closed while its finger stands off everything is stuck; so is one that stays open while the "
-        "fingers press on something, or their motor is weak. Nothing counts that is felt by it: leave the error "
-        "untested, or put it into words for the operator.",
+        "A switch that is closed while its finger touches nothing is stuck. One that stays open while the fingers "
+        "press on something is stuck too, or their motor is weak. What such a switch reports is worthless: do not "
+        "test for the error, or tell the operator with a WAIT.",
         'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
     ),
     errors.GAP_WRONG: Remedy(
-        "Where there is room for the fingers, the gap's potentiometer is broken: leave the error untested. Where they "
-        "may meet something as they open, open them less. What is held and slips, or is pushed, changes the gap at "
-        "once.",
+        "If the fingers have room, the gap's potentiometer is broken: do not test for the error. If they may meet "
+        "something as they open, open them less. A held part that slips or is pushed also changes the gap.",
         "OPEN 1.8\nSKIPN 51 ;the fingers came to where they should\nOPEN 1.5\nMOVE P",
     ),
     errors.FORCE_WRONG: Remedy(
-        "The first motion after a MOVE that should feel something finds a force already: declare with LOAD what the "
-        "hand carries, and LOAD 0 when it has let go. Where that is right, something leans on the hand, or a drive or "
-        "a tachometer fails.",
+        "The first guarded motion after a MOVE already finds a force: declare with LOAD what the hand carries, and "
+        "LOAD 0 after it has released it. If the load is right, something leans on the hand, or a drive or a "
+        "tachometer fails.",
         "MOVE P\nCLOSE .1\nLOAD 30 ;else it would be felt\nMOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7",
     ),
     errors.JOINT_SENSE_WRONG: Remedy(
-        "The arm does not know where it is: leave the error untested, or put it into words for the operator.",
+        "The arm does not know where it is: do not test for the error, or tell the operator with a WAIT.",
         'MOVE T\nSKIPN 53 ;both sensors of each joint agree\nWAIT "SEE TO THE ARM\'S POTENTIOMETERS"\nMOVE P',
     ),
     errors.CURRENT_WRONG: Remedy(
-        "A motor takes current to start. Where none is read, no TORQUE can be met, and no screw is known to be tight.",
+        "A motor takes current to start. Without a current reading, no TORQUE can be met, and no screw is known to "
+        "be tight.",
         "MOVE T\nTOOL 100\nTORQUE 42\nCHANGE [0 0 -1] .5\nSKIPN 54 ;the motor shows current\n"
         'WAIT "SEE TO THE DRIVER"\nTOOL 0',
     ),
     errors.PICTURE_WRONG: Remedy(
-        "Noise makes two pictures of a live camera differ, even of a scene at rest. One that is the same as an "
-        "earlier one, or of one intensity all over, shows nothing.",
+        "Noise makes two pictures of a live camera differ, even of a scene at rest. A picture that equals an earlier "
+        "one, or is uniform, shows nothing.",
         'LOOK V\nSKIPN 55 ;it is a live picture\nWAIT "SEE TO THE CAMERA"\nGENERAL BASE V',
     ),
     errors.JOINT_STIFF: Remedy(
-        "One joint takes far more torque than its friction, and no force at the hand would be felt so: leave the error "
-        "untested, or put it into words for the operator.",
+        "One joint takes far more torque than its friction, and no force at the hand could cause this: do not test "
+        "for the error, or tell the operator with a WAIT.",
         'MOVE T\nSKIPN 57 ;each joint takes what it took at first\nWAIT "SEE TO THE ARM\'S DRIVES"\nMOVE P',
     ),
 }
@@ -266,8 +267,8 @@ def raised_by() -> dict[int, tuple[str, ...]]:
 def error_text(number: int) -> str:
     """The explanation of an error number; no final newline."""
     tested = (
-        f"SKIPE {number} skips the next instruction if the error was raised, SKIPN {number} if it was not. Untested, "
-        "it sets the brakes and calls the operator."
+        f"SKIPE {number} skips the next instruction if the error was raised, SKIPN {number} if it was not. Without a "
+        f"test, the error sets the brakes and calls the operator."
     )
     example = indent(format_text(REMEDIES[number].example).rstrip("\n"), "    ")
     by = fill(f"raised by {', '.join(raised_by()[number])}", SENTENCE_WIDTH, subsequent_indent="    ")

@@ -88,14 +88,14 @@ def remove_parameter(document: Document, diagnostic: Diagnostic) -> Iterator[Fix
 
 
 def drop_operands(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    yield replace(with_blanks_before(document, diagnostic.primary.span), "", "remove what is too much")
+    yield replace(with_blanks_before(document, diagnostic.primary.span), "", "remove the extra operands")
 
 
 def drop_mark(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     span = diagnostic.primary.span
     mark = document.text[span.start : span.end]
     if mark == ",":
-        yield replace(span, " ", "separate by a blank")
+        yield replace(span, " ", "insert a space")
     else:
         yield replace(with_blanks_before(document, span), "", f"remove {quoted(mark)}")
 

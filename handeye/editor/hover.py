@@ -126,7 +126,7 @@ def _position(document: Document, name: str) -> list[str]:
     if position is None:
         return []
     if position.of is not None and position.of not in document.taught.parts:
-        return [f"relative to part `{position.of}`, which is not known"]
+        return [f"relative to part `{position.of}`, which is unknown"]
     world = WorldModel(parts=document.taught.parts, positions={name: position})
     X_WT = world.planned_position(name)
     out = [

@@ -80,11 +80,11 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
         raise BadArgument(f"{quoted(new)} is an axis of the table")
     others = [*document.names, *document.taught_names, *(o for _, o in document.required_names)]
     if new != name.name and any(_meets(other, name, new) for other in others):
-        raise Refused(f"there is a {name.kind} {quoted(new)} already")
+        raise Refused(f"there is already a {name.kind} {quoted(new)}")
     used = {other.macro for other in others if same(other, name)} - {""}
     for other in others if new != name.name else ():
         if other.name == new and other.macro in used and PARAMETER in (other.kind, name.kind):
-            raise Refused(f"in macro {quoted(other.macro)} {quoted(new)} stands for something else")
+            raise Refused(f"in macro {quoted(other.macro)} {quoted(new)} already has another meaning")
     return [Edit(span=f.span, text=new, taught=f.taught, file=f.file) for _, f in _all(document, name)]
 
 

@@ -24,7 +24,7 @@ class Protocol(LanguageServerProtocol):
         try:
             return super().structure_message(data)
         except JsonRpcException:
-            why = f"the parameters of {data.get('method')} are not of the types that the protocol says"
+            why = f"the parameters of {data.get('method')} do not have the types of the protocol"
             if "id" in data:
                 error = JsonRpcInvalidParams(why).to_response_error()
                 self._send_response(data["id"], error=error)
@@ -37,7 +37,7 @@ class Protocol(LanguageServerProtocol):
         if isinstance(message, lsp.DidChangeTextDocumentNotification):
             uri = message.params.text_document.uri
             if uri not in self.workspace.text_documents:
-                _log.warning("%s was changed and is not open", uri)
+                _log.warning("%s was changed but is not open", uri)
                 return
         super().handle_message(message)
 

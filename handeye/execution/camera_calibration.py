@@ -75,8 +75,12 @@ def calibrate_camera(
 def _go(drive: ArmDrive, trajectory: Trajectory) -> None:
     outcome = drive.glide(trajectory.sample(drive.period))
     if outcome.error is not None:
-        why = "the drives were cut" if outcome.cause is None else error_sentence(outcome.error, outcome.cause)
-        raise CalibrationFailed(f"while the camera was being calibrated, {why}")
+        why = (
+            "the drives were cut off"
+            if outcome.cause is None
+            else error_sentence(outcome.error, outcome.cause)
+        )
+        raise CalibrationFailed(f"while calibrating the camera, {why}")
 
 
 def _camera(drive: ArmDrive) -> TvCamera:
@@ -105,7 +109,7 @@ def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3, ready: fl
     drive.state.lamp = False
     drive.brake(DIGITISE)
     if repeated(lit, dark):
-        raise CalibrationFailed("the camera gives the same picture again, with the lamp lit as without it")
+        raise CalibrationFailed("the camera gives the same picture with the lamp on and off")
     spot = find_spot(dark, lit)
     if spot is None:
         return

@@ -91,7 +91,7 @@ def _check_weighed(arm: ArmModel, links: Array) -> None:
         joint = arm.joints[doubted].name
         raise FrictionUnknown(
             f"the links could not be weighed: that of the {joint} would be {links[doubted]:.2f} times as heavy as "
-            f"drawn, so that a drive does not give the torque it is told"
+            f"drawn, so a drive does not give its commanded torque"
         )
 
 
@@ -102,8 +102,8 @@ def _check_rubbing(arm: ArmModel, coulomb: Array) -> None:
     doubted = int(np.argmax(times))
     if times[doubted] > MAX_RATIO:
         raise FrictionUnknown(
-            f"the {arm.joints[doubted].name} takes {times[doubted]:.1f} times the torque that its friction should: "
-            f"its drive does not give what it is told, or the joint binds"
+            f"the {arm.joints[doubted].name} takes {times[doubted]:.1f} times the torque of its friction: its drive "
+            f"does not give the commanded torque, or the joint binds"
         )
 
 
@@ -153,8 +153,8 @@ def _go(drive: ArmDrive, samples: Samples, periods: Sequence[ServoPeriod]) -> No
     if len(periods) >= len(samples):
         _check_moved(drive.arm, samples, periods)
     if outcome.error is not None:
-        why = "the drives were cut" if outcome.cause is None else cause_sentence(outcome.cause)
-        raise FrictionUnknown(f"while the friction of the joints was being measured, {why}")
+        why = "the drives were cut off" if outcome.cause is None else cause_sentence(outcome.cause)
+        raise FrictionUnknown(f"while measuring joint friction, {why}")
 
 
 def _check_moved(arm: ArmModel, samples: Samples, periods: Sequence[ServoPeriod]) -> None:
@@ -164,9 +164,7 @@ def _check_moved(arm: ArmModel, samples: Samples, periods: Sequence[ServoPeriod]
     stuck = np.flatnonzero(gone / wanted < MIN_TRAVEL)
     if stuck.size:
         joint = arm.joints[int(stuck[0])].name
-        raise FrictionUnknown(
-            f"the friction of the joints could not be measured: the {joint} does not move as it is driven"
-        )
+        raise FrictionUnknown(f"joint friction could not be measured: the {joint} does not move as commanded")
 
 
 def _unexplained(arm: ArmModel, periods: Sequence[ServoPeriod], period: float) -> Array:

@@ -42,7 +42,7 @@ class Deadlock(HandeyeError):
 
     def __init__(self, waiting: dict[str, str]) -> None:
         said = ", ".join(f"{task} waits for {what}" for task, what in waiting.items())
-        super().__init__(f"no task can go on: {said}")
+        super().__init__(f"no task can continue: {said}")
         self.waiting = waiting
 
 
@@ -96,9 +96,9 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         """Let a task go on so long after it was due, however late it was served."""
         time, again = self.due[task]
         if duration < 0:
-            raise BadArgument(f"{task} cannot wait for less than no time")
+            raise BadArgument(f"{task} cannot wait for a negative time")
         if again == _MOST_AT_ONCE:
-            raise Deadlock({task: "nothing, again and again, and lets no time pass"})
+            raise Deadlock({task: "nothing repeatedly, without any time passing"})
         self.due[task] = (time + duration, 0) if duration else (time, again + 1)
 
     def wait(self, task: str, name: str) -> None:
@@ -125,7 +125,7 @@ def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> li
     names = names or [f"task {number + 1}" for number in range(len(tasks))]
     running = dict(zip(names, tasks, strict=True))
     if len(running) < len(tasks):
-        raise BadArgument(f"tasks have names of their own; these are {', '.join(names)}")
+        raise BadArgument(f"tasks need different names; these are {', '.join(names)}")
     agenda: Agenda[Fraction] = Agenda(now=Fraction(0))
     until: dict[str, Until] = {}
     ended: dict[str, T] = {}

@@ -78,7 +78,7 @@ class SearchState(MutableRecord, kw_only=True):
         """Horizontal offset of the present place in a pattern, m."""
         found = self.place(pattern, self.count)
         if found is None:
-            raise Refused(f"the search has no place {self.count}, to which it has come")
+            raise Refused(f"the search has no place {self.count}, which it has reached")
         return found
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:

@@ -106,7 +106,7 @@ class ToolAxes(Axes):
         self._motion = None
         if outcome.error is not None:
             self._goal = self._pose(self._drive.state.q)
-            raise Refused(f"{self.name} does not go there: {ERRORS[outcome.error]}")
+            raise Refused(f"{self.name} does not reach its goal: {ERRORS[outcome.error]}")
 
     def _pose(self, q: Array) -> Array:
         """x, y, z, O, A, T of the tool where the joints are at `q`, shape (6,)."""

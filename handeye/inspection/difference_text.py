@@ -36,7 +36,7 @@ def _place(change: PlaceChange) -> str:
         said = " and ".join([*parts, *([f"turned by {degrees(change.turn)}"] if change.turn else [])])
         return f"~ {change.what} {change.name}: {said}"
     if change.kind == "changed":
-        said = ": now of another part" if change.what == "position" else ": looks different"
+        said = ": now relative to another part" if change.what == "position" else ": looks different"
     return f"{_SIGNS[change.kind]} {change.what} {change.name}{said}"
 
 
@@ -56,4 +56,7 @@ def _motion(change: MotionChange) -> str:
     if change.joint is None:
         return time
     by = inches(change.moved) if change.kind == "prismatic" else degrees(change.moved)
-    return f"{time}, joint {change.joint} ({change.name}) ends {by if change.moved < 0 else '+' + by} from where it did"
+    return (
+        f"{time}, joint {change.joint} ({change.name}) ends {by if change.moved < 0 else '+' + by} from its "
+        f"previous end"
+    )

@@ -55,7 +55,7 @@ def direction(vector: Vector3) -> str:
 
 _MET: Final[dict[type[g.Guard], Callable[[Any], str]]] = {
     g.Force: lambda guard: f"at {ounces(guard.force)}",
-    g.Against: lambda guard: f"at {figure(guard.force / OUNCE_FORCE)} oz against it",
+    g.Against: lambda guard: f"at {figure(guard.force / OUNCE_FORCE)} oz against the motion",
     g.Moment: lambda guard: f"at {ounce_inches(guard.moment)}",
     g.Torque: lambda guard: f"at {figure(guard.torque / OUNCE_INCH)} oz-in of torque",
     g.Touch: lambda guard: f"when {FINGERS[guard.fingers]} touches",
@@ -80,11 +80,11 @@ def _with_force(operation: Change) -> list[str]:
     if operation.press is not None:
         said.append(f"presses with {ounces(operation.press)}")
     if operation.free is not None:
-        said.append(f"gives way along {_axes(operation.free)}")
+        said.append(f"yields along {_axes(operation.free)}")
     if operation.moment is not None:
         said.append(f"turns with {ounce_inches(operation.moment)}")
     if operation.spin is not None:
-        said.append(f"gives way about {_axes(operation.spin)}")
+        said.append(f"yields about {_axes(operation.spin)}")
     return said
 
 
@@ -103,12 +103,12 @@ def _within(operation: Travel | Height) -> str:
 
 
 _CONDITIONS: Final[dict[type[AnyOperation], Callable[[Any], list[str]]]] = {
-    Move: lambda operation: [f"by way of {', '.join(operation.via)}"] if operation.via else [],
+    Move: lambda operation: [f"via {', '.join(operation.via)}"] if operation.via else [],
     Change: _with_force,
     Close: _closed,
     Center: lambda operation: [_held(operation)],
-    Travel: lambda operation: [f"went {_within(operation)}, else error {WRONG_TRAVEL}"],
-    Height: lambda one: [f"stands {_within(one)} over {one.name}, else error {WRONG_HEIGHT}"],
+    Travel: lambda operation: [f"moved {_within(operation)}, else error {WRONG_TRAVEL}"],
+    Height: lambda one: [f"is {_within(one)} above {one.name}, else error {WRONG_HEIGHT}"],
     Undo: lambda operation: [f"undoes the stage, {counted(operation.times, 'time')} at most"],
 }
 """Further conditions by operation."""

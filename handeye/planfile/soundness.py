@@ -26,14 +26,14 @@ def faults(plan: Plan) -> Iterator[str]:
     if not program.steps:
         yield "it has no steps"
     if "" in program.required:
-        yield "it requires a file that has no name"
+        yield "it requires a file without a name"
     if len(set(program.stages)) < len(program.stages):
         yield "two of its stages have the same name"
     if not 0 < plan.speed <= 1:
-        yield f"its speed is {plan.speed:g}; a share of the arm's limits is above 0 and at most 1"
+        yield f"its speed is {plan.speed:g}; it must be a share of the arm's limits, above 0 and at most 1"
     for key, position in program.positions.items():
         if position.of is not None and position.of not in program.parts:
-            yield f"position {key} is relative to part {position.of}, which the plan does not have"
+            yield f"position {key} is relative to part {position.of},= which is not in the plan"
         if not all(abs(value) <= 100 for value in position.at):
             yield f"position {key} is not on this table"
     for key, part in program.parts.items():
@@ -45,7 +45,7 @@ def faults(plan: Plan) -> Iterator[str]:
         yield from _boxes(f"fixture {key}", fixture.boxes)
     for key, held in program.held.items():
         yield from (
-            f"{key} is held at {at}, which the plan does not have"
+            f"{key} is held at {at},= which is not in the plan"
             for at in held.positions
             if at not in program.positions
         )
@@ -59,13 +59,13 @@ def faults(plan: Plan) -> Iterator[str]:
         yield f"its motions are of arms with {' and '.join(map(str, plan.joint_counts))} joints"
     for number in plan.motions:
         if not 0 <= number < len(program.steps):
-            yield f"it has a motion for step {number}, and no such step"
+            yield f"it has a motion for step {number}, which does not exist"
 
 
 def _boxes(what: str, boxes: tuple[Box, ...]) -> Iterator[str]:
     for box in boxes:
         if not all(-100 <= low < high <= 100 for low, high in zip(box[:3], box[3:], strict=True)):
-            yield f"{what} has a box without an inside"
+            yield f"{what} has an empty box"
 
 
 def _step(plan: Plan, number: int, step: Step) -> Iterator[str]:
@@ -84,7 +84,7 @@ def _references(plan: Plan, step: Step) -> Iterator[str]:
         if target is not None and not 0 <= target < count:
             yield f"leads to step {target}; the plan has steps 0 to {count - 1}"
     if step.file and step.file not in program.required:
-        yield f"stands in {step.file!r}, a file whose text the plan does not have"
+        yield f"is in {step.file!r}, whose text is not in the plan"
     if not 0 <= step.stage < len(program.stages):
         yield f"belongs to stage {step.stage}; the plan has {counted(len(program.stages), 'stage')}"
     for use in dict.fromkeys((*operation.reads, *operation.writes)):
@@ -99,16 +99,16 @@ def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
         start, end = words.span
         length = len(there[words.line - 1]) if 1 <= words.line <= len(there) else 0
         if not 0 <= start <= end <= length:
-            yield f"stands in characters {start} to {end} of line {words.line}, which has {length}"
+            yield f"is at characters {start} to {end} of line {words.line}, which has only {length}"
 
 
 def _use(program: Program, use: Use) -> Iterator[str]:
     """Faults of a name that a step uses."""
     match use.kind:
         case "position" if use.name not in program.positions:
-            yield f"uses position {use.name}, which the plan does not have"
+            yield f"uses position {use.name},= which is not in the plan"
         case "part" if use.name not in program.parts:
-            yield f"uses part {use.name}, which the plan does not have"
+            yield f"uses part {use.name},= which is not in the plan"
         case "target" if use.name not in program.parts | program.positions:
             yield f"aims at {use.name}, which is neither a part nor a position of the plan"
         case "picture" if not _NAME.fullmatch(use.name):
@@ -139,12 +139,12 @@ def _motion(plan: Plan, number: int, step: Step) -> Iterator[str]:
         if operation.planned:
             yield "has no planned motion"
     elif knots is None:
-        yield "has a planned motion, and does not move"
+        yield "has a planned motion but does not move"
     elif len(motion.knots) != knots or len(motion.times) != knots - 1:
         has = f"{counted(len(motion.knots), 'knot')} and {counted(len(motion.times), 'time')}"
-        yield f"has {has}; {knots} and {knots - 1} are right"
+        yield f"has {has} instead of {knots} and {knots - 1}"
     elif not _can_be_run(motion, 0.0 if knots == 2 else _SHORTEST):
-        yield "has a planned motion with times or joints no arm can have"
+        yield "has a planned motion with impossible times or joints"
 
 
 def _can_be_run(motion: PlannedMotion, shortest: float) -> bool:

@@ -60,21 +60,21 @@ def decode(text: str | bytes, name: str) -> Plan:
     try:
         head = msgspec.json.decode(text)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise BadFile(f"{name} is not a plan, or is cut short: {error}") from None
+        raise BadFile(f"{name} is not a plan, or was cut short: {error}") from None
     if not isinstance(head, dict) or head.get("format") != "handeye plan":
-        raise BadFile(f'{name} is not a plan: it does not say "format": "handeye plan"')
+        raise BadFile(f'{name} is not a plan: it lacks "format": "handeye plan"')
     version = head.get("version")
     if not isinstance(version, int):
-        raise BadFile(f"{name} does not say which version of the plan format it has")
+        raise BadFile(f"{name} does not state its version of the plan format")
     if version != VERSION:
         raise BadFile(
-            f"{name} has plan format version {version}; this handeye reads version {VERSION}: "
-            "make the plan again from its script, with `handeye plan`"
+            f"{name} has plan format version {version}; this version of handeye reads version {VERSION}: make the "
+            f"plan again from its script, with `handeye plan`"
         )
     try:
         plan = msgspec.json.decode(text, type=Plan)
     except msgspec.DecodeError as error:
-        raise BadFile(f"{name} is not a sound plan: {error}") from None
+        raise BadFile(f"{name} is not a valid plan: {error}") from None
     for fault in faults(plan):
         raise BadFile(f"{name}: {fault}")
     return plan
@@ -87,7 +87,7 @@ def read_plan(path: Path) -> Plan:
         raise refusal(entry.name, "plans", str(path))
     data = read_whole(path)
     if not data.lstrip().startswith((b"{", b"[")):
-        raise BadFile(f"{path} is not a plan; is it a script? `handeye plan {path}` makes the plan")
+        raise BadFile(f"{path} is not a plan; is it a script? `handeye plan {path}` makes a plan of it")
     return decode(data, str(path))
 
 

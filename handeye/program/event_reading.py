@@ -33,7 +33,7 @@ def _at(place: str) -> tuple[type[SystemEvent], ...]:
     except Exception as error:
         raise BadArgument(f"{place} cannot be loaded: {type(error).__name__}: {error}") from error
     if taken:
-        raise BadArgument(f"{place} calls a kind of event {min(taken)}, which all systems have")
+        raise BadArgument(f"{place} names a kind of event {min(taken)}, which is reserved")
     return tuple(own)
 
 
@@ -65,7 +65,7 @@ class EventReader:
         except UnicodeDecodeError as error:
             raise msgspec.DecodeError(str(error)) from None
         except RecursionError:
-            raise msgspec.DecodeError("it is nested too deeply") from None
+            raise msgspec.DecodeError("nested too deeply") from None
         if isinstance(event, RunStarted):
             self.system = event.system
         return event
@@ -98,7 +98,7 @@ def _refuse_unknown(plain: list[Any], system: str) -> None:
     for event in plain:
         kind = event.get("event") if isinstance(event, dict) else None
         if isinstance(kind, str) and kind not in known:
-            why = "another version of handeye, or of its system, wrote it"
+            why = "they come from another version of handeye or of its system"
             if system and system not in entries():
                 why = f"the system {quoted(system)} is not installed"
-            raise msgspec.ValidationError(f"events of the kind {quoted(kind)} are not known here: {why}")
+            raise msgspec.ValidationError(f"events of the kind {quoted(kind)} are unknown here: {why}")

@@ -8,17 +8,17 @@ Sense = Literal["vision", "touch", "search", "force", "centring"]
 SENSES: Final[tuple[str, ...]] = get_args(Sense)
 
 ASSUMPTIONS: Final[dict[str, str]] = {
-    "vision": "each part is taken to be where it was planned, and to lie as it should",
-    "touch": "finger switches tell nothing: CENTER closes blind and measures nothing",
-    "search": "each search tries one place",
-    "force": "no force ends or guides a motion: each is taken to have ended as meant",
-    "centring": "CENTER is CLOSE: the hand does not give way",
+    "vision": "every part is assumed to be where the plan has it",
+    "touch": "finger switches report nothing: CENTER closes blindly and measures nothing",
+    "search": "every search tries one place only",
+    "force": "no force ends or guides a motion: every motion is assumed to have ended as planned",
+    "centring": "CENTER acts as CLOSE: the hand does not yield",
 }
 
 
 def assumption(name: str) -> str:
     """What a run assumes that goes without a sense, or without a macro of its program."""
-    return ASSUMPTIONS.get(name, f"what {name} does is left out")
+    return ASSUMPTIONS.get(name, f"{name} is skipped")
 
 
 TESTED: Final[dict[int, Sense]] = {errors.NO_FORCE: "force", errors.NO_TOUCH: "touch"}

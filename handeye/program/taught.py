@@ -140,7 +140,7 @@ def _read(kind: str, name: str, table: dict[str, object], type: type[Entry]) -> 
         raise UnfitEntry(kind, name, unfit(error)) from None
     for key in type.__struct_fields__:
         if not all(abs(x) < 1e6 for x in _numbers(getattr(entry, key))):
-            raise UnfitEntry(kind, name, f"{key} has a number that is not below a million")
+            raise UnfitEntry(kind, name, f"{key} has a number of one million or more")
     if isinstance(entry, PartTable):
         for x, y, diameter in (*entry.holes, *entry.screw_holes):
             if diameter <= 0:
@@ -181,14 +181,14 @@ def unfit(error: msgspec.ValidationError) -> str:
     where = where.rstrip("`").lstrip(".")
     about = f"{where}: " if where else ""
     if size := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", said):
-        return f"{about}{counted(int(size[2]), 'entry')}, and needs {size[1]}"
+        return f"{about}{counted(int(size[2]), 'entry')}, but needs {size[1]}"
     if kinds := re.fullmatch(r"Expected `(\w+)(?: \| null)?`, got `(\w+)`", said):
         wanted, got = (_KINDS.get(kind, kind) for kind in kinds.groups())
         return f"{about}{got} instead of {wanted}"
     if key := re.fullmatch(r"Object missing required field `(.*)`", said, re.DOTALL):
         return f"{about}{quoted(key[1])} is missing"
     if key := re.fullmatch(r"Object contains unknown field `(.*)`", said, re.DOTALL):
-        return f"{about}{quoted(key[1])} is not a key of it"
+        return f"{about}{quoted(key[1])} is not a known key"
     return f"{about}{said[:1].lower()}{said[1:]}"
 
 
@@ -214,7 +214,7 @@ def read_taught(source: Source) -> Taught:
         tables = msgspec.convert(tomllib.loads(source.text), _File)
         return _taught(tables)
     except tomllib.TOMLDecodeError as error:
-        said = str(error).replace("Cannot overwrite a value", "a name is used twice")
+        said = str(error).replace("Cannot overwrite a value", "a key appears twice")
         raise BadFile(f"{path} is not TOML: {said[:1].lower()}{said[1:]}") from None
     except RecursionError:
         raise BadFile(f"{path} is not TOML: nested too deeply") from None

@@ -35,7 +35,7 @@ def with_position(text: str, name: str, position: Position) -> str:
         after = None
     if after != wanted:
         raise Refused(
-            f"{name} cannot be added without changing more of the file; add it yourself: {_line(name, position)}"
+            f"{name} cannot be added automatically; add this line yourself: {_line(name, position)}"
         )
     return edited
 

@@ -13,19 +13,19 @@ from handeye.trace.sentences import renderer_name
 def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
     """Tell in what a run goes on otherwise than it began, and what it could not keep, a sentence each."""
     if runner.system.unkept is not None:
-        yield f"the calibration of the camera is not kept for other runs: {runner.system.unkept}"
+        yield f"the camera calibration was not kept for other runs: {runner.system.unkept}"
     begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
     if begun is None:
         return
     here = None if runner.system.cell is None else runner.cell.renderer
     if here is not None and begun.camera != here:
-        yield f"the run began with pictures by {renderer_name(begun.camera)}; now they are by {renderer_name(here)}"
+        yield f"the run began with the renderer {renderer_name(begun.camera)}; now it uses {renderer_name(here)}"
     changed = [name for name, version in versions().items() if begun.versions.get(name) != version]
     if changed:
         yield f"the run began with other versions of {', '.join(changed)}; the result may differ"
     referee = runner.setup.replaced.get("referee")
     if judged and referee is not None:
-        yield f"the run was begun with another referee, `{referee}`, which is in no file; the task's own judges it"
+        yield f"the run began with another referee, `{referee}`, which is not in a file; the task's own judges it"
 
 
 def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
@@ -34,10 +34,10 @@ def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
         yield unguarded(folder.path, folder.unlocked)
     if folder.lost:
         yield (
-            f"the trace in {folder.path} was lost or damaged: it lacks the motions before {runner.time:.2f} s"
+            f"the trace in {folder.path} was lost or damaged: it does not hold the motions before {runner.time:.2f} s"
         )
     if folder.journal_lost:
         yield (
-            f"the event list {folder.path / EVENTS} was lost, damaged or of another run, and is begun anew "
-            "from the checkpoint: what was undone before is not in it"
+            f"the event list {folder.path / EVENTS} was lost, damaged or of another run, and starts again from the "
+            f"checkpoint: earlier undone steps are not in it"
         )

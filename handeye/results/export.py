@@ -22,7 +22,7 @@ from handeye.runs.exported_state import ExportedState, MomentKind
 from handeye.tasks import task
 
 README: Final = "README.md"
-_MARK: Final = "handeye exported this scene; README.md says what it shows"
+_MARK: Final = "exported by handeye; README.md describes the scene"
 EXPORT: Final = FolderKind(
     name="an export of handeye",
     known_by=SCENE,
@@ -52,11 +52,11 @@ def shows(exhibit: ExportedState) -> str:
     """The subject of an exhibit, as part of a sentence."""
     world = f"the world of {exhibit.world}"
     if exhibit.moment == "drawn":
-        return f"{world}, as it is drawn, before anything happened"
+        return f"{world} at its start"
     program = printable(exhibit.program or "")
     done = f"{program} in {world}, after {counted(exhibit.steps, 'step')}"
     if exhibit.moment == "final":
-        return f"{done}: its end"
+        return f"{done}, at its end"
     where = "" if exhibit.stage is None else f", at “{printable(exhibit.stage)}”"
     return f"{done}{where}: unfinished"
 
@@ -67,10 +67,10 @@ def _readme(exhibit: ExportedState, about: str) -> str:
 
 This shows {shows(exhibit)}.
 
-`{SCENE}` is a model of MuJoCo that needs nothing but the folders beside it:
-`mujoco.MjModel.from_xml_path("{SCENE}")`. What it shows is its last keyframe, `{exhibit.moment}`,
-and the state that it begins with. Lengths are in m, angles in rad, masses in kg. World frame:
-origin at a corner of the table, z up, table top z = 0. The texts in `<custom>` say the same for
+`{SCENE}` is a MuJoCo model that needs only the folders next to it:
+`mujoco.MjModel.from_xml_path("{SCENE}")`. The state shown is its last keyframe, `{exhibit.moment}`,
+and its initial state. Lengths are in m, angles in rad, masses in kg. World frame:
+origin at a corner of the table, z up, table top z = 0. The texts in `<custom>` hold the same for
 programs: `moment` (`drawn`, `final` or `unfinished`), `shows`, and `world`.
 
 {about.strip()}
@@ -118,12 +118,12 @@ def checks(exported: ExportedSolids) -> Iterator[str]:
     yield f"{count}, not closed: {', '.join(exported.open)}" if exported.open else f"{count}, all closed"
     right = [body for body in exported.weighed if agrees(body)]
     if right:
-        yield f"by volume and density as heavy as in the model, within {TOLERANCE:.0%}: {_names(right)}"
+        yield f"mass by volume and density as in the model, within {TOLERANCE:.0%}: {_names(right)}"
     wrong = [body for body in exported.weighed if not agrees(body)]
     for (mass, there), bodies in groupby(
         wrong, key=lambda body: (f"{body.mass:.3g}", f"{body.mass_there:.3g}")
     ):
-        yield f"by volume and density {mass} kg, and {there} kg in the model: {_names(bodies)}"
+        yield f"mass by volume and density {mass} kg, but {there} kg in the model: {_names(bodies)}"
 
 
 def agrees(body: WeighedBody) -> bool:
@@ -202,5 +202,5 @@ def export(path: Path, shown: Shown, *, part: str | None, overwrite: bool) -> Ex
     if path.suffix == GLB.ending:
         return export_glb(path, shown, part=WHOLE if part is None else part, overwrite=overwrite)
     if part is not None:
-        raise BadArgument(f"a part goes into a file whose name ends in {GLB.ending}, not into {path}")
+        raise BadArgument(f"a part is written to a file whose name ends in {GLB.ending}, not to {path}")
     return export_mjcf(path, shown, overwrite=overwrite)

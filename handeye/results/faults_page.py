@@ -86,8 +86,8 @@ def _must(expected: ExpectedDetection) -> str:
     if stops and expected.stages:
         stops += f", in {' or '.join(f'“{stage}”' for stage in expected.stages)}"
     if not expected.harmless:
-        return f"The program {stops}." if stops else "Nobody has said what must happen."
-    return f"The program {stops}, or the pump comes out right." if stops else "The pump comes out right."
+        return f"The program {stops}." if stops else "No outcome is specified."
+    return f"The program {stops}, or the pump is right." if stops else "The pump is right."
 
 
 def _head(fault: FaultReport) -> Text:
@@ -101,5 +101,5 @@ def _head(fault: FaultReport) -> Text:
     if fault.matrix:
         row.append("  in the matrix", "green")
     if fault.usual_stage is not None:
-        row.append(f"  @{fault.usual_stage} where no stage is named", "dim")
-    return row.append("  from the beginning only", "dim") if fault.from_start else row
+        row.append(f"  @{fault.usual_stage} by default", "dim")
+    return row.append("  from the start only", "dim") if fault.from_start else row

@@ -39,7 +39,9 @@ def checked_findings(referee: str, findings: object) -> Findings:
     if not isinstance(findings, Mapping) or not all(
         isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
     ):
-        raise BadArgument(f"the referee `{referee}` must give findings by their names, not {findings!r}")
+        raise BadArgument(
+            f"the referee `{referee}` must return a dictionary of findings by name, not {findings!r}"
+        )
     return findings
 
 
@@ -48,7 +50,7 @@ def checked_limits(limits: Limits) -> dict[str, float]:
     checked: dict[str, float] = {}
     for name, limit in limits.items():
         if not isinstance(name, str):
-            raise BadArgument(f"limits are given by the names of findings, not by {name!r}")
+            raise BadArgument(f"limits must be given by the names of findings, not by {name!r}")
         if isinstance(limit, bool) or not isinstance(limit, (int, float)) or not isfinite(limit):
             raise BadArgument(f"the limit of {name} must be a number, not {limit!r}")
         checked[name] = float(limit)

@@ -49,7 +49,7 @@ def kept_run(path: Path) -> KeptRun:
         if _belongs(result, _readable_events(path)):
             return KeptRun(result=result)
         faults.append(
-            f"{path / RESULT} is of another run: of {quoted(result.program)} in the world of {result.world}"
+            f"{path / RESULT} belongs to another run: of {quoted(result.program)} in the world of {result.world}"
         )
     if not (path / EVENTS).exists() and not (path / PLAN).exists():
         raise BadFile(f"the run in {path} cannot be shown: it has no {PLAN}")
@@ -101,11 +101,11 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
     kind, data = system_named(begun.system), read_whole(path / PLAN)
     plan = kind.decode(data, str(path / PLAN))
     if not is_plan_of(begun, kind.encode(plan)):
-        raise BadFile(f"{path / PLAN} is not the plan that was carried out")
+        raise BadFile(f"{path / PLAN} is not the plan of this run")
     listing = kind.listing(plan)
     stages = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}
     if not stages <= set(listing.stages):
-        raise BadFile(f"{path / EVENTS} tells of stages that the plan beside it lacks")
+        raise BadFile(f"{path / EVENTS} has stages that the plan next to it does not have")
     host, unread = _host(path)
     checkpoint, damaged = CheckpointStore(path / CHECKPOINTS).newest()
     state = None if checkpoint is None or checkpoint.snapshot is None else checkpoint.snapshot.state
@@ -158,7 +158,7 @@ def _message(events: Sequence[AnyEvent], call: OperatorCalled | None) -> str:
     if call is not None:
         return call_sentence(call.message, call.error, call.cause)
     if isinstance(last, RunFinished):
-        return "the run has ended, and left no result"
+        return "the run has ended without a result"
     if isinstance(last, PanicStopped):
         return f"interrupted {when}"
-    return f"under way or broken off {when}"
+    return f"running or stopped {when}"

@@ -15,7 +15,7 @@ from handeye.tasks.interface import HistoricalTiming, Words
 
 TimingRow = tuple[str, float, float | None]
 """Name, seconds here, and seconds in the period; None: not reported."""
-_NEUTRAL = Words(done="The referee found everything right.", product="the work")
+_NEUTRAL = Words(done="The referee accepts the result.", product="the work")
 """Words for a task that only the program that began the run knew."""
 _MARK = {
     "done": ("✓", "green"),
@@ -74,7 +74,7 @@ def _remarks(result: Result) -> Iterator[RenderableType]:
     for told in told_faults(result):
         yield Text(f"broken: {told}", "yellow")
     for name, limit in (result.limits or {}).items():
-        yield Text(f"limit of {name} set by the caller: {limit:g}", "yellow")
+        yield Text(f"limit of {name} set by the calling program: {limit:g}", "yellow")
     for sentence in result.warnings:
         yield Text(sentence, "yellow")
     for sentence in result.interventions:
@@ -137,17 +137,17 @@ def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
     """Rows of the timing table: time on the computer, between times on the cell's clock."""
     t = result.timing
     if t.planning_cpu_s:  # the plan may have been there already
-        yield "planning phase (processor)", t.planning_cpu_s, then.get("planning")
+        yield "planning phase (CPU)", t.planning_cpu_s, then.get("planning")
     yield from cell_times(result, then)
     if result.camera.used:
-        yield "vision (processor)", t.vision_cpu_s, then.get("vision")
+        yield "vision (CPU)", t.vision_cpu_s, then.get("vision")
 
 
 def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
     """Name, seconds on the cell's clock, and seconds in the period, if known; the one sum is of both parts."""
     t, sees = result.timing, result.camera.used
     if t.friction_s:
-        yield "friction of the joints", t.friction_s, None
+        yield "joint friction", t.friction_s, None
     if t.calibration_s:
         yield "camera calibration" if sees else "before the working phase", t.calibration_s, None
     worked = then["manipulation"] + then["lens"] if then else None
@@ -156,7 +156,7 @@ def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]
     if sees:
         yield "  lens change, aim and focus", t.lens_s, then.get("lens")
     if t.overlapped_s:
-        yield "    and while the arm moved", t.overlapped_s, None
+        yield "    while the arm moved", t.overlapped_s, None
 
 
 def period(result: Result) -> HistoricalTiming | None:
@@ -220,7 +220,7 @@ def verdict(result: Result) -> Text:
     if result.apart is not UNSET:
         return _apart(result)
     if result.assembled is None:
-        return Text("The program came to its end.", "bold")
+        return Text("The program finished.", "bold")
     task = known_any(result.task)
     words = _NEUTRAL if task is None else task.words
     if result.assembled:
@@ -235,12 +235,12 @@ def verdict(result: Result) -> Text:
 def _apart(result: Result) -> Text:
     """The verdict on a run in which the arm has undone its work."""
     if result.apart is None:
-        return Text("Undone as far as was asked for.", "bold")
+        return Text("Undone as far as requested.", "bold")
     task = known_any(result.task)
     words = _NEUTRAL if task is None else task.words
     wrong = "; ".join(wrong_points(result))
     if not result.apart:
-        return Text(f"The arm has undone what it did, but not everything is back: {wrong}", "bold red")
+        return Text(f"The arm has undone its work, but not everything is back in place: {wrong}", "bold red")
     if result.assembled is False:
         return Text(f"{words.apart} Before that {words.product} was not right: {wrong}", "bold red")
     return Text(words.apart, "bold green")

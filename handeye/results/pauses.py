@@ -13,9 +13,9 @@ def pause_sentence(pause: Pause) -> str:
     if pause.met is not None:
         return _met(pause.met)
     if pause.kind == "panic":
-        return f"stopped by the panic button{' on the way back' if pause.back else ''}; the brakes are set"
+        return f"stopped by the panic button{' while going back' if pause.back else ''}; the brakes are set"
     if pause.kind == "end":
-        return "what the arm was to undo is undone" if pause.undone else "the program came to its end"
+        return "the arm has undone what it was asked to undo" if pause.undone else "the program finished"
     return call_sentence(pause.message, pause.error, pause.cause)
 
 
@@ -39,7 +39,7 @@ def stop_name(stop: AnyStop) -> str:
         case stops.AfterSteps():
             return counted(stop.count, "step")
         case stops.PauseRequest():
-            return "when asked"
+            return "on request"
         case stops.ByHand():
             return "by hand"
         case stops.DriverFailure():
@@ -57,12 +57,12 @@ def _met(stop: AnyStop) -> str:
         case stops.AfterSteps():
             return f"{stop_name(stop)} done"
         case stops.ReversalEnd():
-            return "undone; the program can go on from here"
+            return "undone; the program can continue from here"
         case stops.PauseRequest():
-            return "paused as asked"
+            return "paused on request"
         case stops.ByHand():
-            return "left by the user"
+            return "ended by the user"
         case stops.DriverFailure():
-            return f"broken off by {stop_name(stop)} in the program that called handeye"
+            return f"stopped by {stop_name(stop)} in the calling program"
         case _:
             return f"breakpoint at {stop_name(stop)}"

@@ -85,7 +85,7 @@ def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
         elif isinstance(event, LineTyped) or (isinstance(event, UndoOrdered) and event.asked_by == "person"):
             yield f"{when} {sentence(event)}"
         elif isinstance(event, ExperimentMade):
-            yield f"{when} {event.what} {event.name} was set by hand"
+            yield f"{when} {event.what} {event.name} was set by the experimenter"
 
 
 def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:

@@ -51,7 +51,7 @@ def world_page(table: Variation, world: World, columns: int) -> RenderableType:
     found = report(table, world).quantities
     parts: list[RenderableType] = [Text(fill(f"The world of {world.spec}", columns), "bold")]
     if not found:
-        parts.append(Text("Worlds of this task differ in nothing that could be set."))
+        parts.append(Text("Worlds of this task have no quantity that can be set."))
     width = min(max((len(quantity.name) for quantity in found), default=0), columns - 20)
     for source, quantities in groupby(found, lambda quantity: quantity.source):
         parts += [
@@ -124,4 +124,4 @@ def how(quantity: QuantityReport) -> str:
             return f"noise, sigma {spread:g}{unit}"
         case float(spread):
             return f"always {spread:g}{unit}"
-    return "anywhere in a turn"
+    return "any angle"

@@ -116,7 +116,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
     try:
         body = unpacked(rest, _Body, LARGEST)
     except ValueError as error:
-        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None
+        raise BadFile(f"{name} is not a valid checkpoint: {error}") from None
     kind = system_named(head.system)
     plan = kind.decode(body.plan.encode(), f"the plan in {name}")
     setup = Setup(
@@ -136,11 +136,11 @@ def decode(data: bytes, name: str) -> Checkpoint:
     try:
         events = read_packed(body.events, kind.name)
     except ValueError as error:
-        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None
+        raise BadFile(f"{name} is not a valid checkpoint: {error}") from None
     if body.snapshot is not None and (
         body.snapshot.happened != len(events) or not isinstance(next(iter(events), None), RunStarted)
     ):
-        raise BadFile(f"{name} is not a sound checkpoint: it does not hold all that has happened")
+        raise BadFile(f"{name} is not a valid checkpoint: its events are incomplete")
     checkpoint = Checkpoint(
         setup=setup,
         snapshot=None if body.snapshot is None else _in_memory(body.snapshot, kind, name),
@@ -149,12 +149,12 @@ def decode(data: bytes, name: str) -> Checkpoint:
     listing = kind.listing(plan)
     begun = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}
     if not begun <= set(listing.stages):
-        raise BadFile(f"{name} is not a sound checkpoint: it has stages that its plan lacks")
+        raise BadFile(f"{name} is not a valid checkpoint: it has stages that are not in its plan")
     first = next(iter(events), None)
     own = not isinstance(first, RunStarted) or is_plan_of(first, body.plan.encode())
     told = (head.task, head.program, head.position, head.touched)
     if not own or told != (setup.task, listing.name, checkpoint.position, checkpoint.touched):
-        raise BadFile(f"{name} is not a sound checkpoint: its head does not match its content")
+        raise BadFile(f"{name} is not a valid checkpoint: its head does not match its content")
     return checkpoint
 
 
@@ -171,7 +171,7 @@ def _in_memory(kept: _Snapshot, kind: System, name: str) -> Snapshot:
     try:
         state = decoded(kept.state, kind.state)
     except ValueError as error:
-        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None
+        raise BadFile(f"{name} is not a valid checkpoint: {error}") from None
     return Snapshot(
         position=kept.position,
         happened=kept.happened,
@@ -208,7 +208,8 @@ def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
         raise BadFile(f"{name} is not a checkpoint of handeye")
     if int(words[1]) != VERSION:
         raise BadFile(
-            f"{name} has checkpoint format version {words[1]}; this handeye reads version {VERSION}: start the run "
+            f"{name} has checkpoint format version {words[1]}; this version of handeye reads version {VERSION}: "
+            f"start the run "
             "again, or resume it where it was saved"
         )
     if words[2] != hashlib.sha256(rest).hexdigest():
@@ -217,4 +218,4 @@ def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
     try:
         return msgspec.json.decode(line, type=Head), body
     except msgspec.DecodeError as error:
-        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None
+        raise BadFile(f"{name} is not a valid checkpoint: {error}") from None

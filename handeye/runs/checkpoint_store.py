@@ -65,7 +65,7 @@ class CheckpointStore:
             if (head.system, head.plan) != (setup.system, digest_of(setup)):
                 raise BadFile(f"{path} is of another plan ({head.program}, {head.plan})")
             if path == newest and not same_plan(read_checkpoint(path).setup, setup):
-                raise BadFile(f"{path} is of another plan of this script: its motions are others")
+                raise BadFile(f"{path} is of another plan of this script, with other motions")
             if (head.world, head.camera) != (setup.world, setup.camera):
                 raise BadFile(
                     f"{path} is of another run ({head.world}, camera {head.camera}) than this "
@@ -84,7 +84,7 @@ class CheckpointStore:
             raise CannotWrite(f"{self.folder} holds an unreadable file ({fault}); choose another folder")
         if any(head.touched for path, head in self.heads() if _position(path) >= 0):
             raise CannotWrite(
-                f"{self.folder} is of a run with interventions by people, which would be lost; choose another folder"
+                f"{self.folder} is of a run with interventions by a person, which would be lost; choose another folder"
             )
 
     def newest(self) -> tuple[Checkpoint | None, list[str]]:

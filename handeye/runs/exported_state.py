@@ -48,7 +48,7 @@ def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
 def present_state(runner: Runner) -> ExportedState:
     """The present state of a run; raises Refused if its system acts on no cell."""
     if runner.system.cell is None:
-        raise Refused("the run is of a system that acts on no cell")
+        raise Refused("the run has no work cell")
     return _shown(runner.checkpoint(), runner.cell.truth)
 
 
@@ -57,7 +57,7 @@ def _exhibit(path: Path, checkpoint: Checkpoint) -> ExportedState:
     if snapshot is None:
         raise BadFile(f"the run in {path} has not begun")
     if snapshot.cell is None:
-        raise Refused(f"the run in {path} is of a system that acts on no cell")
+        raise Refused(f"the run in {path} has no work cell")
     cell = _task(setup.task).cell(setup.world, "ray")
     cell.restore(snapshot.cell)
     return _shown(checkpoint, cell.truth)

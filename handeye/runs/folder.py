@@ -180,7 +180,8 @@ class RunFolder(Observer):
         """Raises CannotWrite if the trace was cut off, so that nothing more may happen."""
         if self._recorder is not None and self._recorder.broken:
             raise CannotWrite(
-                f"the trace in {self.path} was cut off; make room, then `handeye resume {self.path}` continues "
+                f"the trace in {self.path} was cut short; free some disk space, then `handeye resume {self.path}` "
+                f"continues "
                 "from the last checkpoint"
             )
 
@@ -248,7 +249,7 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
         if any(CheckpointStore(path).heads()):
             raise BadFile(f"{path} is a folder of checkpoints, not of a run; name one of them")
         check_holds_run(path)
-        raise BadFile(f"the run in {path} cannot be gone on with: it has no {CHECKPOINTS}")
+        raise BadFile(f"the run in {path} cannot continue: it has no {CHECKPOINTS}")
     checkpoint, faults = folder.kept.newest()
     if checkpoint is None:
         raise BadFile(faults[0] if faults else f"there is no checkpoint in {folder.kept.folder}")
@@ -282,7 +283,7 @@ def _check_plan(path: Path, setup: Setup) -> None:
         return
     plan = system_of(setup).decode(read_whole(beside), str(beside))
     if not same_plan(msgspec.structs.replace(setup, plan=plan), setup):
-        raise BadFile(f"the runs in {path} are of another plan than this one, by {beside}")
+        raise BadFile(f"the runs in {path} are of another plan, according to {beside}")
 
 
 def _holds_run(path: Path) -> bool:
@@ -295,7 +296,7 @@ def _refuse_others(path: Path) -> None:
     """Raises InvalidInput if a folder holds what no run has left."""
     if others := _others(path):
         raise CannotWrite(
-            f"{path} holds other things ({quoted(others[0])}); choose a new folder, or an empty one"
+            f"{path} holds other files ({quoted(others[0])}); choose a new folder, or an empty one"
         )
 
 

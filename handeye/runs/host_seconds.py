@@ -56,9 +56,9 @@ def read_host_seconds(path: Path) -> HostSeconds | None:
     try:
         found = msgspec.json.decode(read_whole(path, _LARGEST), type=HostSeconds)
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
-        raise BadFile(f"{path} is no record of seconds: {error}") from None
+        raise BadFile(f"{path} is not a timing record: {error}") from None
     if min(msgspec.structs.astuple(msgspec.structs.replace(found, from_clock_s=0.0))) < 0:
-        raise BadFile(f"{path} is no record of seconds: one is negative")
+        raise BadFile(f"{path} is not a timing record: a time is negative")
     return found
 
 

@@ -38,12 +38,12 @@ class Parts:
             was, now = begun.get(part), here.get(part)
             if was is not None and now is None:
                 raise Refused(
-                    f"the run has a {part} of its own, `{was}`, which is code and is kept in no file; "
-                    f"from Python, `handeye.begin` takes it as {part}=..."
+                    f"the run has a {part} of its own, `{was}`, which is code and not in a file; in Python, pass it "
+                    f"to `handeye.begin` as {part}=..."
                 )
             if was != now:
                 before = "handeye's own" if was is None else f"`{was}`"
-                raise Refused(f"the run was begun with {before} as its {part}; `{now}` is another")
+                raise Refused(f"the run began with {before} as its {part}, but `{now}` was given")
 
 
 def deciding(names: dict[str, str]) -> dict[str, str]:

@@ -359,7 +359,7 @@ class Runner:
     def _put(self, snapshot: Snapshot) -> None:
         cell = self.system.cell
         if (cell is None) != (snapshot.cell is None):
-            raise BadFile("the state is of another system: one has a cell, the other has none")
+            raise BadFile("the state is of another system: one has a work cell, the other does not")
         if cell is not None and snapshot.cell is not None:
             cell.restore(snapshot.cell)
         self.system.restore(snapshot.state)

@@ -30,7 +30,7 @@ def default_script(work: Task | None = None) -> Path:
     """The script of a task, by default of the one meant where none is named; raises InvalidInput if it has none."""
     work = work or tasks.task()
     if work.script is None:
-        raise BadArgument(f"the task {quoted(work.name)} comes with no script; name one")
+        raise BadArgument(f"the task {quoted(work.name)} has no script of its own; name one")
     return plans() / work.script
 
 

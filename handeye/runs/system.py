@@ -288,7 +288,7 @@ class StepperWords:
     """The words of the stepper's manual for the runs of a system."""
 
     about: tuple[str, ...] = (
-        "The program is carried out a step at a time; the arrow stands before the next one.",
+        "The program runs one step at a time; the arrow marks the next one.",
     )  # lines on what a step is
     places: tuple[str, ...] = (
         "PLACE is a line, a label, the first word of a step, or a stage. WHAT is one of",
@@ -348,7 +348,7 @@ class System(ABC):
     def check(self, setup: Setup) -> None:
         """Raises InvalidInput unless plan, task and world of a run go together."""
         if not isinstance(setup.plan, self.plan):
-            raise BadFile(f"this is no plan of {self.entry.title}")
+            raise BadFile(f"this is not a plan of {self.entry.title}")
 
     def own_plan(self, task: str) -> Any:
         """The system's default plan for a task; raises InvalidInput if there is none."""

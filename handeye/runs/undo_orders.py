@@ -21,7 +21,7 @@ def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) 
     steps = listing.steps
     found = [n for n, done in enumerate(executed) if done.enters and steps[done.step].stage == stage]
     if not found:
-        raise Refused(f"the stage {quoted(listing.stages[stage])} has left nothing to undo")
+        raise Refused(f"the stage {quoted(listing.stages[stage])} has nothing to undo")
     return found[-1]
 
 
@@ -30,7 +30,7 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
     require(checkpoint.setup.system, "undo", name)
     snapshot, kind, plan = checkpoint.snapshot, system_of(checkpoint.setup), checkpoint.setup.plan
     if snapshot is None:
-        raise Refused(f"{name} is no run of a program that has begun: there is nothing to undo")
+        raise Refused(f"{name} has not run any program: there is nothing to undo")
     state = copied(snapshot.state)
     executed = kind.executed(plan, state)
     _check_whole(checkpoint, executed, name)
@@ -50,9 +50,9 @@ def _check_whole(checkpoint: Checkpoint, done: Sequence[ExecutedStep], name: str
     """Raises Refused unless the run has a record of its first step, or is at its beginning."""
     first = next((event for event in checkpoint.events if isinstance(event, StepStarted)), None)
     if first is None:
-        raise Refused(f"nothing was done in {name}: there is nothing to undo")
+        raise Refused(f"{name} has no steps: there is nothing to undo")
     if not done and any(isinstance(event, UndoEnded) for event in checkpoint.events):
-        raise Refused(f"{name} is undone already")
+        raise Refused(f"{name} is already undone")
     if not done or done[0].step != first.step:
         raise Refused(f"{name} has no record of how to undo its first steps")
 
@@ -78,7 +78,7 @@ def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> 
     runner.repeat(happened)
     if runner.events[: len(happened)] != list(happened):
         raise Refused(
-            f"what {name} did since its newest checkpoint comes out otherwise here: `handeye resume {name}` goes on "
-            "from that checkpoint"
+            f"what {name} did since its newest checkpoint gives a different result here: `handeye resume {name}` "
+            f"continues from that checkpoint"
         )
     return runner.checkpoint()

@@ -53,7 +53,7 @@ def difference(trace: Trace, folder: Path) -> str | None:
 def repetition(trace: Trace, folder: Path) -> Repetition:
     """Carry out a run again in `folder` and compare. Raises Refused if the trace is thinned."""
     if trace.thinned:
-        raise Refused(f"{trace.name} is thinned: verify the whole trace, which it was made from")
+        raise Refused(f"{trace.name} is thinned: verify the whole trace that it was made from")
     wanted = trace.events[: settled(trace.events)]
     start = Checkpoint(setup=setup_of(trace))
     keeping = open_new(folder, start)

@@ -28,8 +28,8 @@ _BUILT_IN: Final = {
     "insertion": "handeye.tasks.insertion.task:INSERTION",
 }
 _HINT: Final = (
-    " (one of your own is given as `--task MODULE:NAME`, comes by an entry point of the group `handeye.tasks`, or is "
-    "known to the Python program that calls `handeye.tasks.register`)"
+    " (for your own task, give `--task MODULE:NAME`, install an entry point of the group `handeye.tasks`, or call "
+    "`handeye.tasks.register` in Python)"
 )
 Kind = Literal["ours", "registered", "others"]
 """The source of a task: handeye, this program or `--task`, entry points."""
@@ -44,12 +44,12 @@ def register(task: AnyTask) -> None:
     its arm, is taken.
     """
     if not isinstance(task, AnyTask):
-        raise BadArgument(f"a task is an object of a class that is derived from handeye.Task, not {task!r}")
+        raise BadArgument(f"a task is an instance of a class derived from handeye.Task, not {task!r}")
     name = getattr(task, "name", None)
     if not isinstance(name, str) or not name.strip():
         raise BadArgument(f"a task needs a name, which is a text; {name!r} is none")
     if name in _ours() or _REGISTERED.get(name, task) is not task:
-        raise BadArgument(f"there is a task called {quoted(name)} already")
+        raise BadArgument(f"there is already a task called {quoted(name)}")
     if isinstance(task, Task):
         joints = len(task.arm.joints)
         if np.shape(task.park) != (joints,):
@@ -81,12 +81,12 @@ def option(name: str) -> tuple[str, ...]:
 def any_task(name: str) -> AnyTask:
     """The task of a name, whatever kind of system does it; raises InvalidInput if there is none such."""
     if not isinstance(name, str):
-        raise BadArgument(f"a task is given by its name, not {name!r}")
+        raise BadArgument(f"give a task by its name, not by {name!r}")
     found = known_any(name)
     if found is None:
         names = {*_ours(), *_REGISTERED, *_entry_points()}
         near = suggestion(name, names) or f"there are {', '.join(map(quoted, sorted(names)))}"
-        raise NoSuchName(f"no task is called {quoted(name)}; {near}{_HINT}")
+        raise NoSuchName(f"there is no task {quoted(name)}; {near}{_HINT}")
     return found
 
 
@@ -101,7 +101,7 @@ def planned(task: AnyTask) -> Task:
         system = next((entry.name for entry in entries().values() if task.name in entry.tasks), None)
         if system is not None:
             raise refusal(system, "plans", f"the task {quoted(task.name)}")
-        raise Refused(f"the task {quoted(task.name)} is not done by planned programs")
+        raise Refused(f"the task {quoted(task.name)} does not use planned programs")
     return task
 
 
@@ -153,14 +153,12 @@ def _loaded(words: str) -> AnyTask:
     """The task MODULE:NAME; its module is imported; raises InvalidInput if there is none, or importing it fails."""
     module, _, name = words.partition(":")
     if not all(part.isidentifier() for part in (*module.split("."), name)):
-        raise BadArgument(f"a task is named as MODULE:NAME, such as my_task:TASK; {quoted(words)} is not")
+        raise BadArgument(f"name a task as MODULE:NAME, such as my_task:TASK; {quoted(words)} is not")
     if module.partition(".")[0] != "handeye" and os.getcwd() not in sys.path:
         sys.path.append(os.getcwd())  # last: nothing there takes the place of what is installed
     found = loaded(words, "the task ")
     if not isinstance(found, AnyTask):
-        raise BadArgument(
-            f"{quoted(words)} is no task, which is an object of a class that is derived from handeye.Task"
-        )
+        raise BadArgument(f"{quoted(words)} is not a task: an instance of a class derived from handeye.Task")
     return found
 
 

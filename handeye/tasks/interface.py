@@ -73,7 +73,7 @@ class Words(Record, frozen=True, kw_only=True):
 
     product: str  # the product with its article: `the pump`
     done: str  # sentence for a product that is finished and right
-    apart: str = "Everything is back where the run found it."
+    apart: str = "Every part is back where the run found it."
     """Sentence for a run of which the arm has undone everything."""
 
 
@@ -150,12 +150,12 @@ def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
     for name in (task.camera, *task.photographs):
         if name not in cameras:
             there = f"it has {', '.join(map(quoted, cameras))}" if cameras else "it has none"
-            lacks = f"lacks the camera {quoted(name)}, which the task names; {there}"
+            lacks = f"does not have the camera {quoted(name)} that the task names; {there}"
             raise Refused(f"the scene of the task {quoted(task.name)} {lacks}")
     if not {SCENERY, SEEN, LATENT} & {*map(int, scene.geom_group)}:
         raise Refused(
-            f"the scene of the task {quoted(task.name)} shows nothing: none of its shapes is in group {SEEN} (what is "
-            f"worked with) or {SCENERY} (what stands around)"
+            f"the scene of the task {quoted(task.name)} shows nothing: none of its shapes is in group {SEEN} (parts "
+            f"and fixtures) or {SCENERY} (surroundings)"
         )
 
 

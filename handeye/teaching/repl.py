@@ -24,7 +24,7 @@ from handeye.teaching.functions import TYPED, is_open, lasting, mistakes
 from handeye.teaching.workplace import Workplace
 
 MAX_LINES: Final = 500  # all of them are checked again with each that is added
-_ANSWERS: Final = "PROCEED, RETRY or SKIP continues from there; a new function abandons it"
+_ANSWERS: Final = "PROCEED, RETRY or SKIP continues from there; a new instruction abandons it"
 
 
 @dataclass(slots=True, kw_only=True)
@@ -56,7 +56,7 @@ class Repl:
         if not line.strip() and not is_open(self.functions):
             return answer(self.workplace)
         if len(self.functions) >= MAX_LINES:
-            raise Refused(f"at most {MAX_LINES} lines; write a script for more")
+            raise Refused(f"at most {MAX_LINES} lines; for more, write a script")
         lines = [*self.functions, line]
         checked = self.workplace.plan(self.typed("\n".join(lines)))
         found = mistakes(checked, len(lines))
@@ -89,7 +89,7 @@ def _do(repl: Repl, rest: str) -> Answer:
     """Carry out the collected lines, or a function, macro or program, now."""
     if not rest:
         if not any(map(str.strip, repl.functions)):
-            raise Refused("nothing is collected; type functions, or `DO OPEN 3` to carry one out at once")
+            raise Refused("nothing is collected; type instructions, or `DO OPEN 3` to run one at once")
         return repl.carry_out(repl.typed("\n".join(repl.functions)))
     definitions = lasting(repl.functions)
     name = rest.split(";")[0].strip()
@@ -114,7 +114,7 @@ def _list(repl: Repl, _: str) -> Answer:
 def _drop(repl: Repl, _: str) -> Answer:
     if not repl.functions:
         raise Refused("nothing is collected")
-    return answer(repl.workplace, said=f"dropped: {repl.functions.pop().strip()}")
+    return answer(repl.workplace, said=f"removed: {repl.functions.pop().strip()}")
 
 
 def _clear(repl: Repl, _: str) -> Answer:
@@ -157,25 +157,25 @@ def _help(repl: Repl, rest: str) -> Answer:
             raise NoSuchName(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
         return answer(repl.workplace, said=f"{definition.usage}: {definition.help}")
     lines = (
-        "A line is a function of the arm language, which is collected, or one of",
+        "A line is an instruction of the arm language, which is collected, or one of",
         *rows(_TABLE),
-        "What is collected stays until CLEAR. `HELP MOVE` explains an instruction.",
+        "Collected lines stay until CLEAR. `HELP MOVE` explains an instruction.",
     )
     return answer(repl.workplace, lines=lines)
 
 
 _TABLE: Final[tuple[Command[Callable[[Repl, str], Answer]], ...]] = (
-    Command(usage="DO", act=_do, help="carry out what is collected"),
-    Command(usage="DO FUNCTION", act=_do, help="plan one function and carry it out now: DO OPEN 3"),
-    Command(usage="DO NAME", act=_do, help="carry out a macro, or the program in the file NAME.al"),
-    Command(usage="LIST", act=_list, help="list what is collected"),
-    Command(usage="DROP", act=_drop, help="drop the last line collected"),
-    Command(usage="CLEAR", act=_clear, help="drop all of them"),
+    Command(usage="DO", act=_do, help="run the collected lines"),
+    Command(usage="DO FUNCTION", act=_do, help="plan one instruction and run it now: DO OPEN 3"),
+    Command(usage="DO NAME", act=_do, help="run a macro, or the program in the file NAME.al"),
+    Command(usage="LIST", act=_list, help="list the collected lines"),
+    Command(usage="DROP", act=_drop, help="remove the last collected line"),
+    Command(usage="CLEAR", act=_clear, help="remove all collected lines"),
     Command(usage="WRITE FILE", act=_write, help="write them to a new file, as a script"),
     Command(usage="SHOW [WHAT]", act=_show, help="show joints, hand, gap, saved differences, positions, ..."),
     Command(usage="BACK", act=_back, help="undo the last DO: restores arm, parts and memory"),
-    Command(usage="PROCEED", act=_answer("proceed"), help="continue after what called the operator"),
-    Command(usage="RETRY", act=_answer("retry"), help="repeat from the first function of the stage"),
+    Command(usage="PROCEED", act=_answer("proceed"), help="continue after the call of the operator"),
+    Command(usage="RETRY", act=_answer("retry"), help="repeat from the first instruction of the stage"),
     Command(usage="SKIP", act=_answer("skip"), help="skip the rest of the stage"),
     Command(usage="HELP [INSTRUCTION]", act=_help, help="show this, or what an instruction does"),
     Command(usage="QUIT", act=_quit, help="leave"),

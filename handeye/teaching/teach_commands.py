@@ -108,12 +108,12 @@ def _float(teacher: Teacher, words: list[str]) -> Answer:
 def _push(teacher: Teacher, words: list[str]) -> Answer:
     axis, force, seconds = _exactly(words, 3, "push x 5 2")
     if not 0 < _number(seconds) <= MAX_PUSH_S:
-        raise BadArgument(f"a push takes up to {MAX_PUSH_S:g} s, not {quoted(seconds)}")
+        raise BadArgument(f"a push lasts at most {MAX_PUSH_S:g} s, not {quoted(seconds)}")
     if abs(_number(force)) > 200:
-        raise BadArgument(f"a push has up to 200 oz, not {quoted(force)}")
+        raise BadArgument(f"a push is at most 200 oz, not {quoted(force)}")
     teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
     told = _where(teacher).said.show
-    return answer(teacher.workplace, show=told, said="that was a push from outside: no program can do it")
+    return answer(teacher.workplace, show=told, said="this was a push from outside, which no program can do")
 
 
 # -- naming ---------------------------------------------------------------------------------------------
@@ -144,7 +144,7 @@ def _list(teacher: Teacher, words: list[str]) -> Answer:
     known, unsaved = teacher.workplace.taught.positions, teacher.unsaved
     width = max(map(len, known), default=0)
     lines = [f"{n:{width}}  {_written(p)}{', not saved' if n in unsaved else ''}" for n, p in known.items()]
-    return answer(teacher.workplace, lines=tuple(lines or ["nothing is taught"]))
+    return answer(teacher.workplace, lines=tuple(lines or ["no positions are taught"]))
 
 
 def _save(teacher: Teacher, words: list[str]) -> Answer:
@@ -180,7 +180,7 @@ def _help(teacher: Teacher, _: list[str]) -> Answer:
 
 def _exactly(words: list[str], count: int, example: str) -> list[str]:
     if len(words) != count:
-        raise BadArgument(f"write it like `{example}`")
+        raise BadArgument(f"write it as in `{example}`")
     return words
 
 
@@ -198,7 +198,7 @@ def _along(axis: str, size: float) -> Vector3:
 
 
 _TABLE_HELP: Final = "move the hand along an axis of the table; or `table turn z 10`"
-_HAND_HELP: Final = "move it along an axis of its own, z is where it points; or `hand turn y 5`"
+_HAND_HELP: Final = "move it along one of its own axes (z is its pointing direction); or `hand turn y 5`"
 TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="j3 +1", act=_joint, help="move a joint by this much; without a sign, to this value"),
     Command(usage="table x +.5", act=_table, help=_TABLE_HELP),
@@ -206,14 +206,14 @@ TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="move NAME", act=_function("MOVE"), help="go to a position"),
     Command(usage="open GAP", act=_function("OPEN"), help="open the hand"),
     Command(usage="close [MIN]", act=_function("CLOSE"), help="close it"),
-    Command(usage="center [MIN]", act=_function("CENTER"), help="close it without pushing the thing"),
-    Command(usage="float", act=_float, help="release the brakes; the arm goes where it is pushed"),
+    Command(usage="center [MIN]", act=_function("CENTER"), help="close it without pushing the part"),
+    Command(usage="float", act=_float, help="release the brakes; the arm then follows a push"),
     Command(usage="push x 5 2", act=_push, help="push it: along x with 5 oz for 2 s"),
     Command(usage="here NAME [of PART]", act=_here, help="name this position; `here NAME again` replaces it"),
     Command(usage="where", act=_look, help="show where the arm is"),
     Command(usage="list", act=_list, help="list what is taught"),
     Command(usage="undo", act=_undo, help="undo the last motion, or the last name"),
-    Command(usage="save", act=_save, help="write what was named to the file; nothing else in it changes"),
+    Command(usage="save", act=_save, help="write the new names to the file; nothing else in it changes"),
     Command(usage="help", act=_help, help="show this"),
 )
 TEACH_COMMANDS: Final = {lesson.name: lesson for lesson in TABLE[1:]}

@@ -147,7 +147,7 @@ class Teacher:
             now = read_source(self.file).text if is_there(self.file) else ""
             if now != self.saved:
                 raise CannotWrite(
-                    f"{self.file} has changed meanwhile, and nothing was written; `list` shows what to add"
+                    f"{self.file} has changed since it was read, so nothing was written; `list` shows what to add"
                 )
             write_whole(self.file, self.text.encode())
             self.saved = self.text

@@ -130,7 +130,7 @@ class Workplace:
     def carry_out(self, plan: Plan) -> Pause:
         """Carry out a plan; raises Refused if it takes pictures, and the camera was not set up."""
         if self.run.state.calibration is None and plan.program.written("picture"):
-            raise Refused("the camera is not set up; begin with --look for a plan that takes pictures")
+            raise Refused("the camera is not calibrated; start with --look for a plan that takes pictures")
         self.mark()
         here = self.checkpoint()
         assert here.snapshot is not None
@@ -151,7 +151,7 @@ class Workplace:
     def answer(self, choice: Choice) -> Pause:
         """Continue after a call of the operator; raises Refused if there is none."""
         if self.runner.call is None:
-            raise Refused(f"`{choice}` answers a call of the operator, and there is none")
+            raise Refused(f"`{choice}` answers a call of the operator, but there is none")
         self.runner.answer(choice)
         return self._go()
 

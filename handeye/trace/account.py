@@ -22,7 +22,10 @@ def account(events: Sequence[AnyEvent]) -> list[str]:
     for event in events:
         teller.tell(event)
     if events and not isinstance(events[-1], happened.RunFinished):
-        teller.lines += ["", f"{teller.clock(events[-1])}  the run pauses here, before its end"]
+        teller.lines += [
+            "",
+            f"{teller.clock(events[-1])}  the run pauses here, before the end of the program",
+        ]
     return teller.lines
 
 

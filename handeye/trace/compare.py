@@ -93,7 +93,7 @@ def _difference(
     after = "before the first event" if last is None else f"after event {events} ({sentence(last)})"
     if here is None or there is None:
         short, long = (a, b) if here is None else (b, a)
-        return f"{short.name} ends and {long.name} goes on {after}"
+        return f"{short.name} ends and {long.name} continues {after}"
     if {here.topic, there.topic} <= {EVENTS, LOG}:  # a sentence stands before its event
         return f"event {events + 1} differs: {_events(a, b, events)}"
     if here.topic == there.topic and here.time == there.time:
@@ -102,7 +102,7 @@ def _difference(
     first, second = (
         f"{found.topic} at {_when(of, found.time / 1e9)}" for of, found in ((a, here), (b, there))
     )
-    return f"one goes on with {first}, the other with {second}, {after}"
+    return f"one continues with {first}, the other with {second}, {after}"
 
 
 def _quantity(a: Trace, here: RawMessage, there: RawMessage, rounded: bool) -> str:
@@ -127,5 +127,5 @@ def _events(a: Trace, b: Trace, number: int) -> str:
     values = ((name, getattr(one, name), getattr(other, name)) for name in one.__struct_fields__)
     name, first, second = next((found for found in values if found[1] != found[2]), ("", None, None))
     if not name:
-        return f"{kinds[0]} at {when} has another wording"
+        return f"{kinds[0]} at {when} has a different text"
     return f"{name} of {kinds[0]} at {when} is {first} in one, {second} in the other"

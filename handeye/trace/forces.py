@@ -66,7 +66,7 @@ def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
     """Forces by messages about the hand, one a servo period; raises ValueError if some are missing."""
     told = [read_hand(message.data) for message in messages]
     if len(told) != len(times):
-        raise ValueError("servo periods and what the hand felt in them differ in number")
+        raise ValueError("the number of servo periods and of hand forces differ")
     first = [message.guards[0] if message.guards else None for message in told]
     guard = np.array(["" if one is None else one.guard.value for one in first], dtype="<U7")
     force, moment = _vectors(message.force for message in told), _vectors(message.moment for message in told)

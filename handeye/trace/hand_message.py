@@ -143,5 +143,5 @@ def decoded_channels(data: bytes) -> tuple[ChannelValues, ...]:
     """The channels of the message in some bytes; raises DecodeError if it is none."""
     channels = _channels_decoder.decode(data).channels
     if any(channel.width != len(channel.values) for channel in channels):
-        raise msgspec.DecodeError("a channel has more values, or fewer, than it says")
+        raise msgspec.DecodeError("a channel has another number of values than it declares")
     return channels

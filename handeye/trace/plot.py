@@ -71,7 +71,7 @@ def plot(trace: Trace, stage: str | None = None) -> Plot:
     begin, end = trace.covers if stage is None else _covers(trace, stage)
     rows = Span(begin, end).rows(trace.times)
     if rows.start == rows.stop:
-        raise Refused(f"{trace.name} holds no motion there to be drawn")
+        raise Refused(f"{trace.name} holds no motion there to plot")
     return Plot(
         title=f"{trace.head.program}, {trace.head.world}",
         begin=begin,
@@ -91,7 +91,9 @@ def _covers(trace: Trace, stage: str) -> tuple[float, float]:
 
 
 def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
-    """A panel for the joints that turn, one for those that slide and the fingers; SI where the arm is not known."""
+    """A panel for the revolute joints, one for the prismatic joints and the fingers; in SI units if the arm is not
+    known.
+    """
     task, measures = known_any(trace.head.task), measures_of(trace.head.task)
     kinds = {} if task is None else task.joint_kinds
     times = trace.times[rows]
@@ -107,8 +109,8 @@ def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
             case _:
                 others.append(Curve(name=name, times=times, values=values))
     for name, unit, curves in (
-        ("joints that turn", "deg", turning),
-        ("joints that slide, fingers", length.name, sliding),
+        ("revolute joints", "deg", turning),
+        ("prismatic joints, fingers", length.name, sliding),
         ("joints", "SI", others),
     ):
         if curves:
@@ -122,7 +124,7 @@ def _forces(trace: Trace, rows: slice) -> Panel:
         Curve(name=axis, times=times, values=forces.force[rows, number] / unit.size)
         for number, axis in enumerate("xyz")
     )
-    return Panel(name="force of the hand", unit=unit.name, curves=tuple(curves))
+    return Panel(name="hand force", unit=unit.name, curves=tuple(curves))
 
 
 def _channels(trace: Trace, begin: float, end: float) -> Iterator[Panel]:

@@ -216,14 +216,14 @@ _SHOWN_IN: Final[Mapping[str, str]] = {
 }  # fmt: skip
 _DECIMALS: Final = 3
 _EVENTS: Final[Mapping[str, str]] = {
-    "Adjusted": "goal that was moved",
+    "Adjusted": "shifted goal",
     "CameraBusy": "wait for the camera",
     "CameraStarted": "camera's mechanism",
     "ErrorRaised": "error",
     "ErrorTested": "test of an error",
-    "GuardFaint": "guard that is hard to feel",
+    "GuardFaint": "weak guard",
     "GuardTripped": "stop",
-    "HandTold": "hand's place",
+    "HandTold": "place of the hand",
     "OperatorAnswered": "operator's answer",
     "OperatorCalled": "call of the operator",
     "PartInspected": "part inspected",

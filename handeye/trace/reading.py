@@ -46,11 +46,11 @@ def read_trace_as(kind: type[AnyTrace], path: Path, *, lenient: bool = False) ->
     except DamagedTrace as error:
         raise BadFile(f"{path} {error}") from None
     except msgspec.DecodeError as error:
-        raise BadFile(f"{path}: event {len(events) + 1} cannot be understood: {error}") from None
+        raise BadFile(f"{path}: event {len(events) + 1} cannot be read: {error}") from None
     if not events or not isinstance(events[0], RunStarted):
         raise BadFile(f"{path} is a trace without the start of a run")
     if not is_plan_of(events[0], plan):
-        raise BadFile(f"the plan in {path} is not the one that was carried out")
+        raise BadFile(f"the plan in {path} is not the plan of this run")
     return kind(
         name=str(path),
         version=version,
@@ -75,12 +75,14 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
         raise BadFile(f"{path} is not a trace: it is not an MCAP file")
     start = front(data)
     if start.metadata.get("format") != FORMAT:
-        raise BadFile(f"{path} is not a trace of this program: it does not say “{FORMAT}”")
+        raise BadFile(f"{path} is not a trace of this program: it lacks “{FORMAT}”")
     version = start.metadata.get("version", "")
     if not re.fullmatch(r"[1-9][0-9]{0,8}", version):
-        raise BadFile(f"{path} does not say which version of the trace format it has")
+        raise BadFile(f"{path} does not state its version of the trace format")
     if int(version) != VERSION:
-        raise BadFile(f"{path} has trace format version {version}; this handeye reads version {VERSION}")
+        raise BadFile(
+            f"{path} has trace format version {version}; this version of handeye reads version {VERSION}"
+        )
     if start.plan is None:
         raise DamagedTrace("has no plan in it")
     return start.plan, int(version), THINNED in start.metadata

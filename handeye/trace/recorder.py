@@ -177,7 +177,7 @@ class Recorder:
             file.move(part(self._path))
         except (DecodeError, KeyError, ValueError):  # frames or channels that there are not in this scene
             self._abandon(file)
-            raise CannotWrite(f"the trace at {self._path} is of another scene; move it away") from None
+            raise CannotWrite(f"the trace at {self._path} is of another scene; move it elsewhere") from None
         except BaseException:
             self._abandon(file)
             raise

@@ -68,7 +68,7 @@ def read_motion(messages: Iterable[RawMessage]) -> Motion:
         joints = JointStates.FromString(message.data).joints
         names = names or [joint.name for joint in joints]
         if [joint.name for joint in joints] != names:
-            raise ValueError("the joints are those of another arm")
+            raise ValueError("the joints belong to another arm")
         times.append(message.time / 1e9)
         rows.append([(joint.position, joint.velocity, joint.effort) for joint in joints])
     names = names or [GAP]

@@ -62,7 +62,7 @@ _CHOICES: Final = {
 
 
 _ASKING: Final[dict[happened.AskedBy, str]] = {
-    "person": "the arm is told to undo",
+    "person": "the arm is asked to undo",
     "program": "the program has the arm undo",
     "job": "the job has the arm undo",
 }
@@ -130,7 +130,7 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
         case happened.ErrorTested():
             return f"error {event.number} {'occurred' if event.occurred else 'did not occur'}"
         case happened.SearchAdvanced():
-            return f"the search goes to place {event.count + 1}, {inches(event.offset)} from the first"
+            return f"the search tries place {event.count + 1}, {inches(event.offset)} from the first"
         case happened.Saved():
             return f"{event.name} is {inches(event.difference, 3)}"
         case happened.HandTold():
@@ -154,7 +154,7 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
         case happened.OperatorCalled():
             number = "" if event.error is None else f" (error {event.error})"
             called = call_sentence(event.message, event.error, event.cause)
-            return f"brakes set, the operator is called: {called}{number}"
+            return f"brakes set, operator called: {called}{number}"
         case happened.OperatorAnswered():
             return f"the operator chooses {_CHOICES[event.choice]}"
         case happened.ExperimentMade():
@@ -165,18 +165,16 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
         case happened.PanicStopped():
             return "panic button: drives off, brakes set"
         case happened.UndoOrdered():
-            but = f", but for the first {counted(event.left, 'step')}" if event.left else ""
+            but = f", except for the first {counted(event.left, 'step')}" if event.left else ""
             return f"{_ASKING[event.asked_by]} what it did{but}"
         case happened.StageUndone():
             return f"stage “{event.stage}” undone"
         case happened.UndoEnded():
-            return "undone as far as was asked for"
+            return "undone as far as requested"
         case happened.WentBack():
-            return f"back to event {event.events}: the events after it are undone"
+            return f"back to event {event.events}: later events are dropped"
         case happened.RunFinished():
-            return (
-                "the program came to its end" if event.completed else "the run ended before the program did"
-            )
+            return "the program finished" if event.completed else "the run ended before the program did"
         case SystemEvent():
             return event.sentence(measures)
     raise AssertionError(event)

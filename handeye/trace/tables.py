@@ -51,7 +51,7 @@ def _joints(trace: Trace) -> Table:
         for what, values in (("position", motion.joints), ("rate", motion.rates), ("torque", motion.efforts))
     ]
     gap = Column(name="gap", about="opening of the fingers by the sensor", unit="m", values=motion.gaps)
-    about = "What the sensors told at the end of each servo period, and what was put out in it."
+    about = "What the sensors measured at the end of each servo period, and the commands of that period."
     if trace.thinned:
         about += " The trace is thinned: it holds some of the periods, not all."
     return Table(name="joints", about=about, columns=(*_under_way(trace, motion.times), *columns, gap))
@@ -67,9 +67,14 @@ def _forces(trace: Trace) -> Table:
     forces = trace.forces()
     rows = forces.estimated | (forces.guard != "")
     vectors = (
-        ("force", "force of the hand on the world", "N", forces.force),
-        ("moment", "moment of the hand on the world about its tool centre point", "N m", forces.moment),
-        ("axis", "unit vector along or about which the guard looks", "", forces.axis),
+        ("force", "force of the hand on its surroundings", "N", forces.force),
+        (
+            "moment",
+            "moment of the hand on its surroundings about its tool centre point",
+            "N m",
+            forces.moment,
+        ),
+        ("axis", "unit vector along or about which the guard measures", "", forces.axis),
     )
     columns = [
         Column(name=f"{name}_{axis}", about=f"{about}, {axis}", unit=unit, values=values[rows, number])
@@ -78,17 +83,17 @@ def _forces(trace: Trace) -> Table:
     ]
     guard = tuple(map(str, forces.guard[rows]))
     columns += [
+        Column(name="guard", about="kind of the active guard, the first if there are several", values=guard),
         Column(
-            name="guard", about="kind of the guard that watches, the first if there are several", values=guard
+            name="value",
+            about="what the guard measures: N, N m, or finger switches",
+            values=forces.value[rows],
         ),
-        Column(name="value", about="what it looks at: N, N m, or finger switches", values=forces.value[rows]),
-        Column(name="limit", about="what it allows of that", values=forces.limit[rows]),
+        Column(name="limit", about="its limit", values=forces.limit[rows]),
     ]
     task = known_any(trace.head.task)
     axes = AnyTask.force_axes if task is None else task.force_axes
-    about = (
-        f"What the hand felt, in the servo periods in which that was estimated or a guard watched; {axes}."
-    )
+    about = f"What the hand felt, in the servo periods with an estimate or an active guard; {axes}."
     return Table(name="forces", about=about, columns=(*_under_way(trace, forces.times[rows]), *columns))
 
 
@@ -100,7 +105,7 @@ def _channels(trace: Trace) -> Table:
         values[np.searchsorted(times, channel.times)] = channel.values
         about = f"channel {channel.name}"
         columns.append(Column(name=channel.name, about=about, unit=channel.unit, values=values))
-    about = "What machines sensed on channels of their own at the end of each servo period."
+    about = "What machines measured on channels of their own at the end of each servo period."
     return Table(name="channels", about=about, columns=(*_under_way(trace, times), *columns))
 
 
@@ -114,7 +119,11 @@ def _events(trace: Trace) -> Table:
         Column(
             name="said", about="the event in a sentence", values=tuple(sentence(e, measures) for e in events)
         ),
-        Column(name="data", about="all of it, as JSON", values=tuple(event_data(e).decode() for e in events)),
+        Column(
+            name="data",
+            about="the whole event, as JSON",
+            values=tuple(event_data(e).decode() for e in events),
+        ),
     )
     return Table(name="events", about="Everything that happened and was not undone.", columns=columns)
 
@@ -164,10 +173,10 @@ def _places(happening: Iterable[_RunPosition]) -> tuple[Column, ...]:
     lines = np.array([NO_STEP if at.step is None else at.step.line for at in each], dtype=np.int64)
     files = tuple("" if at.step is None else at.step.file for at in each)
     return (
-        Column(name="stage", about="the stage under way", values=tuple(at.stage for at in each)),
-        Column(name="step", about=f"number of the step under way; {NO_STEP}: none", values=steps),
-        Column(name="file", about="the required file that it is in; empty: the script itself", values=files),
-        Column(name="line", about=f"its line there; {NO_STEP}: none", values=lines),
+        Column(name="stage", about="the current stage", values=tuple(at.stage for at in each)),
+        Column(name="step", about=f"number of the current step; {NO_STEP}: none", values=steps),
+        Column(name="file", about="the required file of the step; empty: the script itself", values=files),
+        Column(name="line", about=f"its line in that file; {NO_STEP}: none", values=lines),
     )
 
 
@@ -204,7 +213,7 @@ def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _
     check_folder(path, EXPORT, overwrite=True)
     written = _WRITERS[kind]
     files = {f"{table.name}.{kind}": written(table) for table in made}
-    lines = [_BEGINS, f"{units}; a cell without a figure is empty.", *_told(made, kind), ""]
+    lines = [_BEGINS, f"{units}; an empty cell has no figure.", *_told(made, kind), ""]
     write_folder(path, {README: "\n".join(lines).encode(), **files})
 
 

@@ -83,12 +83,12 @@ def write_thinned(trace: Trace, path: Path) -> int:
     """Write a thinned trace of a run; the number of servo periods that it keeps.
 
     Left out are joints, hand and frames of the other periods, and the looks of the bodies, which other programs show.
-    Frames are rounded. All else is as it was, to the byte. Raises Refused if it is thinned already or holds no motion.
+    Frames are rounded. All else is as it was, to the byte. Raises Refused if it is already thinned or holds no motion.
     """
     if trace.thinned:
-        raise Refused(f"{trace.name} is thinned already")
+        raise Refused(f"{trace.name} is already thinned")
     if not len(trace.times):
-        raise Refused(f"{trace.name} holds no motion to be thinned")
+        raise Refused(f"{trace.name} holds no motion to thin")
     kept = kept_periods(trace)
     file = GrowingFile(path.with_name(f".{path.name}.new"))
     try:

@@ -126,7 +126,7 @@ class Trace:
             return self._forces
         spans = [step.span for step in done_steps(self.events) if step.started.place == str(line)]
         if not spans:
-            said = f"line {line} of {self.head.program} was not carried out in {self.name}"
+            said = f"line {line} of {self.head.program} did not run in {self.name}"
             raise BadArgument(f"{said}{self._line_below(str(line))}")
         return self._forces.within(spans)
 
@@ -138,7 +138,7 @@ class Trace:
         if not below:
             return ""
         nearest = min(below, key=lambda step: step.line)
-        return f"; the next line that was is {nearest.place}: {one_line(nearest.text)}"
+        return f"; the next line that did is {nearest.place}: {one_line(nearest.text)}"
 
     @cached_property
     def channels(self) -> tuple[ChannelCurve, ...]:
@@ -264,7 +264,7 @@ class Trace:
             InvalidInput: nothing was recorded between the events.
         """
         if not len(self.times):
-            raise Refused(f"{self.name} holds no motion to be shown")
+            raise Refused(f"{self.name} holds no motion to show")
         return self.begins, max(float(self.times[-1]), self.events[-1].time)
 
     def _read(self, make: Callable[[Iterator[RawMessage]], Read]) -> Read:
@@ -281,4 +281,4 @@ class Trace:
             return make(hand_out())
         except (DecodeError, msgspec.DecodeError, KeyError, ValueError):
             what = " and ".join(f"{m.topic} at {m.time / 1e9:.3f} s" for m in handed)
-            raise BadFile(f"{self.name}: the message on {what} cannot be understood") from None
+            raise BadFile(f"{self.name}: the message on {what} cannot be read") from None

@@ -52,9 +52,9 @@ def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[PairedBatch,
     first_head = batches[0][0]
     for name, (head, _) in zip(names, batches, strict=True):
         if head.kind != first_head.kind:
-            raise Refused(f"{name} holds trials of another kind: {head.kind}, and not {first_head.kind}")
+            raise Refused(f"{name} holds trials of another kind: {head.kind}, not {first_head.kind}")
         if head.world.drawing != first_head.world.drawing:
-            raise Refused(f"{name} was carried out by another version, whose seeds were other worlds")
+            raise Refused(f"{name} comes from another version, whose seeds give other worlds")
     first, *others = (_trials(head, rows) for head, rows in batches)
     return tuple(beside(name, first, other) for name, other in zip(names[1:], others, strict=True))
 
@@ -74,7 +74,9 @@ def beside(name: str, first: Mapping[Key, PairedTrial], other: Mapping[Key, Pair
     """A batch beside another; raises InvalidInput if they have no trial in common."""
     pairs = [(first[key], this) for key, this in other.items() if key in first]
     if not pairs:
-        raise Refused(f"{name} has no seed in common with the first batch; they are compared pair by pair")
+        raise Refused(
+            f"{name} has no seed in common with the first batch, but a comparison needs pairs of trials"
+        )
     right = [(one.standing == "right", this.standing == "right") for one, this in pairs]
     only_first, only_this = right.count((True, False)), right.count((False, True))
     ended = [this for _, this in pairs if not this.broken_off]

@@ -46,7 +46,9 @@ def _answers(
 def _tried(work: GuardedWork[Any], code: str, case: Case) -> list[Any]:
     """Carry out a case on a worker; raises InvalidInput if that has another handeye."""
     if code_digest() != code:
-        raise Refused("a worker has another handeye than this computer; install the same on all")
+        raise Refused(
+            "a worker has another version of handeye than this computer; install the same version on all"
+        )
     return work(case)
 
 
@@ -59,7 +61,7 @@ def _client(count: int, scheduler: str | None) -> Iterator[Any]:
         try:
             client = Client(address, timeout="10s", set_as_default=False)
         except (OSError, ValueError, TimeoutError):
-            raise Refused(f"no scheduler of dask answers at {address}") from None
+            raise Refused(f"no dask scheduler answers at {address}") from None
         yield closing.enter_context(client)
 
 

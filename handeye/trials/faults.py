@@ -36,7 +36,8 @@ UNDETECTED: tuple[Outcome, ...] = ("unnoticed", "unbraked", "silent")
 
 PANIC: Final = FaultKind(
     name="panic",
-    meaning="Somebody hits the panic button while the arm moves. A run is given it by Ctrl-C, and not by --fault.",
+    meaning="A person presses the panic button while the arm moves. In a run, press Ctrl-C; --fault does not accept "
+    "it.",
     usual_stage=4,
     expected=ExpectedDetection(calls=("stopped by the panic button; the brakes are set",)),
 )
@@ -233,7 +234,7 @@ FAULTS: Final = Sweep(
         "recovered": "right", "stopped": "right", "misnamed": "wrong",
         "unnoticed": "silent", "unbraked": "silent", "silent": "silent",
     },
-    success="recovered from or stopped by their names",
+    success="recovered from, or stopped with the right name",
     noun="fault",
     sentence=_sentence,
     summary=_summary,

@@ -40,7 +40,7 @@ def sweep_of(kind: str) -> Sweep[Any]:
         )
     found = loaded(places[name])
     if not isinstance(found, Sweep):
-        raise BadArgument(f"{places[name]} is {found!r}, which is no Sweep")
+        raise BadArgument(f"{places[name]} is {found!r}, which is not a Sweep")
     return found
 
 
@@ -154,7 +154,7 @@ def read_batch(path: Path) -> tuple[Head, tuple[Any, ...]]:
     check_exists(path)
     file = path / TRIALS
     if not file.is_file():
-        raise BadFile(f"{path} holds no batch of trials: {quoted(TRIALS)} is not in it")
+        raise BadFile(f"{path} holds no batch of trials: it has no {quoted(TRIALS)}")
     first, *lines = read_whole(file).split(b"\n")[:-1] or [b""]  # a line that was cut short has no end
     head = _decoded(first, Head, file, 1)
     return head, _rows(file, head, sweep_of(head.kind), lines)
@@ -164,7 +164,9 @@ def _rows(file: Path, head: Head, sweep: Sweep[R], lines: list[bytes]) -> tuple[
     rows = [_decoded(line, sweep.row, file, number) for number, line in enumerate(lines, 2)]
     for number, row in enumerate(rows, 2):
         if not sweep.shared_worlds and row.seed != head.seed_of(row.trial):
-            raise BadFile(f"{file}, line {number}, has the seed {row.seed}, which trial {row.trial} has not")
+            raise BadFile(
+                f"{file}, line {number}, has the seed {row.seed}, which is not that of trial {row.trial}"
+            )
     return tuple(sorted({row.key: row for row in rows}.values(), key=lambda row: row.key))
 
 
@@ -172,7 +174,7 @@ def _decoded(line: bytes, kind: type[T], file: Path, number: int) -> T:
     try:
         return msgspec.json.decode(line, type=kind)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise BadFile(f"{file}, line {number}, is of no batch that this handeye reads: {error}") from None
+        raise BadFile(f"{file}, line {number}, cannot be read by this version of handeye: {error}") from None
 
 
 def _same_batch(path: Path, sweep: Sweep[R], head: Head, plan: Plan | None) -> tuple[R, ...]:
@@ -208,5 +210,5 @@ def _check(path: Path, sweep: Sweep[Any], head: Head, plan: Plan | None, *, anew
     others = sorted(place.name for place in path.iterdir())
     if others:
         raise CannotWrite(
-            f"{path} holds other things ({quoted(others[0])}); choose a new folder, or an empty one"
+            f"{path} holds other files ({quoted(others[0])}); choose a new folder, or an empty one"
         )

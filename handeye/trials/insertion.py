@@ -306,8 +306,8 @@ INSERTION: Final = Sweep(
     noun="insertion",
     details=_details,
     summary=lambda _: [
-        "Holes: clearance in diameter, chamfer, sigma of the place along each axis. Peak: force between pin and plate, "
-        "true at each physics step; felt: by the hand. Times are simulated."
+        "Holes: clearance in diameter, chamfer, standard deviation of the position along each axis. Peak: true force "
+        "between pin and plate at any physics step; felt: as measured by the hand. Times are simulated."
     ],
     shared_worlds=True,
 )

@@ -54,7 +54,7 @@ def _rates(found: Figures) -> Iterator[Markup]:
              *map(figure_cell, sure(each.wilson95, each.p_s))]
             for name, each in every
         ],
-        label="Success with its intervals",
+        label="Success rate with confidence intervals",
     )  # fmt: skip
     yield note(
         "Wilson’s intervals, 95 %; “at least” is the exact one-sided bound. A silent failure is a trial that the "

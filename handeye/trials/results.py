@@ -70,9 +70,9 @@ class Results(Sequence[Result]):
         findings = {name: each for result in self.each for name, each in result.referee.items()}
         columns = (
             Column(name="seed", about="of the world", values=np.array([each.seed for each in self.each])),
-            _words("world", "what it was drawn by", (str(each.world) for each in self.each)),
+            _words("world", "how it was generated", (str(each.world) for each in self.each)),
             _words("verdict", "assembled, stopped or not right", (_verdict(each)[0] for each in self.each)),
-            _words("why", "what is the matter with it", map(why, self.each)),
+            _words("why", "what is wrong", map(why, self.each)),
             _seconds("working", (each.timing.working_s for each in self.each)),
             _seconds("lens", (each.timing.lens_s for each in self.each)),
             *(_found(name, check, self.each) for name, check in findings.items()),
@@ -117,7 +117,7 @@ def assemble_each(
     [(0, True), (1, True)]
     """
     if isinstance(worlds, str) or not isinstance(worlds, Iterable):
-        raise BadArgument(f"worlds are seeds or worlds one after the other, not {worlds!r}")
+        raise BadArgument(f"worlds must be a sequence of seeds or worlds, not {worlds!r}")
     specs = [_spec(world) for world in worlds]
     record = plan(default_script() if script is None else script, taught=taught).record
     parts, own_referee, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
@@ -125,7 +125,7 @@ def assemble_each(
         trial = partial(run_plan, record, camera=camera, limits=limits, parts=parts, own_referee=own_referee)
         return Results(Several(trial(world=spec).result for spec in specs))
     if search is not None or own_referee is not None:
-        raise BadArgument("code in the place of a part takes one process: leave jobs=... out")
+        raise BadArgument("code that replaces a part needs one process: leave out jobs=...")
     found = list(in_processes(partial(_result, record, camera, limits), specs, jobs))
     return Results(Several(sorted(found, key=lambda result: specs.index(result.world))))
 

@@ -41,7 +41,7 @@ class SoundRun:
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
             raise Refused(
-                f"a schedule cannot begin with {counted(position, 'step')} done: there is no such state"
+                f"a schedule cannot begin with {counted(position, 'step')} done: that state does not exist"
             )
         return found
 

@@ -37,9 +37,9 @@ _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
 """Ends that a trial need not come to again: they are this computer's, not the program's."""
 _BROKEN_OFF: Final[Mapping[str, str]] = {
     "killed": "its process was killed twice",
-    "simulated limit": "over the limit of simulated time",
-    "processor limit": "over the limit of processor time",
-    "wall limit": "over the limit of wall time",
+    "simulated limit": "reached the limit of simulated time",
+    "processor limit": "reached the limit of CPU time",
+    "wall limit": "reached the limit of wall-clock time",
 }
 
 

@@ -33,7 +33,7 @@ def trials(sweep: Sweep[R], rows: Sequence[R], camera: str = "") -> Table:
     columns = [
         column("trial", "number of the trial", [row.trial for row in rows]),
         column("seed", "of its world", [row.seed for row in rows]),
-        column("condition", "what was tried", [row.condition for row in rows]),
+        column("condition", "condition of the trial", [row.condition for row in rows]),
         column("verdict", ", ".join(sweep.outcomes), [row.verdict for row in rows]),
         column(
             "stage",
@@ -52,9 +52,9 @@ def trials(sweep: Sweep[R], rows: Sequence[R], camera: str = "") -> Table:
         values = [each.get(name, np.nan) for each in known]
         columns.append(column(words or name, "measured", values, unit if words else ""))
     if camera:
-        columns.append(column("camera", "how pictures were made", [camera] * len(rows)))
-    columns.append(column("cpu", "of the host", [row.cpu_s for row in rows], "s"))
-    return Table(name="trials", about="A row a trial.", columns=tuple(columns))
+        columns.append(column("camera", "renderer", [camera] * len(rows)))
+    columns.append(column("cpu", "computing time", [row.cpu_s for row in rows], "s"))
+    return Table(name="trials", about="One row per trial.", columns=tuple(columns))
 
 
 def _of_records(name: str, about: str, records: Sequence[Record]) -> Table:

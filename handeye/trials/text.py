@@ -110,12 +110,12 @@ def verdict(sweep: Sweep[R], found: Figures) -> str:
     counts = [
         f"{found.silent_failures} silent failures",
         *(f"{found.outcomes.get(name, 0)} {name}" for name in wrong),
-        f"{found.failed} broken off",
+        f"{found.failed} stopped",
     ]
     text = f"{found.right} of {found.n} {sweep.success}, {', '.join(counts)}"
     if found.uncounted:
         names = [name for name, standing in sweep.outcomes.items() if standing == "uncounted"]
-        text += f"\n{' or '.join(names)}, and not counted: {found.uncounted}"
+        text += f"\n{' or '.join(names)}, not counted: {found.uncounted}"
     interval, least = sure(found.wilson95, found.p_s)
     return (
         f"{text}\n{sweep.success}: {interval} (Wilson, 95 %), at least {least} (exact, 95 %)"
@@ -133,7 +133,7 @@ def _place(stage: str, line: str | None = None) -> str:
 def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
     """Batches beside the first one: how often they are right, and what differs where both are."""
     rates = PlainTable(
-        (f"beside {first}",),
+        (f"compared with {first}",),
         "right",
         "first",
         "only\nfirst",
@@ -143,7 +143,7 @@ def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
         "silent",
         "broken\noff",
     )
-    measures = PlainTable(("where both are right", "measure"), "pairs", "more", "p")
+    measures = PlainTable(("trials that succeeded in both", "measure"), "pairs", "more", "p")
     for each in found:
         counts = each.first_right, each.only_first, each.only_this
         rates.row(each.name, f"{each.right} of {each.pairs}", *map(str, counts), f"{each.p:.2g}",
@@ -167,4 +167,4 @@ def told_so_far(sweep: Sweep[R], rows: Sequence[R]) -> str:
 
 def kept(rows: int, out: object) -> str:
     """The sentence on a batch that is broken off."""
-    return f"{counted(rows, 'trial')} kept in {out}; the same command goes on from there"
+    return f"{counted(rows, 'trial')} kept in {out}; the same command continues from there"

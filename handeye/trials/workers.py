@@ -124,8 +124,8 @@ def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) 
             raise answer.error
         if answer.value is None:
             raise WorkerLost(
-                f"the process of a trial was killed {counted(answer.killed, 'time')}, as it is where memory is short: "
-                "try fewer at a time"
+                f"the process of a trial was killed {counted(answer.killed, 'time')}, probably for lack of memory: "
+                f"run fewer at a time"
             )
         yield answer.value
 

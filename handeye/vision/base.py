@@ -171,7 +171,7 @@ def locate_specific(
 ) -> SpecificLocation | Failure:
     """Find a part's two largest holes in a close picture, and from them its pose; the part must have two holes."""
     if len(part.holes) < 2:
-        raise BadArgument("a part can be located only by two holes; the program gives fewer")
+        raise BadArgument("locating a part needs two holes; the program gives fewer")
     scan = Scan(picture)
     box = close_box(view, general)
     if box is None:

@@ -74,7 +74,7 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
                 f"at least {MIN_SIGHTINGS} are needed"
             )
     if not used:
-        raise BadArgument("no sightings to calibrate the camera with")
+        raise BadArgument("there are no sightings to calibrate the camera with")
     start = np.zeros(6 + 3 * len(drawing.lenses))
 
     def residuals(x: Array) -> Array:

@@ -50,15 +50,15 @@ def beams(
     from_where, ways = _points(starts, "starts"), _points(directions, "directions")
     if from_where.shape != ways.shape:
         raise BadArgument(
-            f"each beam needs a start and a direction: {len(from_where)} and {len(ways)} are given"
+            f"each beam needs a start and a direction, but there are {len(from_where)} and {len(ways)}"
         )
     if len(ways) and np.abs(np.linalg.norm(ways, axis=1) - 1).max() > _UNIT:
         raise BadArgument("the directions of beams are unit vectors (du, dv)")
     _settings(polarity, step, beyond)
-    lengths = numbers(reach, "the reach of a beam is a number of points")
+    lengths = numbers(reach, "the reach of a beam is a number of pixels")
     if lengths.shape not in ((), (len(ways),)) or (lengths < 0).any():
         raise BadArgument(
-            f"the reach of a beam is a number of points, for all or for each of {counted(len(ways), 'beam')}"
+            f"the reach of a beam is a number of pixels, for all or for each of {counted(len(ways), 'beam')}"
         )
     return beam.beams(
         scan, from_where, ways, polarity, float(step), lengths, wide=bool(wide), beyond=float(beyond)
@@ -91,9 +91,11 @@ def localise(
     corners = quadrilateral(window)
     _settings(BRIGHTER, step, 0.0)
     if not callable(fits):
-        raise BadArgument(f"`fits` is asked about a box, and must be a function, not {_kind(fits)}")
+        raise BadArgument(f"`fits` must be a function of a box, not {_kind(fits)}")
     if isinstance(tries, bool) or not isinstance(tries, int | np.integer) or tries < 1:
-        raise BadArgument(f"the number of boxes to grow is a whole number from 1 on, not {tries!r:.40}")
+        raise BadArgument(
+            f"the number of boxes to grow must be a whole number of 1 or more, not {tries!r:.40}"
+        )
     with scan.within(corners):
         return blob.localise(scan, corners, float(step), fits, int(tries))
 
@@ -128,11 +130,11 @@ def characterise(
     _scan(scan)
     place = places(seed, "the seed is a place (u, v)")
     if place.shape != (2,):
-        raise BadArgument(f"the seed is a place (u, v), and what is given has shape {place.shape}")
+        raise BadArgument(f"the seed is a place (u, v), but the given one has shape {place.shape}")
     _settings(polarity, step, beyond)
-    length = _number(reach, "the reach of a beam is a number of points")
+    length = _number(reach, "the reach of a beam is a number of pixels")
     if length <= 0:
-        raise BadArgument(f"the reach of a beam is a number of points above 0, not {length:g}")
+        raise BadArgument(f"the reach of a beam is a number of pixels above 0, not {length:g}")
     u, v = place.tolist()
     return characteriser.characterise(
         scan, (u, v), float(step), length, polarity=polarity, wide=bool(wide), beyond=float(beyond)
@@ -161,7 +163,7 @@ def _settings(polarity: object, step: object, beyond: object) -> None:
 def _number(given: object, said: str) -> float:
     found = numbers(given, said)
     if found.shape:
-        raise BadArgument(f"{said}, and what is given has shape {found.shape}")
+        raise BadArgument(f"{said}, but the given one has shape {found.shape}")
     return float(found)
 
 

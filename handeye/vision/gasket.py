@@ -82,7 +82,7 @@ def inspect(
     The second is aligned with the first by what has not changed. The part must have two holes.
     """
     if len(part.holes) < 2:
-        raise BadArgument("a gasket can be inspected only by two holes; the program gives fewer of the part")
+        raise BadArgument("the inspection of a gasket needs two holes; the program gives fewer for the part")
     new, old = Scan(difference(before, after)), Scan(before)
     places = _as_seen(old, view, part, hole_places(part, pose)[:2])
     expected = tuple((float(u), float(v)) for u, v in view.project(places))

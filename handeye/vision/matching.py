@@ -42,9 +42,7 @@ def match(
     Both must be taken with one aim, one target voltage and the arm in one place. The part must have an outline.
     """
     if part.outline is None:
-        raise BadArgument(
-            "pictures of a part can be matched only by its outline; the program does not give it"
-        )
+        raise BadArgument("matching pictures of a part needs its outline, which the program does not give")
     x, y, yaw = pose
     (corners,) = silhouettes(view, part, (x, y), np.array([yaw - part.at[3]]))
     hull = cv2.convexHull(corners.astype(np.float32))[:, 0]

@@ -32,7 +32,7 @@ def places(given: object, said: str) -> Array:
     """Finite numbers that can be places in a picture, points; raises BadArgument."""
     found = numbers(given, said)
     if (np.abs(found) > _FARTHEST).any():
-        raise BadArgument(f"{said}, in no picture farther out than {_FARTHEST:g} points")
+        raise BadArgument(f"{said}, at most {_FARTHEST:g} pixels from the picture")
     return found
 
 
@@ -41,13 +41,13 @@ def quadrilateral(given: object) -> Array:
     said = "a window has four corners (u, v) in order, shape (4, 2)"
     found = places(given, said)
     if found.shape != (4, 2):
-        raise BadArgument(f"{said}; what is given has shape {found.shape}")
+        raise BadArgument(f"{said}; the given ones have shape {found.shape}")
     (du, dv), (eu, ev) = (np.roll(found, -k, axis=0).T - np.roll(found, 1 - k, axis=0).T for k in (1, 2))
     turns = du * ev - dv * eu
     if not ((turns > 0).all() or (turns < 0).all()):
         corners = ", ".join(f"({u:g}, {v:g})" for u, v in found.tolist())
         raise BadArgument(
-            f"the corners of a window go around a convex quadrilateral in order, and {corners} do not"
+            f"the corners of a window go around a convex quadrilateral in order; {corners} do not"
         )
     return found
 
@@ -59,16 +59,16 @@ def _intensities(picture: object) -> NDArray[np.float32]:
             f"a picture is an array of intensities, shape (rows, columns), not {type(picture).__name__}"
         )
     if picture.ndim != 2 or not picture.size:
-        hint = "; make it one of grey levels" if picture.ndim == 3 else ""
+        hint = "; convert it to grey levels" if picture.ndim == 3 else ""
         raise BadArgument(
-            f"a picture has a row and a column of points, and this one has shape {picture.shape}{hint}"
+            f"a picture has rows and columns of pixels, but this one has shape {picture.shape}{hint}"
         )
     if picture.dtype.kind not in "buif":
-        raise BadArgument(f"the points of a picture are numbers, not of type {picture.dtype}")
+        raise BadArgument(f"the pixels of a picture are numbers, not of type {picture.dtype}")
     with np.errstate(over="ignore"):
         found: NDArray[np.float32] = np.asarray(picture).astype(np.float32)
     if not np.isfinite(found).all():
-        raise BadArgument("a picture has points that are no finite numbers")
+        raise BadArgument("a picture has pixels that are not finite numbers")
     return found
 
 

@@ -199,7 +199,7 @@ def test_counter_nothing_sets_is_reported_with_the_nearest_name() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "note"), [("X", "`X` is an axis of the table"), ("NIL", "`NIL` stands for no vector")]
+    ("name", "note"), [("X", "`X` is an axis of the table"), ("NIL", "`NIL` is not a vector")]
 )
 def test_vector_that_is_there_already_cannot_be_written_again(name: str, note: str) -> None:
     diagnostic = diagnose(f"VECT {name} [0 1 0]\nCHANGE {name} 1")[0]

@@ -38,7 +38,7 @@ def test_what_is_ours_in_a_required_file_is_found() -> None:
         ("CHANGE [0 0 1] 1 .5", "`speed` of `CHANGE` is ours", ".5"),
         ("CLOSE .1 .2", "`maximum` of `CLOSE` is ours", ".2"),
         ("TRANS A [1 2 3 0 0 0] OF BASE", "`OF part` of `TRANS` is ours", "BASE"),
-        ("STOP 50\nPARK", "`STOP` with a number is ours", "50"),
+        ("STOP 50\nPARK", "`STOP` with a number is an addition of handeye", "50"),
     ],
 )
 def test_what_is_ours_is_pointed_at(text: str, message: str, at: str) -> None:

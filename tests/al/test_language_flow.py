@@ -89,7 +89,7 @@ def test_macro_without_a_blank_line_is_reported() -> None:
         (
             "DEFINE GRASP S 50",
             "a parameter is a name, not `50`",
-            "a call gives the numbers and vectors; the macro names them",
+            "the macro names its parameters; a call gives the numbers and vectors",
         ),
     ],
 )

@@ -195,11 +195,11 @@ def test_warning_leaves_a_program() -> None:
 @pytest.mark.parametrize(
     ("text", "help"),
     [
-        ("GO", "a script is carried out as a whole"),
-        ("DO PUMP", "a script is carried out as a whole"),
+        ("GO", "a script runs as a whole"),
+        ("DO PUMP", "a script runs as a whole"),
         (
             "do CHANGE [0 0 -1] 1",
-            "a script is carried out as a whole; write the instruction alone: `CHANGE [0 0 -1] 1`",
+            "a script runs as a whole; write only the instruction: `CHANGE [0 0 -1] 1`",
         ),
     ],
 )

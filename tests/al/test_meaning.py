@@ -19,7 +19,7 @@ def codes(text: str) -> list[str]:
 
 def test_a_test_that_only_skips_the_next_one_is_told() -> None:
     (told,) = diagnose("L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK")
-    assert told.message == "with error 2 the program continues as without an error"
+    assert told.message == "the program continues in the same way with and without error 2"
 
 
 @pytest.mark.parametrize(
@@ -50,7 +50,7 @@ BODY = (
 def test_a_body_behind_a_skip_is_told(between: str) -> None:
     (told,) = diagnose(BODY.format(between))
     assert told.code == "skips-one-only"
-    assert [label.text for label in told.secondary] == ["this is carried out in any case"]
+    assert [label.text for label in told.secondary] == ["this line runs in any case"]
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def test_a_label_before_the_skip_makes_no_difference() -> None:
 
 def test_a_blank_line_within_a_macro_is_told() -> None:
     (told,) = diagnose("DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\nMOVE T\nDOWN\nPARK")
-    assert told.message == "macro `DOWN` ends with `STOP`, and its motion is outside"
+    assert told.message == "macro `DOWN` ends with `STOP`, but its motion is outside the macro"
 
 
 @pytest.mark.parametrize("behind", ["; the work\nTURN T 9", "MOVE T", "OPEN 1", 'STAGE "the work"'])
@@ -151,7 +151,7 @@ def test_a_comparison_with_a_picture_taken_as_the_camera_saw_fit_is_told() -> No
     (told,) = diagnose("LOOK A\nLOOK B\nINSPECT BASE A B")
     assert (told.code, told.help) == (
         "compared-without-hold",
-        "`LOOK B HOLD` keeps that of the earlier picture",
+        "`LOOK B HOLD` keeps the voltage of the earlier picture",
     )
     assert diagnose("LOOK A\nLOOK B HOLD\nINSPECT BASE A B") == []
 
@@ -172,14 +172,14 @@ def test_a_jump_back_over_an_unused_label_is_one_mistake() -> None:
     told = diagnose(text)
     assert [d.code for d in told if d.code != "endless-loop"] == ["search-begun-anew"]
     (begun,) = (d for d in told if d.code == "search-begun-anew")
-    assert [label.text for label in begun.secondary] == ["this starts anew", "nothing jumps here"]
+    assert [label.text for label in begun.secondary] == ["this starts again", "nothing jumps here"]
 
 
 def test_a_position_that_only_a_comment_goes_to_is_seen_there() -> None:
     (told,) = diagnose("TRANS ROD [24 36 3 90 90 0]\nOPEN 1 ; MOVE ROD\nPARK")
     assert (told.code, told.help) == (
         "unused-position",
-        "on line 2 it is in a comment, after a `;`",
+        "line 2 has it in a comment, after a `;`",
     )
 
 

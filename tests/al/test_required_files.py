@@ -50,7 +50,7 @@ def test_lines_of_a_required_file_stand_where_it_is_required(file: str) -> None:
 
 
 def test_a_path_with_backslashes_is_told_what_divides_folders() -> None:
-    assert "help: folders are divided by `/`: `lib/a.al`" in shown("REQUIRE lib\\a.al", {"lib/a.al": "PARK"})
+    assert "help: separate folders with `/`: `lib/a.al`" in shown("REQUIRE lib\\a.al", {"lib/a.al": "PARK"})
 
 
 def test_blanks_in_a_file_s_name_need_no_quotes() -> None:
@@ -146,7 +146,7 @@ def test_a_required_file_may_make_things_for_other_scripts() -> None:
 def test_macro_of_a_required_file_ends_with_the_file() -> None:
     text = shown("REQUIRE a.al\nPARK", {"a.al": "DEFINE DROP\nPARK"})
     assert "plans/a.al:1:8" in text
-    assert "the text ends before the macro" in text
+    assert "the text ends inside the macro" in text
 
 
 def test_a_file_that_is_not_there_is_named_with_the_reason() -> None:
@@ -162,7 +162,10 @@ def test_what_a_missing_file_may_have_made_is_not_told_as_unknown() -> None:
 
 def test_a_text_in_no_file_requires_none() -> None:
     (diagnostic,) = al.compile_text(Source(name="x.al", text="REQUIRE a.al\nPARK"), TAUGHT)[1]
-    assert (diagnostic.code, diagnostic.notes) == ("unreadable-file", ("this text is not in a file",))
+    assert (diagnostic.code, diagnostic.notes) == (
+        "unreadable-file",
+        ("this text has not been saved as a file",),
+    )
 
 
 @pytest.mark.parametrize("own", ["test.al", "./test.al"])

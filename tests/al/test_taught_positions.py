@@ -59,12 +59,12 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
         ("[positions.A]\nat = [1, 2]", r":1: positions\.A: at: 2 entries, and needs 6"),
         (
             "[positions.A]\nat = [1, 2, 3, 0, 0, 0]\nto = 1",
-            r":1: positions\.A: `to` is not a key of it",
+            r":1: positions\.A: `to` is not a known key",
         ),
         ("[positions.A]", r":1: positions\.A: `at` is missing"),
         (
             "[positions.A]\nat = [1, 2, 3, 0, 0, nan]",
-            r":1: positions\.A: at has a number that is not below a million",
+            r":1: positions\.A: at has a number of one million or more",
         ),
         ("[positions.A]\nat = [0,0,0,0,0,0]\nof = 'B'", r":1: positions\.A: there is no part `B`"),
         (
@@ -77,14 +77,14 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
             r":1: parts\.B: the hole at \(0, 0\) has diameter 0",
         ),
         ("[parts.B]\nat = 'here'", r":1: parts\.B: at: a text instead of a list"),
-        ("[place.A]", r": `place` is not a key of it"),
+        ("[place.A]", r": `place` is not a known key"),
         (
             "[fixtures.F]\nboxes = [[0, 0, 0, 1, 1, 0]]",
             r":1: fixtures\.F: the box from \(0, 0, 0\) to \(1, 1, 0\) is empty",
         ),
         (
             "[fixtures.F]\nboxes = [[0, 0, 0, 1, 1, inf]]",
-            r":1: fixtures\.F: boxes has a number that is not below .*",
+            r":1: fixtures\.F: boxes has a number of one million .*",
         ),
         ("[fixtures.F]", r":1: fixtures\.F: `boxes` is missing"),
         (
@@ -109,7 +109,7 @@ def test_mistake_in_a_taught_file_is_named_with_its_key(tmp_path: Path, text: st
 
 def test_a_name_that_stands_twice_is_told_with_its_line(tmp_path: Path) -> None:
     text = "[positions]\nA = {at = [1, 2, 3, 0, 0, 0]}\nA = {at = [1, 2, 3, 0, 0, 0]}\n"
-    with pytest.raises(InvalidInput, match=r"not TOML: a name is used twice \(at line 3, column \d+\)$"):
+    with pytest.raises(InvalidInput, match=r"not TOML: a key appears twice \(at line 3, column \d+\)$"):
         load_taught(write(tmp_path, text))
 
 

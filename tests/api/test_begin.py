@@ -45,15 +45,15 @@ def test_a_run_begins_with_a_stage(stage: str | int) -> None:
 def test_a_stage_is_begun_with_from_the_checkpoint_in_a_folder(folder: Path) -> None:
     before = sorted(folder.rglob("*")), (folder / "trace.mcap").read_bytes()
     run = handeye.begin(folder, at="shut")
-    assert (run.state.position, run.state.why) == (2, "taken up after 2 steps")
-    assert run.until().why == "the program came to its end"
+    assert (run.state.position, run.state.why) == (2, "resumed after 2 steps")
+    assert run.until().why == "the program finished"
     assert (sorted(folder.rglob("*")), (folder / "trace.mcap").read_bytes()) == before
 
 
 def test_a_run_is_taken_up_in_its_world(folder: Path) -> None:
     assert "seed 3" in repr(handeye.begin(folder))
     assert handeye.begin(folder, 3, world=None).result.seed == 3
-    with pytest.raises(InvalidInput, match=r"is in the world of seed 3, not of seed 4$"):
+    with pytest.raises(InvalidInput, match=r"is in the world of seed 3, not that of seed 4$"):
         handeye.begin(folder, 4)
 
 
@@ -62,8 +62,8 @@ def test_a_run_is_taken_up_in_its_world(folder: Path) -> None:
     [
         ({"at": "nix"}, r"^there is no stage `nix`"),
         ({"at": 9}, r"^there is no stage 9; the program has stages 1 to 4$"),
-        ({"at": "never"}, r"^the run never comes to “never” from where it starts$"),
-        ({"at": ["shut"]}, r"^a place is a text or the number of a line, not \['shut'\]$"),
+        ({"at": "never"}, r"^the run never reaches “never” from where it starts$"),
+        ({"at": ["shut"]}, r"^a place must be a text or a line number, not \['shut'\]$"),
         ({"seed": -1}, r"^a seed is a whole number from 0 to 9007199254740991, or 2\^53 - 1; -1 is not$"),
         ({"seed": "3"}, r"^a seed is a whole number from 0 to 9007199254740991, or 2\^53 - 1; '3' is not$"),
         ({"seed": 1.5}, r"^a seed is a whole number from 0 to 9007199254740991, or 2\^53 - 1; 1\.5 is not$"),
@@ -78,8 +78,8 @@ def test_a_run_is_taken_up_in_its_world(folder: Path) -> None:
         ({"world": 3}, r"^a world is a handeye\.World, not 3$"),
         ({"world": {"seed": 3}}, r"^a world is a handeye\.World, not \{'seed': 3\}$"),
         ({"camera": "rya"}, r"^there is no camera `rya`; did you mean `ray`\?$"),
-        ({"task": "water_pmup"}, r"^no task is called `water_pmup`; did you mean `water_pump`\?"),
-        ({"out": 3}, r"^a run is kept in a folder, not 3$"),
+        ({"task": "water_pmup"}, r"^there is no task `water_pmup`; did you mean `water_pump`\?"),
+        ({"out": 3}, r"^out= must be a folder, not 3$"),
     ],
 )
 def test_what_cannot_be_begun_is_told_in_one_sentence(words: dict[str, object], sentence: str) -> None:
@@ -88,7 +88,9 @@ def test_what_cannot_be_begun_is_told_in_one_sentence(words: dict[str, object], 
 
 
 def test_a_run_that_stops_before_its_stage_is_no_run_at_that_stage(tmp_path: Path) -> None:
-    with pytest.raises(InvalidInput, match=r"^the run stopped before “open”: the operator is called: "):
+    with pytest.raises(
+        InvalidInput, match=r"^the run stopped before “open”: the program calls the operator: "
+    ):
         handeye.begin(CALLS, at="open", camera="ray", out=tmp_path / "run")
     assert (tmp_path / "run" / "result.json").is_file()
 
@@ -113,7 +115,7 @@ def test_a_folder_that_was_made_for_nothing_is_gone(tmp_path: Path) -> None:
 @pytest.mark.parametrize("word", ["ask", "retry", "retry:0", "", None])
 def test_nobody_is_there_to_be_asked(word: object) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^on_stop is `abort`, `retry:N` with N from 1 up, or `unwind`; not "
+        InvalidInput, match=r"^on_stop is `abort`, `retry:N` with N of 1 or more, or `unwind`; not "
     ):
         handeye.assemble(script="OPEN 1\n", on_stop=word)
 

@@ -94,8 +94,8 @@ def test_an_ordinary_run_names_no_code(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
-        (None, r"^the run has a search of its own, `.*\.row`, which is code and is kept in no file; "),
-        (column, r"^the run was begun with `.*\.row` as its search; `.*\.column` is another$"),
+        (None, r"^the run has a search of its own, `.*\.row`, which is code and not in a file; "),
+        (column, r"^the run began with `\.\*\.row` as its search, but `\.\*\.column` was given$"),
     ],
 )
 def test_a_run_is_taken_up_with_the_code_it_was_begun_with(
@@ -140,7 +140,7 @@ def test_a_part_may_be_replaced_from_a_checkpoint_on_and_the_run_says_so(tmp_pat
 def test_a_search_that_gives_no_place_is_told_and_its_step_is_not_done(wrong: object) -> None:
     run = handeye.begin(SEARCH, camera="ray", search=lambda place: wrong)
     with pytest.raises(
-        InvalidInput, match=r"^the search `.*<lambda>` must give two numbers for place 1, not "
+        InvalidInput, match=r"^the search `.*<lambda>` must return two numbers for place 1, not "
     ):
         run.until()
     assert run.state.text == "AOJ L"
@@ -150,7 +150,7 @@ def test_a_search_without_a_first_place_is_told() -> None:
     script, taught = "SEARCH .1\nL: MOVE P\nAOJ L\n", "[positions]\nP = { at = [25, 38, 6, 90, 90, 0] }\n"
     run = handeye.begin(script, taught=taught, camera="ray", search=lambda place: None)
     with pytest.raises(
-        InvalidInput, match=r"^the search `.*<lambda>` must give two numbers for place 0, not None$"
+        InvalidInput, match=r"^the search `.*<lambda>` must return two numbers for place 0, not None$"
     ):
         run.until()
 
@@ -192,7 +192,7 @@ def test_pictures_are_those_of_the_camera_that_is_given() -> None:
     ("wrong", "said"),
     [
         (np.zeros((333, 256)), r"of shape \(333, 256\)"),
-        (np.full((256, 333), np.nan), "with some that are not finite"),
+        (np.full((256, 333), np.nan), "with some values that are not finite"),
         ("abc", "'abc'"),
         ([[1], [1, 2]], r"\[\[1\], \[1, 2\]\]"),
     ],
@@ -207,7 +207,7 @@ def test_what_is_no_picture_is_told_in_one_sentence(wrong: object, said: str) ->
 
 def test_a_camera_that_makes_no_pictures_is_told_before_the_run() -> None:
     with pytest.raises(
-        InvalidInput, match=r"^the camera `.*<lambda>` must give an object that has `render`, not 3$"
+        InvalidInput, match=r"^the camera `.*<lambda>` must return an object with a method `render`, not 3$"
     ):
         handeye.begin("OPEN 1\n", camera=lambda model: 3)
 
@@ -266,7 +266,7 @@ def test_the_command_line_judges_by_the_limits_of_a_run(
 ) -> None:
     file = handeye.begin(strict.out).checkpoint(tmp_path / "a.checkpoint")
     assert app(["resume", str(file)], result_action="return_value") == 3
-    assert "limit of floor set by the caller: -9" in capsys.readouterr().out
+    assert "limit of floor set by the calling program: -9" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(("limits", "kept"), [({"floor": 99}, {"floor": 99}), ({}, UNSET)])
@@ -296,14 +296,14 @@ def test_a_referee_of_ones_own_has_the_word() -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ({"search": 3}, r"^a search is called with the number of a place and gives it; not 3$"),
-        ({"camera": 3}, r"^a camera is `auto`, `gl`, `ray`, or is called with a scene; not 3$"),
-        ({"referee": 3}, r"^a referee is called with the truth of a cell, or is a table of limits; not 3$"),
+        ({"search": 3}, r"^a search is a function from the number of a place to the place; not 3$"),
+        ({"camera": 3}, r"^a camera is `auto`, `gl`, `ray`, or a function of a scene; not 3$"),
+        ({"referee": 3}, r"^a referee is a function of the truth of a cell, or a table of limits; not 3$"),
         (
             {"referee": {"screws_clmp": 3}},
             r"^the referee has no finding `screws_clmp`; did you mean `screws_clamp`\?$",
         ),
-        ({"referee": {3: 3}}, r"^limits are given by the names of findings, not by 3$"),
+        ({"referee": {3: 3}}, r"^limits must be given by the names of findings, not by 3$"),
         ({"referee": {"screws_clamp": "x"}}, r"^the limit of screws_clamp must be a number, not 'x'$"),
     ],
 )
@@ -317,6 +317,6 @@ def test_a_referee_that_finds_nothing_that_is_a_finding_is_told(wrong: object) -
     run = handeye.begin("OPEN 1\n", camera="ray", referee=lambda truth: wrong)
     run.until()
     with pytest.raises(
-        InvalidInput, match=r"^the referee `.*<lambda>` must give findings by their names, not "
+        InvalidInput, match=r"^the referee `.*<lambda>` must return a dictionary of findings by name, not "
     ):
         run.result  # noqa: B018

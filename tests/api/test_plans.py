@@ -112,7 +112,7 @@ def test_a_notebook_shows_the_mistakes_of_a_script_and_no_traceback() -> None:
 
 @pytest.mark.parametrize("wrong", [None, 3, "", b"OPEN 1\n", ["OPEN 1"]])
 def test_what_is_no_script_is_refused_in_one_sentence(wrong: object) -> None:
-    with pytest.raises(InvalidInput, match=r"^a script is a file or a text, not "):
+    with pytest.raises(InvalidInput, match=r"^a script must be a file or a text, not "):
         handeye.plan(wrong)
 
 
@@ -132,15 +132,19 @@ def test_a_byte_order_mark_is_no_part_of_a_text(plan: handeye.Plan) -> None:
 
 
 def test_a_line_without_an_end_is_the_name_of_a_file() -> None:
-    with pytest.raises(InvalidInput, match=r"^OPEN 1: there is no such file; a text has a line end in it$"):
+    with pytest.raises(
+        InvalidInput,
+        match=r"^OPEN 1: there is no such file; a script given as text must contain a "
+        r"line end$",
+    ):
         handeye.plan("OPEN 1")
 
 
 def test_a_plan_that_was_saved_takes_no_positions(plan: handeye.Plan, tmp_path: Path) -> None:
     file = plan.save(tmp_path / "a.plan.json")
-    with pytest.raises(InvalidInput, match=r"nothing can be taught for it$"):
+    with pytest.raises(InvalidInput, match=r"leave out taught=\.\.\.$"):
         handeye.plan(file, taught=TAUGHT)
-    with pytest.raises(InvalidInput, match=r"nothing can be taught for it$"):
+    with pytest.raises(InvalidInput, match=r"leave out taught=\.\.\.$"):
         handeye.plan(plan, taught=TAUGHT)
 
 

@@ -95,7 +95,7 @@ def test_a_run_goes_on_to_a_place(run: handeye.Run, place: str | int, line: int,
 
 def test_a_run_goes_on_to_its_end(run: handeye.Run) -> None:
     state = run.until()
-    assert (state.step, state.line, state.why) == (None, None, "the program came to its end")
+    assert (state.step, state.line, state.why) == (None, None, "the program finished")
     assert (run.ended, run.completed, run.assembled) == (True, True, None)
 
 
@@ -143,26 +143,26 @@ def test_the_stepper_is_spoken_to(run: handeye.Run) -> None:
 @pytest.mark.parametrize(
     ("wrong", "sentence"),
     [
-        (lambda run: run.step(0), r"^steps are a whole number from 1 up, not 0$"),
-        (lambda run: run.step("2"), r"^steps are a whole number from 1 up, not '2'$"),
+        (lambda run: run.step(0), r"^steps must be a whole number of 1 or more, not 0$"),
+        (lambda run: run.step("2"), r"^steps must be a whole number of 1 or more, not '2'$"),
         (
             lambda run: run.step(np.array([1, 2])),
-            r"^steps are a whole number from 1 up, not array\(\[1, 2\]\)$",
+            r"^steps must be a whole number of 1 or more, not array\(\[1, 2\]\)$",
         ),
         (
             lambda run: run.until("L9"),
             r"^the program has no label, instruction or stage `L9`; did you mean `L1`",
         ),
         (lambda run: run.until() and run.until(), r"^the program has ended"),
-        (lambda run: run.until("L1") and run.until("open up"), r"^the run never comes to open up from here$"),
-        (lambda run: run.until(3.5), r"^a place is a text or the number of a line, not 3\.5$"),
-        (lambda run: run.say(3), r"^a command of the stepper is a text, not 3$"),
+        (lambda run: run.until("L1") and run.until("open up"), r"^the run cannot reach open up from here$"),
+        (lambda run: run.until(3.5), r"^a place must be a text or a line number, not 3\.5$"),
+        (lambda run: run.say(3), r"^a command of the stepper must be a text, not 3$"),
         (lambda run: run.back(), r"^1 step cannot be undone: none has been done$"),
         (lambda run: run.step() and run.back(2), r"^2 steps cannot be undone: only 1 has been done$"),
         (lambda run: run.until() and run.undo(99), r"^99 steps cannot be undone: only 4 have been executed$"),
         (lambda run: run.back("shut"), r"^stage shut the hand has not begun yet$"),
         (lambda run: run.checkpoint(), r"^this run has no folder for checkpoints; name a file$"),
-        (lambda run: run.trace, r"^the run has no folder, and so no trace; begin it with out=\.\.\.$"),
+        (lambda run: run.trace, r"^the run has no folder and therefore no trace; begin it with out=\.\.\.$"),
     ],
 )
 def test_what_cannot_be_done_is_told_in_one_sentence(run: handeye.Run, wrong: object, sentence: str) -> None:
@@ -172,10 +172,12 @@ def test_what_cannot_be_done_is_told_in_one_sentence(run: handeye.Run, wrong: ob
 
 def test_a_call_of_the_operator_stops_the_run_and_can_be_answered() -> None:
     run = handeye.begin(STOPS, camera="ray")
-    assert run.until().why.startswith("the operator is called: the fingers closed beyond the minimum gap")
+    assert run.until().why.startswith(
+        "the program calls the operator: the fingers closed beyond the minimum gap"
+    )
     assert (run.completed, run.result.error, run.result.stopped_at) == (False, 2, "program")
     run.say("proceed")
-    assert run.until().why == "the program came to its end"
+    assert run.until().why == "the program finished"
     assert run.result.interventions != ()
 
 
@@ -238,7 +240,7 @@ def test_a_run_is_exported_as_it_now_is(kept: handeye.Run, run: handeye.Run, tmp
 def test_an_export_is_replaced_only_if_it_may_be(run: handeye.Run, tmp_path: Path) -> None:
     run.export(tmp_path / "scene")
     with pytest.raises(
-        InvalidInput, match=r"scene holds an export of handeye already; overwrite=True replaces it$"
+        InvalidInput, match=r"scene already holds an export of handeye; overwrite=True replaces it$"
     ):
         run.export(tmp_path / "scene")
     assert run.export(tmp_path / "scene", overwrite=True).format == "mjcf"
@@ -254,7 +256,7 @@ def test_a_run_that_is_left_before_its_end_can_be_gone_on_with_in_its_folder(tmp
     assert (
         run.trace.counts == handeye.assemble(0, script=SCRIPT, camera="ray", out=tmp_path / "b").trace.counts
     )
-    with pytest.raises(InvalidInput, match=r"has ended; without out="):
+    with pytest.raises(InvalidInput, match=r"has ended; leave out out="):
         handeye.begin(tmp_path / "run", out=tmp_path / "run")
 
 
@@ -262,7 +264,7 @@ def test_the_result_of_a_run_that_was_left_says_what_broke_it_off() -> None:
     run = handeye.begin(SCRIPT, camera="ray")
     with pytest.raises(InvalidInput, match="nowhere"), run:
         run.until("nowhere")
-    said = "broken off by NoSuchName in the program that called handeye"
+    said = "stopped by NoSuchName in the calling program"
     assert (run.result.message, run.result.paused) == (said, True)
 
 

@@ -62,7 +62,10 @@ def test_the_page_of_a_world_has_a_row_a_quantity() -> None:
         ({"set": {"camera.place.x": "3 oz"}}, r"^camera\.place\.x is not measured in `oz`; known: "),
         ({"set": {"arm.friction": -1}}, r"^arm\.friction\.1 cannot be `-1`"),
         ({"set": {"arm.friction": None}}, r"^arm\.friction\.1 cannot be `None`, which is not a number$"),
-        ({"set": ["arm.friction"]}, r"^`set` is a table of values by the names of quantities, not "),
+        (
+            {"set": ["arm.friction"]},
+            r"^`set` must be a dictionary of values by the names of quantities, not ",
+        ),
     ],
 )
 def test_what_is_no_world_is_told_in_one_sentence(words: dict[str, object], sentence: str) -> None:
@@ -73,7 +76,7 @@ def test_what_is_no_world_is_told_in_one_sentence(words: dict[str, object], sent
 def test_a_quantity_is_found_by_its_whole_name() -> None:
     with pytest.raises(InvalidInput, match=r"did you mean `arm\.offset"):
         handeye.World()["arm.offest.3"]
-    with pytest.raises(InvalidInput, match=r"^a quantity is given by its name, not 3$"):
+    with pytest.raises(InvalidInput, match=r"^give a quantity by its name, not by 3$"):
         handeye.World()[3]
     with pytest.raises(InvalidInput, match=r"^`arm\.offset` is a group of quantities: arm\.offset\.1, "):
         handeye.World()["arm.offset"]
@@ -84,7 +87,7 @@ def test_a_world_says_what_its_quantities_are() -> None:
     screws, first = world.quantities[:2]
     assert (screws.name, screws.value, screws.distribution) == ("pump.screws", 6.0, "choice")
     assert (first.name, first.value, first.unit) == ("base.x", world["base.x"], "in")
-    assert first.source.startswith("Where the pump base lies on the belt")
+    assert first.source.startswith("Position of the pump base on the belt")
     assert [each.name for each in world.quantities] == [*world.values]
 
 
@@ -125,9 +128,9 @@ def test_a_world_is_exported_as_it_is_drawn(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "part", "sentence"),
     [
-        ("scene", "pump", r"^a part goes into a file whose name ends in \.glb, not into .*scene$"),
+        ("scene", "pump", r"^a part is written to a file whose name ends in \.glb, not to .*scene$"),
         ("pump.glb", "motor", r"^there is no part `motor` to export; known: `cell`, `pump`$"),
-        (3, None, r"^an export is written to a folder, or to a file that ends in \.glb, not 3$"),
+        (3, None, r"^the destination of an export is a folder, or a file that ends in \.glb, not 3$"),
     ],
 )
 def test_what_cannot_be_exported_is_told_in_one_sentence(

@@ -84,7 +84,7 @@ def test_a_run_is_driven_from_a_page(browser: Browser, tmp_path: Path) -> None:
         press(page, "Step")
         page.wait(f"/`step` was not carried out/.test({TOLD})")
         press(page, "Pause")
-        page.wait(f"/paused as asked/.test({TOLD})")
+        page.wait(f"/paused on request/.test({TOLD})")
         before = page.evaluate(HERE)
         press(page, "Step")
         page.wait(f"{HERE} !== '{before}'")

@@ -105,9 +105,7 @@ def test_an_aim_that_is_not_a_number_is_refused(aim: tuple[float, float]):
 
 @pytest.mark.parametrize("distance", [-1.0, 0.0, 0.05, math.nan])
 def test_a_focus_nearer_than_any_lens_can_have_is_refused(distance: float):
-    with pytest.raises(
-        InvalidInput, match=r"^the camera cannot be focused at .* m; it must be over 0\.05 m$"
-    ):
+    with pytest.raises(InvalidInput, match=r"^the camera cannot be focused at .* m; the minimum is 0\.05 m$"):
         camera().focus(distance)
 
 

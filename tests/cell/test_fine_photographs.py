@@ -203,7 +203,7 @@ def test_film_and_exposures_are_of_fine_photographs(
 
 @pytest.mark.parametrize("number", [0, 1001, 2.5])
 def test_so_many_exposures_cannot_be(number: object) -> None:
-    with pytest.raises(InvalidInput, match=r"^.* exposures cannot be made; there are 1 to 1000$"):
+    with pytest.raises(InvalidInput, match=r"^.* exposures are not possible; choose 1 to 1000$"):
         ExposurePlan(exposures=number)  # type: ignore[arg-type]
 
 

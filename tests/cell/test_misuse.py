@@ -46,7 +46,7 @@ def test_a_period_that_is_refused_changes_nothing(cell: SimulatedCell, seconds: 
 def test_torques_for_another_number_of_joints_are_refused(
     cell: SimulatedCell, shape: tuple[int, ...]
 ) -> None:
-    with pytest.raises(InvalidInput, match=r"^torques of shape \(.*\) were put out to an arm of 3 joints$"):
+    with pytest.raises(InvalidInput, match=r"^torques of shape \(.*\) were sent to an arm of 3 joints$"):
         cell.devices.arm.drive(np.zeros(shape))
 
 
@@ -165,5 +165,5 @@ def test_a_state_whose_watchdog_would_wait_too_long_is_refused(cell: SimulatedCe
 
 def test_two_devices_of_one_name_are_refused(cell: SimulatedCell) -> None:
     model, data = cell.truth.model, cell.truth.data
-    with pytest.raises(ValueError, match=r"^devices and mechanisms of a cell have names of their own"):
+    with pytest.raises(ValueError, match=r"^devices and mechanisms of a cell need different names"):
         SimulatedCell(model, data, arm=cell.arm, mechanisms=(cell.arm,), noise=np.random.default_rng(0))

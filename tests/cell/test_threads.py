@@ -114,7 +114,7 @@ def test_a_screw_seats_the_same_to_the_last_bit_every_time() -> None:
             'geom name="tip"',
             "^screw threads cannot work in this scene: Invalid name 'bit'",
         ),
-        ("carrier0", "carrying", "^screw threads are holes of one body in a scene, not of 0$"),
+        ("carrier0", "carrying", "^screw threads must be holes of one body in a scene, not of 0$"),
         (
             'joint2="thread_turn0"',
             'joint2="spindle"',

@@ -54,21 +54,21 @@ def test_ctrl_c_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 @pytest.mark.parametrize("name", ["mine", "parts/mine", "parts/deep/one.txt", "list.txt"])
 def test_a_folder_with_anything_else_in_it_is_refused(tmp_path: Path, name: str) -> None:
     write_folder(tmp_path / "a", {**FILES, name: b""})
-    sentence = rf"^{tmp_path / 'a'} holds other things \(`{name}`\); choose a new folder, or an empty one$"
+    sentence = rf"^{tmp_path / 'a'} holds other files \(`{name}`\); choose a new folder, or an empty one$"
     with pytest.raises(InvalidInput, match=sentence):
         check_folder(tmp_path / "a", LISTS, overwrite=True)
 
 
 def test_files_of_the_right_names_alone_do_not_make_a_folder_ours(tmp_path: Path) -> None:
     write_folder(tmp_path / "a", {**FILES, "list": b"shopping"})
-    with pytest.raises(InvalidInput, match="holds other things"):
+    with pytest.raises(InvalidInput, match="holds other files"):
         check_folder(tmp_path / "a", LISTS, overwrite=True)
 
 
 def test_one_of_its_kind_is_replaced_only_if_asked(tmp_path: Path) -> None:
     write_folder(tmp_path / "a", FILES)
     check_folder(tmp_path / "a", LISTS, overwrite=True)
-    with pytest.raises(InvalidInput, match=r"a holds a folder of lists already; --overwrite replaces it$"):
+    with pytest.raises(InvalidInput, match=r"a already holds a folder of lists; --overwrite replaces it$"):
         check_folder(tmp_path / "a", LISTS, overwrite=False)
 
 
@@ -89,5 +89,5 @@ def test_a_file_and_a_folder_in_no_folder_are_refused(tmp_path: Path) -> None:
 
 def test_the_folder_that_one_is_in_is_not_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(InvalidInput, match=r"^\. is the folder that you are in"):
+    with pytest.raises(InvalidInput, match=r"^\. is the current folder"):
         check_folder(Path(os.curdir), LISTS, overwrite=False)

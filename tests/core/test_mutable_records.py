@@ -74,5 +74,5 @@ def test_an_array_that_a_snapshot_shares_cannot_be_changed_in_place() -> None:
 
 
 def test_what_can_be_changed_and_not_be_copied_is_refused() -> None:
-    with pytest.raises(TypeError, match=r"^a Loose in a record can be changed and cannot be copied$"):
+    with pytest.raises(TypeError, match=r"^a Loose in a record is mutable and cannot be copied$"):
         copied(Outer(anything=Loose()))

@@ -168,7 +168,7 @@ def test_a_world_drawn_in_another_way_is_refused() -> None:
             Overrides(set={"x": 1.0}),
             "the world has no quantity `x`; there are `camera`, `slip`, `wave`",
         ),
-        (Overrides(set={"camera": 1.0}), "`camera` is a group of quantities, which cannot have one value"),
+        (Overrides(set={"camera": 1.0}), "`camera` is a group of quantities and cannot have one value"),
     ],
 )
 def test_overrides_that_the_task_does_not_know_are_refused(overrides: Overrides, sentence: str) -> None:
@@ -238,7 +238,7 @@ def test_a_factor_that_errors_cannot_have_is_refused(factor: float) -> None:
 
 @pytest.mark.parametrize("name", ["belt", "step", "start"])
 def test_what_is_no_error_cannot_be_scaled(name: str) -> None:
-    with pytest.raises(InvalidInput, match=f"^the world has no error in `{name}`, which could be scaled$"):
+    with pytest.raises(InvalidInput, match=f"^the world has no error in `{name}` to scale$"):
         scaled(1, **{name: 2.0})
 
 

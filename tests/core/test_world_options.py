@@ -31,7 +31,7 @@ def test_a_value_is_in_its_unit_or_in_that_of_the_quantity(
 @pytest.mark.parametrize(
     ("setting", "sentence"),
     [
-        ("place.x", "`place.x` sets nothing; write NAME=VALUE"),
+        ("place.x", "`place.x` is not a setting; write NAME=VALUE"),
         ("place.x=wide", "place.x cannot be `wide`, which is not a number"),
         ("place.x=", "place.x cannot be ``, which is not a number"),
         ("place.x=1e999", "place.x cannot be `1e999`"),
@@ -40,7 +40,7 @@ def test_a_value_is_in_its_unit_or_in_that_of_the_quantity(
         ("place.yaw=2dg", "place.yaw is not measured in `dg`; known: `deg`, `rad`"),
         ("place.yaw=2degs", "place.yaw is not measured in `degs`; did you mean `deg`?"),
         ("place.yaw=91", "place.yaw cannot be `91`; it can be -90 to 90 deg"),
-        ("mass=-95", "mass cannot be `-95`; -90 % is the least"),
+        ("mass=-95", "mass cannot be `-95`; -90 % is the minimum"),
         ("place.z=1", "the world has no quantity `place.z`; did you mean `place.x`?"),
     ],
 )

@@ -76,7 +76,7 @@ def test_a_run_stops_before_the_place_that_is_named(
 @pytest.mark.slow
 @pytest.mark.parametrize("text", ["error:23", "error 23", "ERROR: 23"])
 def test_a_run_stops_behind_the_step_that_raised_the_error(runner: Runner, text: str) -> None:
-    why = "breakpoint on error 23: the motion ended without meeting the force it was to stop on"
+    why = "breakpoint on error 23: the motion ended without meeting the force of its STOP"
     assert stopped(runner, breakpoint(text, PLAN.program)) == (why, 11)
 
 
@@ -187,5 +187,5 @@ def test_a_step_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: 
 
 
 def test_a_label_that_stands_for_several_steps_is_no_step(macro: Plan) -> None:
-    with pytest.raises(InvalidInput, match=r"^label `LM` belongs to steps 0, 2; give one by its number$"):
+    with pytest.raises(InvalidInput, match=r"^several steps have label `LM`: 0, 2; give one by its number$"):
         step_number("LM", macro.program)

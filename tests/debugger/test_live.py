@@ -14,8 +14,8 @@ from handeye.program.events import StepStarted
 from handeye.runs.advance import advance
 from handeye.runs.runner import Runner
 
-CALLED = "brakes set, the operator is called: the operator is wanted"
-GOING = "while the run goes, only `pause` and `pace` can be said"
+CALLED = "brakes set, operator called: the operator is wanted"
+GOING = "during the run, only `pause` and `pace` are accepted"
 
 
 @pytest.fixture
@@ -60,8 +60,8 @@ def told(
 def test_a_pause_that_is_asked_for_comes_behind_the_step_under_way(stepper: Stepper) -> None:
     replies = heard(stepper, {3: ["pause"]})
     paused = stepper.do("continue")
-    assert (paused.position, paused.said) == (3, "paused as asked")
-    assert [reply.said for reply in replies] == ["the run pauses behind this step"]
+    assert (paused.position, paused.said) == (3, "paused on request")
+    assert [reply.said for reply in replies] == ["the run pauses after this step"]
 
 
 def test_a_run_that_was_paused_goes_the_same_way_as_another(stepper: Stepper) -> None:
@@ -75,17 +75,17 @@ def test_a_run_that_was_paused_goes_the_same_way_as_another(stepper: Stepper) ->
 @pytest.mark.parametrize("command", ["step 3", "until 4"])
 def test_a_pause_is_forgotten_where_the_run_stops_anyway(stepper: Stepper, command: str) -> None:
     heard(stepper, {3: ["pause"]})
-    assert stepper.do(command).said != "paused as asked"
+    assert stepper.do(command).said != "paused on request"
     assert stepper.do("step 4").position == 7
 
 
 def test_a_pause_is_asked_of_a_run_that_goes_on_alone(stepper: Stepper) -> None:
-    assert stepper.do("pause").error == "the run pauses already"
+    assert stepper.do("pause").error == "the run is already paused"
     stepper.do("step 9")
     del stepper.session.runner.history[1:-1]
     replies = heard(stepper, {5: ["pause"]})
     assert stepper.do("back").position == 8
-    assert [reply.error for reply in replies] == ["the run goes back, and pauses where that ends"]
+    assert [reply.error for reply in replies] == ["the run is going back and will pause there"]
 
 
 # -- lines that are typed while the run goes ------------------------------------------------------------
@@ -105,7 +105,7 @@ def test_what_is_said_while_the_run_goes_is_refused_at_once_and_never_carried_ou
 def test_the_pace_can_be_set_while_the_run_goes(stepper: Stepper) -> None:
     replies = heard(stepper, {3: ["pace 4x"], 4: ["pace"]})
     stepper.do("step 5")
-    assert [reply.said for reply in replies] == ["the run goes 4 times as fast as the clock"] * 2
+    assert [reply.said for reply in replies] == ["the run goes 4 times real time"] * 2
     assert stepper.session.pace.factor == 4
 
 

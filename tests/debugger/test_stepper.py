@@ -47,7 +47,7 @@ from handeye.vision.blob import BoundingBox
 pytestmark = pytest.mark.slow
 
 CALLED = (
-    "the fingers closed beyond the minimum gap: nothing, or something too thin, is between them "
+    "the fingers closed beyond the minimum gap: there is nothing between them, or something too thin "
     "(the gap is 0.00 in, the minimum 0.40 in)"
 )
 Say = Callable[..., list[Reply]]
@@ -164,7 +164,7 @@ def test_commands_lead_where_they_say(say: Say, commands: list[str], position: i
 def test_an_answer_says_what_was_done_and_where_the_run_now_stands(say: Say) -> None:
     say("until 9")
     assert as_text(say("s 2")[0]).splitlines() == [
-        "   10 CHANGE [0 0 -1] .1             error 23: the motion ended without meeting the force it was to stop on",
+        "   10 CHANGE [0 0 -1] .1             error 23: the motion ended without meeting the force of its STOP",
         "   11 SKIPE 23                       error 23 occurred: continue at line 13",
         "── stage 2, search in the air, step 7; 6 steps done, 3.22 s",
         "    11          SKIPE   23",
@@ -274,7 +274,8 @@ def test_force_is_shown_where_a_guard_has_just_stopped_the_hand_and_nowhere_else
     shown = say("show force")[0]
     assert shown.show.force_oz is None
     assert (
-        as_text(shown).splitlines()[-1] == "force     not estimated here: no guard has just stopped the hand"
+        as_text(shown).splitlines()[-1]
+        == "force     no estimate here: the last step was not stopped by a guard"
     )
     runner.context.state.drive.wrench = np.array((0, 0, -8.0, 0, 0, 0))
     runner.events.append(GuardTripped(time=runner.time, guard=GuardKind.FORCE, value=8.0, limit=7.0))
@@ -357,9 +358,9 @@ def test_the_call_of_the_operator_is_told_with_what_can_be_said(say: Say) -> Non
     assert why(called) == ("operator", CALLED)
     assert (
         called.said
-        == "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
+        == "the program calls the operator: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
     )
-    assert called.did[-1].outcome == f"error 2: {CALLED}; the operator is called"
+    assert called.did[-1].outcome == f"error 2: {CALLED}; the program calls the operator"
     assert "  ■ 19          CLOSE   .4" in as_text(called).splitlines()
 
 
@@ -385,7 +386,7 @@ def test_one_can_go_back_instead_of_answering(say: Say, whole: bytes, runner: Ru
 
 def test_the_end_of_the_program_is_told_and_one_can_go_back_from_it(say: Say) -> None:
     ended = say("c", "skip", "c")[-1]
-    assert why(ended) == ("end", "the program came to its end")
+    assert why(ended) == ("end", "the program finished")
     assert (ended.stage, ended.line) == (None, None)
     assert say("step")[0].error == "the program has ended: `back` goes back from here, `quit` leaves"
     assert [answer.line for answer in say("b", "s", "bs")] == [22, None, 22]
@@ -394,8 +395,8 @@ def test_the_end_of_the_program_is_told_and_one_can_go_back_from_it(say: Say) ->
 def test_an_answer_that_ends_the_program_says_so(tmp_path: Path) -> None:
     stepper = Stepper(Runner(begin("OPEN .3\nWAIT HERE\n")), pictures=tmp_path)
     called, ended = stepper.do("c"), stepper.do("proceed")
-    assert called.did[-1].outcome == "brakes set, the operator is called: HERE"
-    assert why(ended) == ("end", "the program came to its end")
+    assert called.did[-1].outcome == "brakes set, operator called: HERE"
+    assert why(ended) == ("end", "the program finished")
     assert ended.said == "the program has ended: `back` goes back from here, `quit` leaves"
 
 
@@ -412,7 +413,7 @@ def test_where_nothing_was_done_nothing_is_kept(runner: Runner, commands: tuple[
         raise AssertionError
 
     out = lines_of(Stepper(runner, keep=keep), *commands)
-    assert out[-1].splitlines()[-1] == "nothing was done; nothing was saved"
+    assert out[-1].splitlines()[-1] == "no step has run; nothing was saved"
 
 
 def test_an_experiment_is_something_that_was_done(stepper: Stepper) -> None:
@@ -480,7 +481,7 @@ def test_a_checkpoint_goes_to_the_file_that_is_named(say: Say, tmp_path: Path) -
 def test_a_file_that_is_no_checkpoint_is_left_alone(say: Say, tmp_path: Path) -> None:
     file = tmp_path / "pump.al"
     file.write_text("PARK\n")
-    assert say(f"checkpoint {file}")[0].error == f"{file} exists and is no checkpoint; nothing was written"
+    assert say(f"checkpoint {file}")[0].error == f"{file} exists and is not a checkpoint; nothing was written"
     assert file.read_text() == "PARK\n"
 
 
@@ -522,7 +523,7 @@ def test_a_run_in_trouble_goes_nowhere_but_back(say: Say, runner: Runner) -> Non
         say("s")[0].error
         == "the run cannot continue from here, only go back: the simulation lost its footing"
     )
-    assert say("set saved H 0 0 0")[0].error == "no experiment is possible here; go back first"
+    assert say("set saved H 0 0 0")[0].error == "you cannot set anything here; go back first"
     assert [answer.position for answer in say("b", "s")] == [1, 2]
 
 
@@ -552,17 +553,17 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("run", "there is no command `run`; did you mean `continue`?"),
         ("frobnicate", "there is no command `frobnicate`; `help` lists them"),
         ("contineu", "there is no command `contineu`; did you mean `continue`?"),
-        ("step x", "step takes a number from 1 up, not `x`"),
-        ("step 0", "step takes a number from 1 up, not `0`"),
-        ("step -1", "step takes a number from 1 up, not `-1`"),
-        ("stage 2", "`stage` takes nothing after it; `2` is too much"),
-        ("pause", "the run pauses already"),
+        ("step x", "step takes a number of 1 or more, not `x`"),
+        ("step 0", "step takes a number of 1 or more, not `0`"),
+        ("step -1", "step takes a number of 1 or more, not `-1`"),
+        ("stage 2", "`stage` takes no operand; remove `2`"),
+        ("pause", "the run is already paused"),
         ("pace 0", "pace takes `1x`, `4x`, another number from 0.25x to 100x, or `free`, not `0`"),
         ("until", "give an error (error:23), a line, a label, an instruction or a stage"),
         ("until L7", "the program has no label, instruction or stage `L7`; did you mean `L1`?"),
         ("back", "this is the beginning of the run"),
         ("back stage", "this is the beginning of the run"),
-        ("back x", "back takes a number from 1 up, or `stage`, not `x`"),
+        ("back x", "back takes a number of 1 or more, or `stage`, not `x`"),
         ("break", "give an error (error:23), a line, a label, an instruction or a stage"),
         ("break 99", "line 99 is after the last step, which is on line 22"),
         ("delete", "delete takes the number of a breakpoint; breakpoints: none"),
@@ -582,10 +583,10 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("set saved HH 1 2 3", "the program has no saved difference `HH`; did you mean `H`?"),
         ("set position T 1 2 3 4", "write an experiment as `set position NAME x y z [o a t]`"),
         ("set position TT 1 2 3", "the program has no position `TT`; did you mean `T`?"),
-        ("proceed", "`proceed` answers a call of the operator, and there is none"),
-        ("retry", "`retry` answers a call of the operator, and there is none"),
-        ("skip", "`skip` answers a call of the operator, and there is none"),
-        ("abort", "`abort` answers a call of the operator, and there is none"),
+        ("proceed", "`proceed` answers a call of the operator, but there is none"),
+        ("retry", "`retry` answers a call of the operator, but there is none"),
+        ("skip", "`skip` answers a call of the operator, but there is none"),
+        ("abort", "`abort` answers a call of the operator, but there is none"),
         ("checkpoint", "this run has no folder to keep checkpoints in: `checkpoint FILE` writes one"),
         ("help me", "there is no command `me`; `help` lists them"),
     ],
@@ -605,7 +606,9 @@ def test_going_back_farther_than_the_beginning_is_refused(say: Say) -> None:
 
 
 def test_after_the_call_of_the_operator_going_on_needs_an_answer(say: Say) -> None:
-    refusal = "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
+    refusal = (
+        "the program calls the operator: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
+    )
     assert [answer.error for answer in say("c", "step", "stage", "continue")] == [None, *[refusal] * 3]
 
 
@@ -680,4 +683,4 @@ def test_undo_has_the_arm_take_back_what_back_would_restore(say: Say) -> None:
 def test_undo_takes_back_a_stage_and_no_more_than_was_done(say: Say) -> None:
     stage, nothing, far = say("step", "undo stage", "undo", "undo 2")[1:]
     assert (stage.step, stage.error) == (0, None)
-    assert nothing.error == far.error == "the arm has done nothing that it could undo"
+    assert nothing.error == far.error == "there is nothing for the arm to undo"

@@ -130,10 +130,10 @@ def test_explain_tells_usage_operands_and_origin_of_an_instruction() -> None:
     assert explanation("move").split("\n") == [
         "MOVE position (DIRECT)",
         "",
-        "go to a position: up first, over it, and down; with DIRECT, straight there",
+        "go to a position: up, across and down; with DIRECT, straight there",
         "",
         "  position  the name of a position (period)",
-        "  (DIRECT)  the word itself (ours)",
+        "  (DIRECT) this word (ours)",
         "",
         "A motion, of the period.",
         "More and examples: docs/language/reference/move.md",

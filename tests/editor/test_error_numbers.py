@@ -44,6 +44,6 @@ def test_what_raises_an_error_is_looked_for_in_every_action(kind: type[Operation
 
 def test_the_explanation_names_what_raises_an_error_and_how_to_test_it() -> None:
     first, by, *rest = error_text(23).splitlines()
-    assert first == "error 23: the motion ended without meeting the force it was to stop on"
+    assert first == "error 23: the motion ended without meeting the force of its STOP"
     assert by == "raised by CHANGE, MOVE, PARK, PLACE, TURN"
     assert "            SKIPE   23              ;nothing was met: the pin is in" in rest

@@ -88,7 +88,7 @@ def test_every_unit_of_the_language_has_another() -> None:
 
 
 def test_an_error_number_tells_what_it_means() -> None:
-    assert told("SKIPE |23") == "error 23: the motion ended without meeting the force it was to stop on"
+    assert told("SKIPE |23") == "error 23: the motion ended without meeting the force of its STOP"
 
 
 def test_a_position_tells_where_it_is_and_which_joints_reach_it() -> None:
@@ -157,7 +157,7 @@ def test_an_operand_is_one_of_those_its_place_takes(marked: str, words: list[str
 
 def test_an_error_number_comes_with_its_meaning() -> None:
     _, found = completions(*pointed("SKIPE |"))
-    assert ("23", "the motion ended without meeting the force it was to stop on") in [
+    assert ("23", "the motion ended without meeting the force of its STOP") in [
         (p.text, p.detail) for p in found
     ]
 

@@ -27,7 +27,7 @@ TRIES = """
         SKIPE 2
         JUMP  END
         OPEN  1
-        CLOSE .1 .2     ;too thick: the operator is called
+        CLOSE .1 .2     ;too thick: the program calls the operator
 END:    OPEN  1
 """
 SOFT = 0.004

@@ -15,7 +15,7 @@ SERVO = 0.002
 
 
 def carried_out(script: str, seed: int) -> list[AnyEvent]:
-    """Everything that happened; the program came to its end."""
+    """Everything that happened; the program finished."""
     runner = block_run(script, seed)
     assert advance(runner).kind == "end"
     return runner.events

@@ -132,18 +132,20 @@ def test_a_deadlock_names_who_waits_for_what() -> None:
     def waiting(flag: int) -> Task[None]:
         yield Until(met=lambda: False, name=f"flag {flag}")
 
-    with pytest.raises(Deadlock, match=r"^no task can go on: LEFT waits for flag 2, RIGHT waits for flag 1$"):
+    with pytest.raises(
+        Deadlock, match=r"^no task can continue: LEFT waits for flag 2, RIGHT waits for flag 1$"
+    ):
         run(Watch(), [waiting(2), waiting(1)], ["LEFT", "RIGHT"])
 
 
 @pytest.mark.parametrize(
     ("wait", "told"),
     [
-        (-1.0, "^A cannot wait for less than no time$"),
+        (-1.0, "^A cannot wait for a negative time$"),
         (float("nan"), "^a task cannot wait for nan s$"),
         (float("inf"), "^a task cannot wait for inf s$"),
-        (0.0, "^no task can go on: A waits for nothing, again and again, and lets no time pass$"),
-        (Until(met=lambda: True, name="it"), "^no task can go on: A waits for nothing, "),
+        (0.0, "^no task can continue: A waits for nothing repeatedly, without any time passing$"),
+        (Until(met=lambda: True, name="it"), "^no task can continue: A waits for nothing, "),
     ],
 )
 def test_a_wait_without_end_or_sense_is_told_and_ends_all_tasks(
@@ -164,7 +166,7 @@ def test_a_wait_without_end_or_sense_is_told_and_ends_all_tasks(
 
 
 def test_tasks_have_names_of_their_own() -> None:
-    with pytest.raises(HandeyeError, match=r"^tasks have names of their own; these are A, A$"):
+    with pytest.raises(HandeyeError, match=r"^tasks need different names; these are A, A$"):
         run(Watch(), [periodic(1.0, 1), periodic(1.0, 1)], ["A", "A"])
 
 

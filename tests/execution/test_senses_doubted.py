@@ -97,7 +97,7 @@ def test_a_switch_that_stays_open_on_something_is_told() -> None:
 def test_a_finger_that_the_hand_does_not_come_off_has_no_switch_of_its_own() -> None:
     run = gripping("OPEN 2\nCENTER .1", 1.0, lambda read: replace(read, touch=(read.touch[0], False)))
     assert run.errors == [errors.SWITCH_WRONG]
-    assert "the switch of the +y finger is still closed after the hand went 0.06 in to that side" in run.told
+    assert "the switch of the +y finger is still closed after the hand moved 0.06 in to that side" in run.told
     assert run.told.endswith("the switches are exchanged, or the other one stays open)")
 
 
@@ -110,7 +110,7 @@ def test_a_switch_that_takes_far_too_much_force_is_told_when_the_fingers_press_l
     hand.read = lambda: replace(right(), touch=(right().touch[0], hand.goal < hand.gap - 2e-4))  # type: ignore[method-assign]
     assert run.go().errors == [errors.SWITCH_WRONG]
     assert (
-        "the switch of the -y finger is open although the fingers are driven together with 10 oz: it is numb, or"
+        "the switch of the -y finger is open although the fingers are pressed together with 10 oz: it is numb, or"
         in run.told
     )
 
@@ -163,7 +163,7 @@ def test_a_gap_that_jumps_while_something_is_held_may_be_that_of_the_fingers(
         right(), gap=(to if clock.now > begun else 1.0) * INCH, touch=(touching, touching)
     )
     assert run.go().errors == [errors.GAP_WRONG]
-    assert f"it read 1.00 in, and {to:.2f} in at once: {why}" in run.told
+    assert f"it jumped from 1.00 in to {to:.2f} in: {why}" in run.told
 
 
 @pytest.mark.parametrize(("factor", "wrong"), [(0.85, True), (0.98, False), (1.05, False), (1.15, True)])
@@ -298,7 +298,7 @@ STARTS = [0.05] * 4 + [0.0] * 20
             [2 * each for each in STARTS] + [0.74] * 999,
             "it shows 104.8 oz-in where the motor takes 52.4: 2.0 times",
         ),
-        ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "it turns slower than commanded"),
+        ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "it turns too slowly"),
     ],
 )
 def test_a_current_that_is_not_that_of_a_known_torque_is_told(torques: list[float], told: str) -> None:
@@ -344,7 +344,7 @@ def test_a_picture_that_is_an_earlier_one_is_told() -> None:
     run = fake_run("LOOK A\nLOOK B")
     run.cell.camera.pictures = [picture, picture.copy()]
     assert run.go().errors == [errors.PICTURE_WRONG]
-    assert run.told.endswith("(picture B is the same as A, point by point)")
+    assert run.told.endswith("(picture B is the same as A, pixel by pixel)")
 
 
 def test_a_picture_of_one_intensity_is_told() -> None:

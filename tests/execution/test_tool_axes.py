@@ -47,7 +47,7 @@ def test_a_tool_goes_no_faster_than_its_axes_and_is_refused_what_it_cannot_reach
         axes.put(here + 0.2 * ALONG[0])
         cell.clock.advance(axes.period)
     assert axes.read().q[0] - here[0] == pytest.approx(0.1, abs=0.005)
-    with pytest.raises(Refused, match=r"^tool does not go there: "):
+    with pytest.raises(Refused, match=r"^tool does not reach its goal: "):
         go(axes, cell, here - 1.4 * ALONG[2], 0.2)
 
 

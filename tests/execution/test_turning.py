@@ -117,7 +117,7 @@ def test_a_hand_that_presses_and_may_spin_comes_to_rest() -> None:
 def test_neither_force_nor_moment_raises_error_23_and_says_so() -> None:
     run = twisted(f"STOP [0 0 -50] [60 0 0]\n{DOWN}").go()
     assert run.called.error == NO_FORCE
-    assert run.told.endswith("without meeting the force it was to stop on (or the moment)")
+    assert run.told.endswith("without meeting the force of its STOP (or the moment)")
 
 
 def test_force_or_moment_whichever_comes_first_stops_the_motion() -> None:

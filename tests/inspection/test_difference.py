@@ -91,7 +91,7 @@ def test_a_position_that_goes_to_another_part_is_told() -> None:
     positions = plan.program.positions
     there = replace(positions["T"], of="BASE", at=positions["U"].at)
     other = replace(plan, program=replace(plan.program, positions={**positions, "T": there}))
-    assert told(difference(plan, other))[0] == "~ position T: now of another part"
+    assert told(difference(plan, other))[0] == "~ position T: now relative to another part"
 
 
 def test_a_plan_at_another_speed_for_another_arm_is_told() -> None:

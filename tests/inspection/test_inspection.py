@@ -60,7 +60,7 @@ def depends(pump: Plan, text: str) -> list[str]:
     ("statements", "said"),
     [
         ("STOP [0 0 -50]\nCHANGE [0 0 -1] .6", "stops at 50 oz along -z, else error 23"),
-        ("STOP 50\nCHANGE [0 0 -1] .6", "stops at 50 oz against it, else error 23"),
+        ("STOP 50\nCHANGE [0 0 -1] .6", "stops at 50 oz against the motion, else error 23"),
         ("TORQUE 42\nCHANGE [0 0 -1] .6", "stops at 42 oz-in of torque, else error 24"),
         (
             "STOP [0 0 -50] [0 0 20]\nCHANGE [0 0 -1] .6",
@@ -69,9 +69,9 @@ def depends(pump: Plan, text: str) -> list[str]:
         ("TOUCH 3\nMOVE T DIRECT\nCHANGE [0 0 -1] .6", "stops when either finger touches, else error 25"),
         ("FORCE [0 0 -22]\nCHANGE [1 0 0] .6", "presses with 22 oz along -z"),
         ("FORCE NIL [0 0 -22]\nCHANGE [1 0 0] .6", "turns with 22 oz-in about -z"),
-        ("SPIN [1 1 0]\nCHANGE [0 0 -1] .6", "gives way about x and y"),
-        ("FREE [1 1 0]\nCHANGE [0 0 -1] .6", "gives way along x and y"),
-        ("VIA T T\nMOVE T", "by way of T, T"),
+        ("SPIN [1 1 0]\nCHANGE [0 0 -1] .6", "yields about x and y"),
+        ("FREE [1 1 0]\nCHANGE [0 0 -1] .6", "yields along x and y"),
+        ("VIA T T\nMOVE T", "via T, T"),
         ("CLOSE 2 2.4", "holds 2 in or more, else error 2; 2.4 in or less, else error 7"),
         ("TRAVEL 1.6 2.2", "went 1.6 in to 2.2 in, else error 8"),
         ("HEIGHT B .04 .08", "stands 0.04 in to 0.08 in over B, else error 9"),
@@ -171,7 +171,7 @@ def test_inspect_of_no_plan_is_refused_in_one_sentence(command: Command) -> None
     Path("no.json").write_text("[]", encoding="utf-8")
     assert command("inspect", "no.json")[::2] == (
         2,
-        'handeye: no.json is not a plan: it does not say "format": "handeye plan"\n',
+        'handeye: no.json is not a plan: it lacks "format": "handeye plan"\n',
     )
 
 

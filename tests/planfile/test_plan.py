@@ -97,7 +97,7 @@ def refusal(text: str | bytes) -> str:
 
 
 def test_a_truncated_plan_is_refused(plan: Plan) -> None:
-    assert refusal(encode(plan)[:500]).startswith("p.json is not a plan, or is cut short: ")
+    assert refusal(encode(plan)[:500]).startswith("p.json is not a plan, or was cut short: ")
 
 
 def test_a_plan_with_an_extra_field_is_refused(plan: Plan) -> None:
@@ -143,13 +143,13 @@ GUARD = f"{CHANGE}.guards.0"
     ("path", "value", "said"),
     [
         ("program.steps", [], "it has no steps"),
-        ("speed", 0, "its speed is 0; a share of the arm's limits is above 0 and at most 1"),
+        ("speed", 0, "its speed is 0; it must be a share of the arm's limits, above 0 and at most 1"),
         (
             "program.steps.1.span",
             [8, 80],
-            "step 1 (line 4) stands in characters 8 to 80 of line 4, which has 27",
+            "step 1 (line 4) is at characters 8 to 80 of line 4, which has 27",
         ),
-        ("program.steps.1.modifiers.0.line", 9, "step 1 (line 4) stands in characters 8 to 25 of line 9"),
+        ("program.steps.1.modifiers.0.line", 9, "step 1 (line 4) is at characters 8 to 25 of line 9"),
         ("program.steps.0.operation.via", ["X"], "step 0 (line 2) uses position X"),
         (
             "program.steps.0.operation.via",
@@ -159,14 +159,14 @@ GUARD = f"{CHANGE}.guards.0"
         (
             "motions.0.times",
             [0.0, 0.0, 0.0],
-            "step 0 (line 2) has a planned motion with times or joints no arm",
+            "step 0 (line 2) has a planned motion with impossible times or joints",
         ),
         ("motions.0.knots.1", [0.0] * 5, "its motions are of arms with 5 and 6 joints"),
         ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 time; 4 and 3 are right"),
         (
             "motions.0.times",
             [1.0, -1.0, 1.0],
-            "step 0 (line 2) has a planned motion with times or joints no arm",
+            "step 0 (line 2) has a planned motion with impossible times or joints",
         ),
         (f"{CHANGE}.displacement", [0, 0, 0], "step 1 (line 4) has a displacement of size 0"),
         (f"{CHANGE}.displacement", [0, 0, 1e300], "step 1 (line 4) has a displacement of size 1e+300"),
@@ -213,7 +213,7 @@ def test_an_edited_plan_that_cannot_be_carried_out_is_refused(
     ],
 )
 def test_a_plan_that_is_not_of_its_types_is_refused(plan: Plan, path: str, value: object, said: str) -> None:
-    assert refusal(edited(plan, path, value)).startswith(f"p.json is not a sound plan: {said}")
+    assert refusal(edited(plan, path, value)).startswith(f"p.json is not a valid plan: {said}")
 
 
 FIXTURE = {"at": [0, 0, 0, 0], "boxes": [[0, 0, 0, 1, 1, 1]]}
@@ -226,10 +226,14 @@ FIXTURE = {"at": [0, 0, 0, 0], "boxes": [[0, 0, 0, 1, 1, 1]]}
         (
             "program.fixtures",
             {"F": FIXTURE | {"boxes": [[0, 0, 0, 1, 1, 0]]}},
-            "fixture F has a box without an",
+            "fixture F has an empty box",
         ),
-        ("program.held", {"H": {"positions": ["X"], "boxes": []}}, "H is held at X, which the plan does not"),
-        ("program.held", {"H": {"positions": [], "boxes": [[0, 0, 0, 1, 1, 1e9]]}}, "H has a box without an"),
+        (
+            "program.held",
+            {"H": {"positions": ["X"], "boxes": []}},
+            "H is held at X, which is not in the plan",
+        ),
+        ("program.held", {"H": {"positions": [], "boxes": [[0, 0, 0, 1, 1, 1e9]]}}, "H has an empty box"),
     ],
 )
 def test_a_plan_with_surroundings_that_cannot_be_is_refused(
@@ -246,11 +250,11 @@ def test_surroundings_survive_being_written_and_read(plan: Plan) -> None:
 
 
 def test_another_json_file_is_refused() -> None:
-    assert refusal("{}") == 'p.json is not a plan: it does not say "format": "handeye plan"'
+    assert refusal("{}") == 'p.json is not a plan: it lacks "format": "handeye plan"'
 
 
 def test_bytes_that_are_no_text_are_refused() -> None:
-    assert refusal(b"\xff\xfe\x00").startswith("p.json is not a plan, or is cut short")
+    assert refusal(b"\xff\xfe\x00").startswith("p.json is not a plan, or was cut short")
 
 
 def test_a_missing_plan_is_named(tmp_path: Path) -> None:

@@ -77,6 +77,6 @@ def test_a_step_of_a_file_whose_text_is_missing_is_no_sound_plan() -> None:
     lost = msgspec.structs.replace(made, program=msgspec.structs.replace(made.program, required={}))
     with pytest.raises(
         InvalidInput,
-        match=r"^two: step 0 .* stands in 'lib/look\.al', a file whose text the plan does not have$",
+        match=r"^two: step 0 .* is in 'lib/look\.al', whose text is not in the plan$",
     ):
         decode(encode(lost), "two")

@@ -16,16 +16,17 @@ PUMP = plans() / "water_pump.plan.json"
 @pytest.mark.parametrize("version", [VERSION - 1, VERSION + 1])
 def test_a_plan_of_another_version_is_refused_and_the_cure_is_told(version: int) -> None:
     text = PUMP.read_text(encoding="utf-8").replace(f'"version": {VERSION}', f'"version": {version}', 1)
-    said = f"^old\\.json has plan format version {version}; this handeye reads version {VERSION}: make the plan again"
+    said = (
+        f"^old\\.json has plan format version {version}; this version of handeye reads version {VERSION}: make "
+        f"the plan again"
+    )
     with pytest.raises(InvalidInput, match=said):
         decode(text, "old.json")
 
 
 def test_a_plan_that_tells_no_version_is_refused() -> None:
     text = PUMP.read_text(encoding="utf-8").replace(f'"version": {VERSION}', '"version": "new"', 1)
-    with pytest.raises(
-        InvalidInput, match=r"^old\.json does not say which version of the plan format it has$"
-    ):
+    with pytest.raises(InvalidInput, match=r"^old\.json does not state its version of the plan format$"):
         decode(text, "old.json")
 
 

@@ -53,7 +53,7 @@ def test_row_3_the_length_of_the_direction_does_not_matter() -> None:
 def test_row_39_a_wrist_inside_the_cylinder_is_found_in_planning() -> None:
     problem = only("TRANS T [20 15 5 90 90 0]\nMOVE T")
     assert problem.code == "unreachable-position"
-    assert "it cannot come nearer than 6.1 in" in problem.notes[0]
+    assert "the minimum is 6.1 in" in problem.notes[0]
 
 
 @pytest.mark.row(40)
@@ -121,7 +121,7 @@ def test_riddle_of_the_listing_explains_itself(stop: str) -> None:
     problem = only(f"TRANS T [25 38 4 90 90 0]\nMOVE T\nSTOP {stop}\nCHANGE [0 0 -1] .6")
     assert problem.code == "stop-beyond-arm"
     assert problem.notes[0].startswith(
-        "in the print of 1973 the second stop of the pin insertion can be read as 60"
+        "in the 1973 print, the second stop of the pin insertion can be read as 60"
     )
 
 

@@ -21,7 +21,7 @@ def test_a_goal_beyond_the_boom_says_how_far() -> None:
 
 def test_a_goal_too_near_to_the_column_says_how_near() -> None:
     (problem,) = said("TRANS NEAR [20 15 5 90 90 0]\nMOVE NEAR")
-    assert problem.message == "NEAR is 1.06 in too near to the column of the Stanford arm"
+    assert problem.message == "NEAR is 1.06 in too close to the column of the Stanford arm"
     assert problem.help == "move it at least 1.07 in farther from the arm"
 
 
@@ -65,7 +65,7 @@ def test_a_free_motion_that_swings_beyond_a_limit_on_its_way_says_where() -> Non
         problem.message == "`MOVE` would take joint 1 (column) 1.2 degrees beyond its limit of -170 degrees"
     )
     assert problem.notes == ("it reaches its limit 159.1 in along its way to B",)
-    assert problem.help == "pass a position between"
+    assert problem.help == "add a position on the way with `VIA`"
 
 
 def test_a_straight_motion_through_the_singularity_is_found() -> None:

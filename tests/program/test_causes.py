@@ -25,15 +25,15 @@ ARM = c.ArmNames(
 WORDS: list[tuple[c.Cause, str]] = [
     (
         c.BeyondArm(goal="OVER", reason=InnerCylinder(4 * INCH, 6 * INCH), arm=ARM),
-        "OVER: the wrist would have to be 4.0 in from the axis of joint 1; it cannot come nearer than 6.0 in",
+        "OVER: the wrist would have to be 4.0 in from the axis of joint 1; the minimum is 6.0 in",
     ),
     (
         c.BeyondArm(reason=JointLimit(1, 100 * DEGREE, 90 * DEGREE), arm=ARM),
         "joint 2 (wrist) would have to be 100.0 degrees; it ends at 90.0 degrees",
     ),
-    (c.JointBehind(joint="boom"), "boom stayed behind its set-point"),
+    (c.JointBehind(joint="boom"), "boom lags behind its set-point"),
     (c.HandAstray(distance=0.2 * INCH), "the hand is 0.20 in from its set-point"),
-    (c.HandStuck(moved=0.5 * INCH), "the hand moved 0.50 in and no farther"),
+    (c.HandStuck(moved=0.5 * INCH), "the hand stopped after 0.50 in"),
     (c.GuardsUnmet(guards=(GuardKind.FORCE,)), ""),
     (c.GuardsUnmet(guards=(GuardKind.FORCE, GuardKind.MOMENT)), "or the moment"),
     (
@@ -48,7 +48,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     (c.GapTooSmall(gap=0.02 * INCH, minimum=0.1 * INCH), "the gap is 0.02 in, the minimum 0.10 in"),
     (c.GapTooSmall(gap=-0.002 * INCH, minimum=0.0), "the gap is -0.002 in, the minimum 0.000 in"),
     (c.GapTooLarge(gap=0.4 * INCH, maximum=0.3 * INCH), "the gap is 0.40 in, the maximum 0.30 in"),
-    (c.NothingBetween(gap=0.1 * INCH), "the fingers do not both touch anything; the gap is 0.10 in"),
+    (c.NothingBetween(gap=0.1 * INCH), "not both fingers touch; the gap is 0.10 in"),
     (
         c.SwitchesClosed(fingers=(True, False)),
         "the switch of the +y finger is closed although the fingers are open",
@@ -60,30 +60,30 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
-        "the switch of the +y finger is still closed after the hand went 0.06 in to that side: the switches are "
+        "the switch of the +y finger is still closed after the hand moved 0.06 in to that side: the switches are "
         "exchanged, or the other one stays open",
     ),
     (
         c.SwitchesHard(fingers=(True, True), force=10 * OUNCE_FORCE),
-        "the switches of both fingers are open although the fingers are driven together with 10 oz: they are numb, or "
+        "the switches of both fingers are open although the fingers are pressed together with 10 oz: they are numb, or "
         "the fingers' motor is weak",
     ),
     (
         c.GapJumped(gap=2.3 * INCH, before=2.0 * INCH, held=False),
-        "it read 2.00 in, and 2.30 in at once: no finger is so fast",
+        "it jumped from 2.00 in to 2.30 in: no finger can move so fast",
     ),
     (
         c.GapJumped(gap=1.29 * INCH, before=1.39 * INCH, held=True),
-        "it read 1.39 in, and 1.29 in at once: what is held has slipped, or the gap's potentiometer fails",
+        "it jumped from 1.39 in to 1.29 in: what is held has slipped, or the gap's potentiometer fails",
     ),
     (
         c.GapJumped(gap=1.32 * INCH, before=1.0 * INCH, held=True),
-        "it read 1.00 in, and 1.32 in at once: what is held has been pushed, and the fingers apart, or the gap's "
+        "it jumped from 1.00 in to 1.32 in: what is held has been pushed, and the fingers apart, or the gap's "
         "potentiometer fails",
     ),
     (
         c.CurrentShort(torque=30 * OUNCE_INCH, asked=42 * OUNCE_INCH),
-        "it shows 30.0 oz-in, short of the 42.0 asked for, while the motor is held fast: its reading ends there, or "
+        "it shows 30.0 oz-in, short of the 42.0 asked for, while the motor is stalled: its reading ends there, or "
         "the motor is weak",
     ),
     (
@@ -99,7 +99,6 @@ WORDS: list[tuple[c.Cause, str]] = [
         "by the weight that it bears a drive gives more or less torque than commanded, or the arm no longer stands "
         "upright: that of the wrist 1.30 times",
     ),
-    (c.MotorSlow(share=0.4), "the motor had started after 0.4 of its time: it turns slower than commanded"),
     (
         c.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
         "the gap reads 0.50 in; the fingers were driven to 1.80 in",
@@ -127,7 +126,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.JointAlone(joint=ARM.joints[1], torque=150 * OUNCE_INCH, friction=30 * OUNCE_INCH),
-        "wrist takes 150 oz-in to move; at first it took 30 oz-in",
+        "wrist takes 150 oz-in to move; at the start it took 30 oz-in",
     ),
     (
         c.JointAlone(joint=ARM.joints[1], torque=9 * OUNCE_INCH, friction=3 * OUNCE_INCH, one_way=True),
@@ -137,57 +136,57 @@ WORDS: list[tuple[c.Cause, str]] = [
     (c.CurrentSilent(torque=0.0), "it showed 0.0 oz-in at most, less than it takes to start"),
     (
         c.PictureRepeated(picture="AFTER", earlier="BEFORE"),
-        "picture AFTER is the same as BEFORE, point by point",
+        "picture AFTER is the same as BEFORE, pixel by pixel",
     ),
-    (c.PictureBlank(picture="WIDE"), "picture WIDE is of one intensity all over"),
+    (c.PictureBlank(picture="WIDE"), "picture WIDE is uniform"),
     (c.NoPicture(picture="WIDE"), "no picture WIDE was taken"),
-    (c.NoGeneral(), "no GENERAL found the part before"),
-    (c.NoOutline(), "nothing of the part's size stands out from the background where it should be"),
+    (c.NoGeneral(), "no earlier GENERAL found the part"),
+    (c.NoOutline(), "nothing of the part's size is visible against the background where it should be"),
     (c.OutsidePicture(), "the part is not in the field of the close picture: is the camera aimed at it?"),
-    (c.NoHoles(blobs=0), "no hole is found: is the picture in focus, and is the part in it?"),
+    (c.NoHoles(blobs=0), "found no hole: is the picture in focus, and is the part in it?"),
     (
         c.NoHoles(blobs=1),
-        "only one hole is found, and the part cannot be located by one: is the picture in focus?",
+        "found only one hole, which cannot locate the part: is the picture in focus?",
     ),
     (
         c.NoHoles(blobs=3),
         "3 dark blobs are found, but no two are the part's largest holes: is the picture in focus?",
     ),
-    (c.NoGasket(), "no gasket: the picture after shows nothing new where it should be"),
+    (c.NoGasket(), "no gasket: the later picture shows nothing new where it should be"),
     (
         c.GasketWrong(
             faults=(c.GasketHoleOff(hole="largest", off=0.3 * INCH), c.GasketHoleUnseen(hole="second"))
         ),
-        "the largest hole of the gasket is off by about 0.30 in; the second hole of the gasket is not found",
+        "the largest hole of the gasket is displaced by about 0.30 in; the second hole of the gasket is not found",
     ),
     (
         c.GasketWrong(faults=(c.BaseHoleUnseen(hole="second"),)),
-        "the second hole of the base is not found in the picture before",
+        "the second hole of the base was not found in the earlier picture",
     ),
     (
         c.PartAstray(off=0.2 * INCH, unlike=0.034),
-        "moved by 0.20 in against what is around it; 3 % of it looks otherwise",
+        "moved by 0.20 in relative to its surroundings; 3 % of it looks different",
     ),
     (c.NoSearch(), "no search was set up"),
     (c.PlacesTried(places=9), "9 places tried"),
     (c.PlacesTried(places=9, around="T1"), "9 places tried around T1"),
-    (c.Looping(place="pins.al:12"), "the program loops at line pins.al:12, and nothing moves"),
+    (c.Looping(place="pins.al:12"), "the program loops at line pins.al:12 while nothing moves"),
     (
         c.UndoResisted(force=30.0, limit=20.0),
-        "something resists while the step is undone: the hand feels 107.9 oz; allowed: 71.9 oz",
+        "something resists as the step is undone: the hand feels 107.9 oz; allowed: 71.9 oz",
     ),
     (
         c.HoldOff(gap=0.0, kept=0.0075, holding=True),
-        "the fingers stand at 0.00 in; when the step was executed they held something at 0.30 in",
+        "the gap is 0.00 in; when the step was executed they held something at 0.30 in",
     ),
     (
         c.HoldOff(gap=0.0, kept=0.0254, holding=False),
-        "the fingers stand at 0.00 in; when the step was executed they stood at 1.00 in",
+        "the gap is 0.00 in; when the step was executed they stood at 1.00 in",
     ),
     (
         c.MetEarly(fingers=(True, False), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),
         "the +y finger touches something at 1.80 in already; when the step was executed the fingers held something at "
-        "1.40 in: it lies 0.20 in off the middle of the hand",
+        "1.40 in: it lies 0.20 in off the centre of the hand",
     ),
     (
         c.MetEarly(fingers=(True, True), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),
@@ -200,14 +199,14 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.ScrewFast(torque=0.5, risen=0.0),
-        "the screw does not come out: it has risen 0.00 in, the driver shows 71 oz in",
+        "the screw does not come out: it has risen by 0.00 in, and the driver shows 71 oz in",
     ),
     (
         c.ScrewLost(way=0.002, force=6.0),
-        "the screw has not come along: the hand goes down 0.08 in and does not meet 22 oz",
+        "the hand does not hold the screw: it goes down 0.08 in without meeting 22 oz",
     ),
-    (c.BackingOut(), "the driver has turned a screw out in the step; that is not undone"),
-    (c.UndoUnknown(), "what the step has left for undoing it cannot be used"),
+    (c.BackingOut(), "the step drove a screw out, which cannot be undone"),
+    (c.UndoUnknown(), "the record for undoing this step cannot be used"),
 ]
 
 
@@ -247,8 +246,8 @@ def test_an_error_is_told_with_what_led_to_it() -> None:
 def test_a_call_of_the_operator_is_told_by_its_message_its_error_or_its_cause() -> None:
     assert call_sentence("NO PIN", None, None) == "NO PIN"
     assert call_sentence("", errors.WATCHDOG, None) == errors.ERRORS[errors.WATCHDOG]
-    assert call_sentence("", None, c.Looping(place="3")) == "the program loops at line 3, and nothing moves"
+    assert call_sentence("", None, c.Looping(place="3")) == "the program loops at line 3 while nothing moves"
 
 
 def test_an_inspection_without_a_cause_went_well() -> None:
-    assert inspection_sentence(None) == "the gasket is on properly"
+    assert inspection_sentence(None) == "the gasket is in place"

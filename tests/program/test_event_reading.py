@@ -86,9 +86,7 @@ def test_a_list_with_events_of_a_system_is_read_by_the_start_of_its_run(written:
 def test_events_of_a_system_are_packed_into_a_checkpoint() -> None:
     packed = msgspec.Raw(msgspec.msgpack.encode(EVENTS))
     assert read_packed(packed, "machine") == tuple(EVENTS)
-    with pytest.raises(
-        ValueError, match=r"^events of the kind `LimitCrossed` are not known here: the system"
-    ):
+    with pytest.raises(ValueError, match=r"^events of the kind `LimitCrossed` are unknown here: the system"):
         read_packed(packed, "other")
 
 
@@ -101,7 +99,7 @@ def test_a_kind_that_is_not_known_is_told_with_the_system_it_takes(written: Path
     with pytest.raises(InvalidInput) as refused:
         read_events(written)
     assert str(refused.value) == (
-        f"line 2 of {written} is not an event: events of the kind `LimitCrossed` are not known here: the system "
+        f"line 2 of {written} is not an event: events of the kind `LimitCrossed` are unknown here: the system "
         "`machine` is not installed"
     )
 
@@ -109,7 +107,7 @@ def test_a_kind_that_is_not_known_is_told_with_the_system_it_takes(written: Path
 @pytest.mark.usefixtures("machine")
 def test_a_kind_of_another_version_is_told_as_such() -> None:
     with pytest.raises(
-        msgspec.DecodeError, match="known here: another version of handeye, or of its system, wrote it"
+        msgspec.DecodeError, match="known here: they come from another version of handeye or of its system"
     ):
         EventReader("machine").read(b'{"event":"Sneezed","time":1.0}')
 
@@ -123,7 +121,7 @@ def test_an_event_that_could_not_be_read_back_is_not_written() -> None:
 
 def test_no_system_can_give_another_meaning_to_a_common_kind(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(entries, "_registered", {"machine": entry("WRONG")})
-    with pytest.raises(InvalidInput, match=r"WRONG calls a kind of event Saved, which all systems have$"):
+    with pytest.raises(InvalidInput, match=r"WRONG names a kind of event Saved, which is reserved$"):
         own_kinds("machine")
 
 

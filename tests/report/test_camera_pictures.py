@@ -1,4 +1,4 @@
-"""Pictures of the camera stand in the page as they were, point by point."""
+"""Pictures of the camera stand in the page as they were, pixel by pixel."""
 
 import cv2
 import numpy as np

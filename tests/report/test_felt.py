@@ -79,5 +79,5 @@ def test_what_the_player_needs_is_in_the_page_and_let_in(run: RecordedRun) -> No
 
 def test_a_plan_of_few_steps_without_pictures_gives_a_page(run: RecordedRun) -> None:
     page = tree(page_of(run))
-    assert page.all("h1")[0].text == "The program came to its end."
+    assert page.all("h1")[0].text == "The program finished."
     assert "took no picture" in page.one("seen").text

@@ -98,7 +98,7 @@ def test_the_last_guarded_motions_of_a_run_that_failed_are_unfolded(run: Recorde
         ({"error": 6}, "Error 6: the search has tried all its places."),
         (
             {"cause": NothingBetween(gap=0.0254)},
-            "The fingers do not both touch anything; the gap is 1.00 in.",
+            "Not both fingers touch; the gap is 1.00 in.",
         ),
         ({}, "The program called the operator."),
     ],

@@ -64,7 +64,7 @@ def test_a_run_that_was_broken_off_tells_how_far_it_has_come(broken: Path) -> No
         ("count", "under way"), ("ask", "not reached")
     ]  # fmt: skip
     assert (kept.result.paused, kept.result.completed, kept.result.stopped_at) == (True, False, "count")
-    assert (kept.result.message, kept.left, kept.faults) == ("under way or broken off at 4.0 s", False, ())
+    assert (kept.result.message, kept.left, kept.faults) == ("running or stopped at 4.0 s", False, ())
 
 
 def test_a_run_that_waits_for_the_operator_says_what_it_was_told(run: Path, begun: Runner) -> None:
@@ -148,18 +148,18 @@ def test_seconds_that_cannot_be_read_are_left_out_by_name(broken: Path) -> None:
 
 Damage = Callable[[Path], object]
 DAMAGE: dict[str, tuple[str, Damage]] = {
-    "no files": ("cannot be shown: it has no plan.json", lambda run: [(run / n).unlink() for n in (EVENTS, PLAN)]),
+    "no files": ("cannot be shown: its plan.json is missing", lambda run: [(run / n).unlink() for n in (EVENTS, PLAN)]),
     "no events": ("has not begun", lambda run: (run / EVENTS).unlink()),
     "empty events": ("has not begun", lambda run: (run / EVENTS).write_bytes(b"")),
     "no plan": ("there is no such file", lambda run: (run / PLAN).unlink()),
-    "another plan": ("is not the plan that was carried out", lambda run: (run / PLAN).write_bytes(
+    "another plan": ("is not the plan of this run", lambda run: (run / PLAN).write_bytes(
         (run / PLAN).read_bytes().replace(b"ADD A ", b"ADD B "))),
     "a damaged plan": ("is not sound", lambda run: (run / PLAN).write_bytes(b"[")),
     "other events": ("is not an event", lambda run: (run / EVENTS).write_bytes(b"{}\n")),
     "deep events": ("is not an event", lambda run: (run / EVENTS).write_bytes(b"[" * 90_000 + b"\n")),
     "no start": ("without the start of a run", lambda run: (run / EVENTS).write_bytes(
         (run / EVENTS).read_bytes().partition(b"\n")[2])),
-    "other stages": ("stages that the plan beside it lacks", lambda run: (run / EVENTS).write_bytes(
+    "other stages": ("stages that the plan next to it does not have", lambda run: (run / EVENTS).write_bytes(
         (run / EVENTS).read_bytes().replace(b'"stage":"count"', b'"stage":"moon"'))),
     "a damaged result": ("is not the result of a run", lambda run: (run / RESULT).write_bytes(b"{}")),
     "no result at all": ("is not the result of a run", lambda run: (run / RESULT).write_bytes(b"[" * 90_000)),

@@ -50,5 +50,5 @@ def test_interventions_are_told_by_the_time_since_the_run_began() -> None:
     asked = OperatorAnswered(time=4.5, choice="proceed", step=None)
     tried = ExperimentMade(time=5.75, what="saved", name="E2", value=(0.0, 0.0, 0.0))
     assert list(interventions([begun, asked, tried])) == [
-        "at 4.5 s the operator chose: proceed", "at 5.8 s saved E2 was set by hand"
+        "at 4.5 s the operator chose: proceed", "at 5.8 s saved E2 was set by the experimenter"
     ]  # fmt: skip

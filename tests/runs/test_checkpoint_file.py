@@ -71,7 +71,9 @@ def test_a_flipped_bit_anywhere_is_refused(data: bytes) -> None:
 
 def test_a_newer_version_is_refused(data: bytes) -> None:
     rest = data.partition(b"\n")[2]
-    with pytest.raises(InvalidInput, match="checkpoint format version 6; this handeye reads version 5"):
+    with pytest.raises(
+        InvalidInput, match="checkpoint format version 6; this version of handeye reads version 5"
+    ):
         decode(sealed(rest, version=6), "it")
 
 
@@ -93,7 +95,7 @@ def test_another_arm_is_refused(runner: Runner) -> None:
     ("fields", "sentence"),
     [
         ({"plan": "{}"}, "the plan in it is not a plan"),
-        ({"events": []}, "does not hold all that has happened"),
+        ({"events": []}, "events are incomplete"),
         ({"calibration": 3}, "not a sound checkpoint"),
         ({"more": 1}, "unknown field"),
         ({"snapshot": {"position": -1}}, "not a sound checkpoint"),
@@ -109,7 +111,7 @@ def test_a_sealed_file_with_nonsense_in_it_is_refused(
 
 def test_a_checkpoint_that_lacks_its_last_event_is_refused(data: bytes, runner: Runner) -> None:
     events = msgspec.to_builtins(runner.checkpoint().events[:-1])
-    with pytest.raises(InvalidInput, match=r"it does not hold all that has happened$"):
+    with pytest.raises(InvalidInput, match=r"its events are incomplete$"):
         decode(changed(data, events=events), "it")
 
 
@@ -165,7 +167,7 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("cell", "mechanisms", "clamping"), {"clamped": "yes"}, "not a state of this work cell"),
         (("cell", "mechanisms"), {}, "other devices"),
         (("cell", "physics"), ["<f8", [2], b"\0" * 16], "another scene"),
-        (("cell", "figures"), {}, "figures that change"),
+        (("cell", "figures"), {}, "values that change"),
         (("cell", "noise"), "{}", "not a state of this work cell"),
         (("cell", "noise"), "[" * 5000, "not a state of this work cell"),
         (("cell", "mechanisms", "camera", "lens"), 0.5, "no lens"),

@@ -20,6 +20,6 @@ def test_a_deadlock_ends_a_run_with_its_sentence(monkeypatch: pytest.MonkeyPatch
         patch.setattr(CounterMachine, "step", locked)
         pause = advance(runner)
     assert pause.kind == "trouble"
-    assert "no task can go on: LEFT waits for flag 2, RIGHT waits for flag 1" in pause_sentence(pause)
+    assert "no task can continue: LEFT waits for flag 2, RIGHT waits for flag 1" in pause_sentence(pause)
     runner.rollback()
     assert (runner.trouble, runner.position) == (None, 2)

@@ -21,7 +21,7 @@ def test_a_run_of_a_system_without_a_cell_has_nothing_to_show(tmp_path: Path) ->
     runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
     advance(runner, steps=4)
     folder.close()
-    with pytest.raises(InvalidInput, match=r"run is of a system that acts on no cell$"):
+    with pytest.raises(InvalidInput, match=r"run has no work cell$"):
         kept_state(tmp_path / "run")
 
 

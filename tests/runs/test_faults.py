@@ -111,7 +111,7 @@ def test_the_folder_of_a_run_with_another_fault_is_refused(tmp_path: Path) -> No
         (Fault(name="lamp.daed"), "there is no fault `lamp.daed`; did you mean `lamp.dead`?"),
         (
             Fault(name="lamp.dead", stage=9),
-            "the fault `lamp.dead` sets in with stage 9; the program has 3 stages",
+            "the fault `lamp.dead` begins at stage 9, but the program has 3 stages",
         ),
     ],
 )

@@ -138,7 +138,7 @@ def test_a_checkpoint_whose_state_cannot_be_read_is_left_out_by_name(copy: Path)
     newest.write_bytes(changed(newest.read_bytes(), events=[{"event": "NoEvent"}]))
     _, start, faults = open_again(copy)
     assert start.position == 0
-    assert [fault.partition(":")[0] for fault in faults] == [f"{newest} is not a sound checkpoint"]
+    assert [fault.partition(":")[0] for fault in faults] == [f"{newest} is not a valid checkpoint"]
 
 
 def test_with_nothing_but_the_start_it_begins_anew(whole: Path, copy: Path) -> None:
@@ -183,7 +183,7 @@ def test_the_trace_of_a_run_with_detours_is_that_of_one_without(whole: Path, tmp
 def test_checkpoints_of_another_plan_are_refused(copy: Path) -> None:
     write_plan(copy / "plan.json", plan_of("OPEN 2\n"))
     before = {path: path.read_bytes() for path in copy.rglob("*") if path.is_file()}
-    with pytest.raises(InvalidInput, match="are of another plan than"):
+    with pytest.raises(InvalidInput, match="are of another plan"):
         open_again(copy)
     assert {path: path.read_bytes() for path in copy.rglob("*") if path.is_file()} == before
 
@@ -210,7 +210,7 @@ def test_a_folder_set_up_for_another_run_is_left_to_it(tmp_path: Path) -> None:
 def test_a_folder_of_other_things_is_left_alone(tmp_path: Path) -> None:
     (tmp_path / "holiday.png").touch()
     for overwrite in (False, True):
-        with pytest.raises(InvalidInput, match=r"holds other things \(`holiday\.png`\); choose a new folder"):
+        with pytest.raises(InvalidInput, match=r"holds other files \(`holiday\.png`\); choose a new folder"):
             open_new(tmp_path, begin(), overwrite=overwrite)
     assert names(tmp_path) == ["holiday.png"]
 
@@ -219,7 +219,7 @@ def test_pictures_that_no_run_has_left_are_left_alone(tmp_path: Path) -> None:
     (tmp_path / "pictures").mkdir()
     (tmp_path / "pictures" / "holiday.png").touch()
     for overwrite in (False, True):
-        with pytest.raises(InvalidInput, match=r"holds other things \(`pictures`\)"):
+        with pytest.raises(InvalidInput, match=r"holds other files \(`pictures`\)"):
             open_new(tmp_path, begin(), overwrite=overwrite)
     assert names(tmp_path / "pictures") == ["holiday.png"]
 
@@ -369,7 +369,11 @@ def test_nothing_happens_behind_a_trace_that_was_broken_off(
         ):
             folder.checkpoint(runner.checkpoint())
     kept, told = names(tmp_path / "run" / "checkpoints"), (tmp_path / "run" / "events.jsonl").read_bytes()
-    with pytest.raises(InvalidInput, match=r"was cut off; make room, then `handeye resume .*run` continues"):
+    with pytest.raises(
+        InvalidInput,
+        match=r"was cut short; free some disk space, then `handeye resume .*run` "
+        r"continues",
+    ):
         runner.step()
     folder.checkpoint(runner.checkpoint())
     assert names(tmp_path / "run" / "checkpoints") == kept

@@ -105,9 +105,7 @@ def test_a_program_that_feels_nothing_does_not_wait_for_it() -> None:
 def test_a_run_whose_joints_do_not_move_says_so_and_does_nothing() -> None:
     runner = stiff(FEELING, 100.0)
     assert runner.ended
-    assert runner.trouble == (
-        "the friction of the joints could not be measured: the column does not move as it is driven"
-    )
+    assert runner.trouble == ("joint friction could not be measured: the column does not move as commanded")
 
 
 def test_a_run_that_its_joints_do_not_let_begin_leaves_the_brakes_on() -> None:

@@ -67,7 +67,7 @@ def test_no_second_of_the_host_enters_a_checkpoint() -> None:
 )  # fmt: skip
 def test_a_record_of_seconds_that_cannot_be_used_is_refused_by_name(tmp_path: Path, written: str) -> None:
     (tmp_path / HOST).write_bytes(written.encode(errors="surrogateescape"))
-    with pytest.raises(InvalidInput, match=rf"{HOST} is no record of seconds: "):
+    with pytest.raises(InvalidInput, match=rf"{HOST} is not a timing record: "):
         read_host_seconds(tmp_path / HOST)
 
 

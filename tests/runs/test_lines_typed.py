@@ -73,7 +73,7 @@ def test_a_line_that_is_refused_has_not_happened(typed: Runner) -> None:
 
 
 def test_a_system_without_a_console_refuses_politely() -> None:
-    with pytest.raises(InvalidInput, match=r"^the counter machine cannot take lines that are typed$"):
+    with pytest.raises(InvalidInput, match=r"^the counter machine cannot accept typed lines$"):
         Runner(begin_toy()).type_line("B 1")
 
 

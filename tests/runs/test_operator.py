@@ -28,7 +28,7 @@ SEARCHED = AfterStage(stage=1, name="search in the air")
 
 pytestmark = pytest.mark.slow
 
-CALLED = "the fingers closed beyond the minimum gap: nothing, or something too thin, is between them"
+CALLED = "the fingers closed beyond the minimum gap: there is nothing between them, or something too thin"
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +80,7 @@ def test_policies_are_written_in_a_word() -> None:
 def test_another_policy_is_refused_in_a_sentence(text: str) -> None:
     with pytest.raises(
         InvalidInput,
-        match=r"^--on-stop takes abort, ask, retry:N with N from 1 up, unwind or unwind:STAGE, not .*$",
+        match=r"^--on-stop takes abort, ask, retry:N with N of 1 or more, unwind or unwind:STAGE, not .*$",
     ):
         parse_policy(text, ())
 
@@ -150,7 +150,7 @@ def test_where_the_arm_cannot_undo_something_nothing_is_retried(runner: Runner) 
     runner.order_reversal(0, halts=True)
     assert attend(runner, Retry(3)).kind == "operator"
     assert answers(runner) == []
-    assert runner.kind.choices(runner)["proceed"] == "proceed: go on undoing"
+    assert runner.kind.choices(runner)["proceed"] == "proceed: continue undoing"
 
 
 def test_a_part_that_begins_when_all_is_undone_is_retried_on_its_own_account(runner: Runner) -> None:
@@ -216,7 +216,7 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
     talk = Talk("a")
     attend(runner, talk.operator)
     assert talk.said[0].splitlines() == [
-        "The operator is called in stage 3, grasp nothing:",
+        "The program calls the operator in stage 3, grasp nothing:",
         f"    {CALLED} (the gap is 0.00 in, the minimum 0.40 in)",
         '    17          STAGE   "grasp nothing"',
         "    18          OPEN    .5",
@@ -224,10 +224,10 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
         "    20          OPEN    .4",
         '    21          STAGE   "shut the hand"',
         "p          proceed: continue at line 20",
-        "r          retry the stage from line 18, with the world as it is now",
+        "r          retry the stage from line 18, in the world as it is now",
         "s          skip the rest of the stage",
         "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",
-        "u [STAGE]  unwind: the arm undoes what it did, as far as that, and the program goes on from there",
+        "u [STAGE]  unwind: the arm undoes its work back to this stage, and the program continues from there",
         "a          abort",
         "show       show the state of the run, or a topic of it",
     ]
@@ -236,15 +236,15 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
 def test_the_end_of_the_answers_is_taken_for_abort(runner: Runner) -> None:
     talk = Talk()
     assert attend(runner, talk.operator).kind == "operator"
-    assert talk.said[-1] == "no more answers: abort"
+    assert talk.said[-1] == "no more answers: aborting"
 
 
 @pytest.mark.parametrize(
     ("answer", "sentence"),
     [
-        ("maybe", "`maybe` is not an answer; answer p, r, s, b, u, a or show"),
-        ("", "`` is not an answer; answer p, r, s, b, u, a or show"),
-        ("p 3", "`p 3` is not an answer; answer p, r, s, b, u, a or show"),
+        ("maybe", "`maybe` is not an answer; type p, r, s, b, u, a or show"),
+        ("", "`` is not an answer; type p, r, s, b, u, a or show"),
+        ("p 3", "`p 3` is not an answer; type p, r, s, b, u, a or show"),
         ("b shut", "stage 4, shut the hand, has not begun yet"),
         (
             "b nowhere",
@@ -350,4 +350,4 @@ def test_the_panic_button_on_the_way_back_stops_the_run(runner: Runner) -> None:
 
     pause = attend(late, Panic(), kept=lambda _: at_start)
     assert pause == Pause(kind="panic", next=late.at, back=True)
-    assert pause_sentence(pause) == "stopped by the panic button on the way back; the brakes are set"
+    assert pause_sentence(pause) == "stopped by the panic button while going back; the brakes are set"

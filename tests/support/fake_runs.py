@@ -39,7 +39,7 @@ class FakeRun:
     events: list[Event] = field(default_factory=list)
 
     def go(self) -> "FakeRun":
-        """Do steps until the program ends or the operator is called."""
+        """Do steps until the program ends or the program calls the operator."""
         while self.executor.state.at is not None:
             self.executor.step()
         return self

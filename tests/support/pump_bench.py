@@ -114,7 +114,7 @@ class Bench:
     # -- the run ------------------------------------------------------------------------------------
 
     def go(self, until: Callable[[], bool] = lambda: False) -> "Bench":
-        """Do steps until the program ends, the operator is called, or `until` says so."""
+        """Do steps until the program ends, the program calls the operator, or `until` says so."""
         while self.executor.state.at is not None and not until():
             self.executor.step()
         return self
@@ -151,7 +151,7 @@ class Bench:
 
     @property
     def finished(self) -> bool:
-        """The program came to its end."""
+        """The program finished."""
         return self.executor.state.at is None and self.executor.state.stopped is None
 
     @property

@@ -105,14 +105,14 @@ def test_its_files_are_checked_explained_and_formatted_in_its_own_language(shell
     assert shell("explain", "toy-line").startswith("a line begins with a word")
     assert "wrong.toy is unchanged" in shell("fmt", "wrong.toy", code=2)
     refused = shell("plan", "two.toy", code=2)
-    assert refused == "handeye: two.toy: the counter machine cannot follow a plan of motions\n"
+    assert refused == "handeye: two.toy: the counter machine cannot run a plan of motions\n"
 
 
 def test_a_run_is_shown_verified_and_reported_with_the_event_that_it_adds(
     shell: Shell, run: str, folder: Path
 ) -> None:
     assert "register B holds 3" in shell("trace", "show", run)
-    assert "The program came to its end." in shell("show", run)
+    assert "The program finished." in shell("show", run)
     assert "the same" in shell("trace", "verify", run)
     shell("report", run)
     assert "register B holds 3" in (folder / run / "report.html").read_text(encoding="utf-8")
@@ -129,7 +129,7 @@ def test_what_it_cannot_do_is_refused_by_its_name(shell: Shell, run: str) -> Non
     undone = shell("dismantle", run, code=2)
     assert undone == f"handeye: run: {cannot} undo what it did: what is counted is counted\n"
     assert f"{cannot} compare two of its runs" in shell("compare", run, run, code=2)
-    assert f"{cannot} make a film of its run" in shell("video", run, code=2)
+    assert f"{cannot} make a video of its run" in shell("video", run, code=2)
 
 
 def test_it_is_stepped_at_two_places_in_its_own_words_and_refuses_an_undo(shell: Shell, run: str) -> None:

@@ -30,8 +30,8 @@ def test_the_water_pump_is_the_task_that_is_meant_where_none_is_named() -> None:
 @pytest.mark.parametrize(
     ("name", "sentence"),
     [
-        ("water_pmup", "no task is called `water_pmup`; did you mean `water_pump`?"),
-        ("clock", "no task is called `clock`; known: `bucket`, `insertion`, `palletise`, `water_pump`"),
+        ("water_pmup", "there is no task `water_pmup`; did you mean `water_pump`?"),
+        ("clock", "there is no task `clock`; known: `bucket`, `insertion`, `palletise`, `water_pump`"),
     ],
 )
 def test_an_unknown_task_is_refused_with_the_nearest_name(
@@ -42,14 +42,14 @@ def test_an_unknown_task_is_refused_with_the_nearest_name(
     monkeypatch.setattr("handeye.core.entries._found", [loaded(place) for place in OWN])
     with pytest.raises(
         InvalidInput,
-        match=f"^{re.escape(sentence)} \\(one of your own is given as `--task MODULE:NAME`, comes by",
+        match=f"^{re.escape(sentence)} \\(for your own task, give `--task MODULE:NAME`, install",
     ):
         task(name)
 
 
 @pytest.mark.parametrize("wrong", [None, 3, ["water_pump"]])
 def test_what_is_no_name_of_a_task_is_refused(wrong: object) -> None:
-    with pytest.raises(InvalidInput, match=r"^a task is given by its name, not "):
+    with pytest.raises(InvalidInput, match=r"^give a task by its name, not by "):
         task(wrong)
 
 
@@ -62,7 +62,7 @@ def test_a_run_of_a_task_that_is_not_there_is_refused() -> None:
 
 
 def test_no_other_task_takes_the_name_of_one() -> None:
-    with pytest.raises(InvalidInput, match=r"^there is a task called `water_pump` already$"):
+    with pytest.raises(InvalidInput, match=r"^there is already a task called `water_pump`$"):
         register(WaterPump())
 
 
@@ -97,7 +97,7 @@ def test_a_task_that_cannot_be_one_is_refused(words: dict[str, object], sentence
 @pytest.mark.parametrize("wrong", [None, "water_pump", WaterPump])
 def test_what_is_no_task_is_refused(wrong: object) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^a task is an object of a class that is derived from handeye\.Task, not "
+        InvalidInput, match=r"^a task is an instance of a class derived from handeye\.Task, not "
     ):
         register(wrong)
 
@@ -144,8 +144,8 @@ def test_a_task_whose_module_fails_is_told_in_a_sentence(
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ({"camera": "front"}, "lacks the camera `front`, which the task names; it has `studio`"),
-        ({"photographs": ("end",)}, "lacks the camera `end`, which the task names; it has `studio`"),
+        ({"camera": "front"}, "does not have the camera `front` that the task names; it has `studio`"),
+        ({"photographs": ("end",)}, "does not have the camera `end` that the task names; it has `studio`"),
     ],
 )
 def test_a_scene_without_a_camera_that_its_task_names_is_refused(

@@ -103,7 +103,7 @@ def test_an_arm_that_floats_stays_where_it_is_until_somebody_pushes_it(pupil: Te
     say(pupil, "float")
     assert np.linalg.norm(hand(pupil) - before) < 0.1
     afloat = hand(pupil)
-    assert say(pupil, "push x 5 1").endswith("that was a push from outside: no program can do it")
+    assert say(pupil, "push x 5 1").endswith("this was a push from outside, which no program can do")
     assert (hand(pupil) - afloat)[0] > 0.3
 
 
@@ -176,8 +176,8 @@ def test_nobody_quits_unsaved_without_being_told(pupil: TeachSession) -> None:
         ("table x inf", "`inf` is not a number"),
         ("here 1A", "`1A` is not a name: letters, digits and _, no digit first"),
         ("here A of LID", "there is no part `LID`; there are BASE, PUMP"),
-        ("push x 900 1", "a push has up to 200 oz, not `900`"),
-        ("push x 5 900", "a push takes up to 60 s, not `900`"),
+        ("push x 900 1", "a push is at most 200 oz, not `900`"),
+        ("push x 5 900", "a push lasts at most 60 s, not `900`"),
     ],
 )
 def test_what_is_said_wrong_is_told_in_a_sentence(pupil: TeachSession, line: str, said: str) -> None:
@@ -215,7 +215,7 @@ def test_a_file_that_is_no_taught_file_is_refused_before_anything_moves(command:
 def test_a_file_that_somebody_else_has_changed_meanwhile_is_left_alone(pupil: TeachSession) -> None:
     pupil.teacher.file.write_text(FILE + "# mine\n", encoding="utf-8")
     assert say(pupil, "here NEW", "save").endswith(
-        "has changed meanwhile, and nothing was written; `list` shows what to add"
+        "has changed since it was read, so nothing was written; `list` shows what to add"
     )
     assert pupil.teacher.file.read_text(encoding="utf-8") == FILE + "# mine\n"
 

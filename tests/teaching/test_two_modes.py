@@ -87,7 +87,7 @@ def test_what_a_later_line_can_put_right_is_not_told_yet(console: Console, line:
 
 
 def test_what_no_line_has_put_right_is_told_when_it_is_to_be_carried_out(console: Console) -> None:
-    assert "no statement has the label `LATER`" in console.read("JUMP LATER", "DO")
+    assert "there is no label `LATER`" in console.read("JUMP LATER", "DO")
 
 
 def test_a_place_out_of_reach_is_told_as_it_is_typed(console: Console) -> None:
@@ -170,8 +170,8 @@ def test_back_undoes_the_last_do(console: Console) -> None:
 def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> None:
     said = console.read("OPEN 1", "WAIT look here", "OPEN 2", "DO")
     assert said.endswith(
-        "2 WAIT look here                 brakes set, the operator is called: look here\n"
-        "PROCEED, RETRY or SKIP continues from there; a new function abandons it"
+        "2 WAIT look here                 brakes set, operator called: look here\n"
+        "PROCEED, RETRY or SKIP continues from there; a new instruction abandons it"
     )
     console.type("PROCEED")
     assert console.gap == pytest.approx(2, abs=0.05)
@@ -180,13 +180,13 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("DO", "nothing is collected; type functions, or `DO OPEN 3` to carry one out at once"),
+        ("DO", "nothing is collected; type instructions, or `DO OPEN 3` to run one at once"),
         ("DO PRK", "there is no instruction, macro or program `PRK`; did you mean `PARK`?"),
-        ("LIST all", "`LIST` takes nothing after it; `all` is too much"),
-        ("PROCEED", "`proceed` answers a call of the operator, and there is none"),
+        ("LIST all", "`LIST` takes no operand; remove `all`"),
+        ("PROCEED", "`proceed` answers a call of the operator, but there is none"),
         ("WRITE", "`WRITE` takes the name of a file"),
         ("WRITE .", ". is a directory, not a file"),
-        ("DO LOOK VIEW", "the camera is not set up; begin with --look for a plan that takes pictures"),
+        ("DO LOOK VIEW", "the camera is not calibrated; start with --look for a plan that takes pictures"),
         ("HELP OPNE", "there is no instruction `OPNE`; did you mean `OPEN`?"),
         ("DROP", "nothing is collected"),
     ],

@@ -24,7 +24,7 @@ def _ended(time: float, z: float, planned: float | None) -> AnyEvent:
 
 def test_the_account_of_a_run_that_is_not_over_says_so() -> None:
     told = account([BEGUN, happened.StageStarted(time=0.0, stage="find the hole"), _step(0.0, 12, "OPEN 1")])
-    assert told[-1] == "     0.00  the run pauses here, before its end"
+    assert told[-1] == "     0.00  the run pauses here, before the end of the program"
 
 
 def test_an_account_of_a_stage() -> None:
@@ -56,14 +56,14 @@ def test_an_account_of_a_stage() -> None:
         "                    the arm waits for the picture: 0.5 s",
         "                    picture WIDE, 25 mm lens",
         "     0.50    14  CHANGE  [0 0 -1] 0.6",
-        "                    error 23: the motion ended without meeting the force it was to stop on",
+        "                    error 23: the motion ended without meeting the force of its STOP",
         "     1.50    15  SKIPE   23",
         "                    error 23 occurred: continue at line 18",
         "     1.50    18  CHANGE  [0 0 -1] 0.6",
         "                    stopped: the hand presses with 64.0 ounces, over 60.0",
         "                    the hand is at (20.00, 10.00, 3.00) in, 0.26 in from its planned end",
         "",
-        "     2.00  the program came to its end",
+        "     2.00  the program finished",
     ]
 
 
@@ -98,9 +98,9 @@ def test_a_stop_and_what_the_operator_chose_stand_out() -> None:
     assert account(events)[1:] == [
         "FIND THE HOLE: stopped in 1.2 s",
         "     0.00    12  CLOSE   .1",
-        "                    error 2: the fingers closed beyond the minimum gap: nothing, or something too thin, "
-        "is between them (the gap is 0.02 in, the minimum 0.10 in)",
-        "     1.10  *** brakes set, the operator is called: nothing is held (error 2)",
+        "                    error 2: the fingers closed beyond the minimum gap: there is nothing between them, or "
+        "something too thin (the gap is 0.02 in, the minimum 0.10 in)",
+        "     1.10  *** brakes set, operator called: nothing is held (error 2)",
         "     1.10  *** the operator chooses to retry the stage",
         "     1.10  *** experiment: saved H is set to (1.000, 0.000, 0.000) in",
         "     1.20  *** panic button: drives off, brakes set",

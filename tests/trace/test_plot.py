@@ -97,5 +97,5 @@ def test_a_plot_without_matplotlib_is_told_with_the_way_to_get_it(
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     code, _, err = command("trace", "plot", "a.mcap", "-o", "p.png")
     needed = "`trace plot` needs matplotlib, which is not installed"
-    how = "`pip install matplotlib` brings it, and so does the extra `plot` of handeye"
+    how = "`pip install matplotlib` installs it, and so does the extra `plot` of handeye"
     assert (code, err, Path("p.png").exists()) == (2, f"handeye: {needed}: {how}\n", False)

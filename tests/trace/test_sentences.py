@@ -86,7 +86,7 @@ def test_only_events_that_there_are_are_logged() -> None:
         (happened.GuardTripped(time=0.0, guard="touch", value=3.0, limit=3.0), "stopped: both fingers touch"),
         (
             happened.SearchAdvanced(time=0.0, count=2, offset=(0.001778, -0.001778)),
-            "the search goes to place 3, (0.07, -0.07) in from the first",
+            "the search tries place 3, (0.07, -0.07) in from the first",
         ),
         (
             happened.Restored(time=0.0, name="H", goal="T", difference=(0.0, 0.000127, -0.0000001)),
@@ -104,7 +104,7 @@ def test_only_events_that_there_are_are_logged() -> None:
         ),
         (
             happened.WentBack(time=0.0, events=12, why="back"),
-            "back to event 12: the events after it are undone",
+            "back to event 12: later events are dropped",
         ),
     ],
 )

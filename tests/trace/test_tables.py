@@ -115,10 +115,10 @@ def test_tables_are_replaced_only_if_somebody_says_so_and_nothing_else_ever(
     record(tmp_path / "a.mcap")
     words = ("trace", "export", "csv", "a.mcap", "-o", "told")
     assert command(*words)[0] == 0
-    assert command(*words)[2] == ("handeye: told holds tables of handeye already; --overwrite replaces it\n")
+    assert command(*words)[2] == ("handeye: told already holds tables of handeye; --overwrite replaces it\n")
     assert command(*words, "--overwrite")[0] == 0
     Path("told/mine.txt").touch()
-    assert "told holds other things" in command(*words, "--overwrite")[2]
+    assert "told holds other files" in command(*words, "--overwrite")[2]
 
 
 def test_of_a_trace_that_was_cut_short_it_is_said_and_the_exit_code_says_so(
@@ -145,7 +145,7 @@ def test_parquet_without_pyarrow_is_told_with_the_way_to_get_it(
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     code, _, err = command("trace", "export", "parquet", "a.mcap", "-o", "told")
     needed = "`parquet` needs pyarrow, which is not installed"
-    how = "`pip install pyarrow` brings it, and so does the extra `export` of handeye"
+    how = "`pip install pyarrow` installs it, and so does the extra `export` of handeye"
     assert (code, err) == (2, f"handeye: {needed}: {how}\n")
     assert not Path("told").exists()
 

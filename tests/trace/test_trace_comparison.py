@@ -111,5 +111,5 @@ def test_a_sentence_that_its_event_does_not_say_is_a_difference(tmp_path: Path, 
         whole, messages=[replace(m, data=m.data[:-1] + b"!") if m.topic == LOG else m for m in whole.messages]
     )
     assert (
-        str(compared(whole, reworded).parts) == "event 1 differs: RunStarted at 0.000 s has another wording"
+        str(compared(whole, reworded).parts) == "event 1 differs: RunStarted at 0.000 s has a different text"
     )

@@ -194,13 +194,11 @@ def test_a_folder_takes_one_batch(tmp_path: Path) -> None:
 
 def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text("mine")
-    with pytest.raises(
-        InvalidInput, match=r"holds other things \(`mine\.txt`\); choose a new folder, or an "
-    ):
+    with pytest.raises(InvalidInput, match=r"holds other files \(`mine\.txt`\); choose a new folder, or an "):
         opened(tmp_path)
     (tmp_path / "trials.jsonl").write_text("mine\n")
     with pytest.raises(
-        InvalidInput, match=r"trials\.jsonl, line 1, is of no batch that this handeye reads: "
+        InvalidInput, match=r"trials\.jsonl, line 1, cannot be read by this version of handeye: "
     ):
         opened(tmp_path)
 
@@ -208,7 +206,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
 @pytest.mark.parametrize("mine", [b"my notes", b"line 1\nline 2\nthe last one has no end"])
 def test_notes_of_somebody_are_not_taken_for_a_batch_that_was_cut_short(tmp_path: Path, mine: bytes) -> None:
     (tmp_path / "trials.jsonl").write_bytes(mine)
-    with pytest.raises(InvalidInput, match=r"trials\.jsonl, line 1, is of no batch"):
+    with pytest.raises(InvalidInput, match=r"trials\.jsonl, line 1, cannot be read"):
         opened(tmp_path)
     assert {file.name: file.read_bytes() for file in tmp_path.iterdir()} == {"trials.jsonl": mine}
 
@@ -237,7 +235,7 @@ def test_the_plan_in_the_folder_is_that_of_the_batch(tmp_path: Path) -> None:
     ("line", "why"),
     [
         (b'{"trial":0,"seed":77,"ended":"killed"}', "has the seed 77, which trial 0 has not"),
-        (b'{"trial":0,"seed":5,"ended":"ended"}', "a trial that counts as 'ended' has left no result"),
+        (b'{"trial":0,"seed":5,"ended":"ended"}', "a trial that counts as 'ended' has no result"),
     ],
 )
 def test_a_trial_that_cannot_be_of_the_batch_is_refused(tmp_path: Path, line: bytes, why: str) -> None:
@@ -278,7 +276,7 @@ def test_figures_count_what_ended_how_and_tell_the_command_of_each_failure() -> 
         5, 2, 1, 1, 1, 2,
     )  # fmt: skip
     assert [(each.trial, each.stage, each.cause, each.command) for each in found.failures] == [
-        (1, "check the gasket", "the gasket is not on properly", "again 6"),
+        (1, "check the gasket", "the gasket is not in place", "again 6"),
         (2, "referee", "pins", "again 7"),
         (4, "", "its process was killed twice", "again 9"),
     ]
@@ -429,7 +427,7 @@ def test_batches_are_compared_over_the_seeds_that_both_have() -> None:
         3, 1, 0, 1, 0, 3,
     )  # fmt: skip
     with pytest.raises(
-        InvalidInput, match=r"^other has no seed in common with the first batch; they are compared "
+        InvalidInput, match=r"^other has no seed in common with the first batch, but a comparison "
     ):
         paired(["first", "other"], [(head, first[:1]), (head, first[1:])])
 
@@ -455,7 +453,7 @@ def test_batches_of_other_worlds_or_other_work_are_not_compared() -> None:
     rows = carry_out(cases(5, range(2)), Canned())
     head, other = TRIAL.head(ASSEMBLY), TRIAL.head(DISMANTLING)
     drawn = msgspec.structs.replace(head, world=msgspec.structs.replace(WORLD, drawing=WORLD.drawing - 1))
-    with pytest.raises(InvalidInput, match=r"^other was carried out by another version, whose seeds were "):
+    with pytest.raises(InvalidInput, match=r"^other comes from another version, whose seeds give "):
         paired(["first", "other"], [(head, rows), (drawn, rows)])
     with pytest.raises(InvalidInput, match=r"^other holds trials of another kind"):
         paired(["first", "other"], [(head, rows), (other, rows)])
@@ -469,7 +467,7 @@ def test_what_cannot_be_left_is_told_before_a_trial_is_carried_out(command: Comm
     (tmp_path / "batch" / "tables" / "mine").mkdir(parents=True)
     (tmp_path / "batch" / "tables" / "mine" / "it.csv").write_text("mine")
     code, out, err = command(*words, "--tables", "csv")
-    assert (code, out, "tables holds other things (`mine/it.csv`)" in err) == (2, "", True)
+    assert (code, out, "tables holds other files (`mine/it.csv`)" in err) == (2, "", True)
     (tmp_path / "batch" / "figures.html").write_text("mine")
     code, out, err = command(*words)
     assert (code, out, "figures.html exists and is no page of trials" in err) == (2, "", True)
@@ -484,7 +482,7 @@ def test_only_tables_that_handeye_wrote_are_replaced(tmp_path: Path) -> None:
     write_tables(tmp_path / "tables", tables_of(ASSEMBLY, rows, figures(rows)), "csv")
     (tmp_path / "tables" / "mine").mkdir()
     (tmp_path / "tables" / "mine" / "it.csv").write_text("mine")
-    with pytest.raises(InvalidInput, match=r"holds other things \(`mine/it\.csv`\)"):
+    with pytest.raises(InvalidInput, match=r"holds other files \(`mine/it\.csv`\)"):
         check_tables(tmp_path / "tables", "csv")
 
 

@@ -43,14 +43,14 @@ def place(there: SimulatedCell, body: str) -> np.ndarray:
 def test_a_pin_that_is_taken_out_of_the_hand_stops_the_arm() -> None:
     found = disturbed(plan_of(TAKE), WorldSpec(seed=0), "ray", "pin.removed")
     assert (found.stopped, found.harmless, found.at.split()[0]) == (True, True, "CLOSE")
-    assert "the fingers stand at 0.00 in" in found.message
+    assert "the gap is 0.00 in" in found.message
 
 
 @pytest.mark.slow
 def test_what_nobody_notices_is_no_success() -> None:
     found = disturbed(plan_of(TAKE), WorldSpec(seed=0), "ray", "driver.removed")
     assert (found.built, found.stopped, found.harmless) == (True, False, False)
-    assert "screwdriver from its rack" in found.message
+    assert "distance of the screwdriver from its rack" in found.message
 
 
 @pytest.mark.slow

@@ -39,7 +39,7 @@ from handeye.trials.figures import figures
 from handeye.trials.folder import read_batch
 from handeye.trials.sweep import Case
 
-STOPPED = result(completed=False, assembled=None, message="the gasket is not on properly")  # with error 32
+STOPPED = result(completed=False, assembled=None, message="the gasket is not in place")  # with error 32
 CALLED = msgspec.structs.replace(STOPPED, error=None, message="THE ROTOR IS HARD TO TURN")
 SET_UP = msgspec.structs.replace(STOPPED, error=None, stopped_at=None)
 RIGHT, WRONG = (result(completed=True, assembled=assembled) for assembled in (True, False))

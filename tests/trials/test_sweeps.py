@@ -88,7 +88,7 @@ def test_conditions_are_counted_apart() -> None:
 def test_batches_of_one_kind_are_compared_and_of_two_are_not() -> None:
     head = head_of(COINS, WorldSpec(seed=0))
     other = head_of(ASSEMBLY, WorldSpec(seed=0))
-    with pytest.raises(InvalidInput, match=r"^b holds trials of another kind: assembly, and not coins$"):
+    with pytest.raises(InvalidInput, match=r"^b holds trials of another kind: assembly, not coins$"):
         paired(["a", "b"], [(head, ()), (other, ())])
 
 

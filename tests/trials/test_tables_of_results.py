@@ -49,13 +49,13 @@ def test_trials_have_what_is_taught_and_a_search_and_a_referee_of_their_own() ->
     [
         ({"worlds": ["3"]}, r"^a world is a seed or a handeye\.World, not '3'$"),
         ({"worlds": [-1]}, r"^a seed is a whole number from 0 to .*; -1 is not$"),
-        ({"worlds": 3}, r"^worlds are seeds or worlds one after the other, not 3$"),
+        ({"worlds": 3}, r"^worlds must be a sequence of seeds or worlds, not 3$"),
         (
             {"worlds": [1], "jobs": 2, "search": spiral},
-            r"^code in the place of a part takes one process: leave ",
+            r"^code that replaces a part needs one process: leave ",
         ),
         ({"worlds": [1], "referee": {"pump": 1}}, r"^the referee has no finding `pump`; "),
-        ({"worlds": [1], "jobs": 0}, r"^jobs are a whole number from 1 up, not 0$"),
+        ({"worlds": [1], "jobs": 0}, r"^jobs must be a whole number of 1 or more, not 0$"),
     ],
 )
 def test_what_cannot_be_tried_is_told_in_one_sentence(words: dict[str, object], sentence: str) -> None:

@@ -79,11 +79,14 @@ def test_a_file_is_known_by_how_it_begins() -> None:
 @pytest.mark.parametrize(
     ("name", "sentence"),
     [
-        ("it.gif", "it.gif: a GIF would be seven times as large, in 256 colours; make a .webp or a .webm"),
+        (
+            "it.gif",
+            "it.gif: a GIF would be seven times as large, with only 256 colours; make a .webp or a .webm",
+        ),
         ("it.APNG", "it.APNG: an animated PNG would be twenty times as large; make a .webp or a .webm"),
         (
             "it.mp4",
-            "it.mp4: every browser would play H.264 there, which OpenCV does not write; make a .webp or a .webm",
+            "it.mp4: browsers expect H.264 in it, which OpenCV cannot write; make a .webp or a .webm",
         ),
         ("it.mkv", "it.mkv: the name of a video ends in .webp or .webm"),
         ("it", "it: the name of a video ends in .webp or .webm"),

@@ -82,5 +82,5 @@ def test_five_spots_are_too_few():
 
 
 def test_no_spots_at_all_are_refused():
-    with pytest.raises(InvalidInput, match=r"^no sightings to calibrate the camera with$"):
+    with pytest.raises(InvalidInput, match=r"^there are no sightings to calibrate the camera with$"):
         calibrate([], DRAWING)

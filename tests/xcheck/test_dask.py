@@ -27,5 +27,5 @@ def test_two_workers_give_the_same_rows_as_processes() -> None:
 
 
 def test_a_scheduler_that_there_is_not_is_told_in_one_sentence() -> None:
-    with pytest.raises(InvalidInput, match=r"^no scheduler of dask answers at tcp://127\.0\.0\.1:1$"):
+    with pytest.raises(InvalidInput, match=r"^no dask scheduler answers at tcp://127\.0\.0\.1:1$"):
         carry_out(ASSEMBLY, TRIAL, CASES, dask_workers(2, "tcp://127.0.0.1:1"))

@@ -46,7 +46,9 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
         (x, y, z), (f, g, h) = change.displacement, guard.force
         if x * f + y * g + z * h < 0:
             message = "the hand moves away from what its `STOP` should press on"
-            help = "the vector of `STOP` is the force of the hand: point it where the hand goes"
+            help = (
+                "the vector of `STOP` is the force that the hand exerts: point it in the direction of motion"
+            )
             yield AlwaysFails("stop-away-from-motion", number, message, help)
 
 
@@ -61,7 +63,7 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
         opened = _gaps(graph, before)
         if before and len(opened) == len(before) and max(opened) < grasp.minimum - TOLERANCE_M:
             message = (
-                f"the grasp asks for at least {grasp.minimum / INCH:g} in, and the hand is open by "
+                f"the grasp needs at least {grasp.minimum / INCH:g} in, but the hand is open by "
                 f"{max(opened) / INCH:g} in"
             )
             help = "it would always raise error 2"
@@ -81,7 +83,7 @@ def _travels(graph: Graph) -> Iterator[AlwaysFails]:
         lengths = [math.hypot(*change.displacement) for change in changes if change is not None]
         if lengths and max(lengths) < travel.minimum - TOLERANCE_M:
             message = (
-                f"`TRAVEL` asks for at least {travel.minimum / INCH:g} in, and the motion goes at most "
+                f"`TRAVEL` needs at least {travel.minimum / INCH:g} in, but the motion is at most "
                 f"{max(lengths) / INCH:g} in"
             )
             help = "it would always raise error 8"
@@ -97,7 +99,7 @@ def _torques(graph: Graph) -> Iterator[AlwaysFails]:
         started = graph.after(running) if started is None else started
         last = graph.last(number, Tool)
         if number not in started or (last and running.isdisjoint(last)):
-            message = "a torque should end this motion, but the screwdriver does not turn"
+            message = "this motion should end on a torque, but the screwdriver does not turn"
             help = "`TOOL` runs the screwdriver; without it this always raises error 24"
             yield AlwaysFails("torque-without-tool", number, message, help, max(last, default=None))
 
@@ -107,10 +109,8 @@ def _touches(graph: Graph) -> Iterator[AlwaysFails]:
     for number in _guarded(graph, GuardKind.TOUCH):
         last = graph.last(number, Open, Close, Center)
         if last and not any(graph.at(n, Open) for n in last):
-            message = (
-                "a touch should end this motion, but the fingers are closed: what they hold ends it at once"
-            )
-            help = "`STOP` feels what the held thing meets; `TOUCH` needs open fingers"
+            message = "this motion should end on a touch, but the fingers are closed: what they hold ends it at once"
+            help = "use `STOP`, which feels contact through the held part; `TOUCH` needs open fingers"
             yield AlwaysFails("touch-while-closed", number, message, help, max(last))
 
 
@@ -125,7 +125,7 @@ def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
     """WAITs that were meant as a delay."""
     for number, wait in graph.each(Wait):
         if _TIME.fullmatch(wait.message):
-            message = "`WAIT` stops the run and calls the operator: it does not wait for a time"
+            message = "`WAIT` stops the run and calls the operator: it does not wait for a number of seconds"
             help = "leave it out: the arm is at rest when a motion ends"
             yield AlwaysFails("wait-for-time", number, message, help)
 
@@ -141,6 +141,6 @@ def _undoes(graph: Graph) -> Iterator[AlwaysFails]:
             seen.add(here)
             here = steps[here].next
         if here == number:
-            message = "the stage is undone whatever happens in it"
+            message = "the stage is always undone, even without an error"
             help = "test an error before it, with `SKIPE` or `SKIPN`"
             yield AlwaysFails("always-undone", number, message, help)

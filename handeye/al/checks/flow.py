@@ -52,14 +52,14 @@ _ORDERS = (
         code="aoj-without-search",
         of=Advance,
         needs=Search,
-        message="no `SEARCH` comes before this `AOJ`: there is no next place",
+        message="there is no `SEARCH` before this `AOJ`, so there is no next place",
         help="put a `SEARCH` before the label",
     ),
     _Order(
         code="search-without-aoj",
         of=Search,
         needs=Advance,
-        message="no `AOJ` comes after this `SEARCH`: only its first place is tried",
+        message="there is no `AOJ` after this `SEARCH`, so only its first place is tried",
         help="`AOJ` goes to the next place and back to a label",
         later=True,
     ),
@@ -67,28 +67,28 @@ _ORDERS = (
         code="save-without-move",
         of=Save,
         needs=Move,
-        message="no `MOVE` comes before this `SAVE`: there is no goal to compare with",
-        help="`SAVE` saves where the hand is, less where the last `MOVE` was to bring it",
+        message="there is no `MOVE` before this `SAVE`, so there is no goal to compare with",
+        help="`SAVE` saves the difference between the hand's place and the goal of the last `MOVE`",
     ),
     _Order(
         code="travel-without-change",
         of=Travel,
         needs=Change,
-        message="no `CHANGE` comes before this `TRAVEL`: there is no motion to measure",
-        help="`TRAVEL` checks how far the last `CHANGE` went",
+        message="there is no `CHANGE` before this `TRAVEL`, so there is no motion to measure",
+        help="`TRAVEL` checks how far the hand moved in the last `CHANGE`",
     ),
     _Order(
         code="never-saved",
         of=Height,
         needs=Save,
-        message="no `SAVE` comes before this `HEIGHT`: it would raise error 9",
-        help="`SAVE` keeps where the hand is, and `HEIGHT` compares with it",
+        message="there is no `SAVE` before this `HEIGHT`, which would raise error 9",
+        help="`SAVE` records the height of the hand, and `HEIGHT` compares with it",
     ),
     _Order(
         code="specific-without-general",
         of=Specific,
         needs=General,
-        message="no `GENERAL` comes before this `SPECIFIC`: it would raise error 31",
+        message="there is no `GENERAL` before this `SPECIFIC`, which would raise error 31",
         help="`SPECIFIC` searches for holes where `GENERAL` has found the part",
     ),
 )
@@ -138,8 +138,8 @@ class _Flow:
         for number in range(len(self.graph.steps)):
             lost = self.span(number) not in reached
             if lost and not before and number - 1 not in trapped:
-                help = "a jump before it leads elsewhere, and no jump leads here"
-                message = "this is never carried out"
+                help = "the line before jumps elsewhere, and no jump leads here"
+                message = "this is never executed"
                 yield self.problem("unreachable-code", number, message, help=help)
             before = lost
 
@@ -174,7 +174,7 @@ class _Flow:
             elif operation.number not in raised[number] and operation.number in ERRORS:
                 yield number, self.never_raised(number, operation.number, actions[number], raised[number])
             elif operation.number in raised[number] and self.skips_test(operation, number, raised):
-                message = f"with error {operation.number} the program continues as without an error"
+                message = f"the program continues in the same way with and without error {operation.number}"
                 skips = f"`{self.word(number).text}` skips only the test below"
                 help = f"{skips}: write a test and a `JUMP` for each error"
                 yield number, self.problem("test-of-no-effect", number, message, help=help)
@@ -185,18 +185,20 @@ class _Flow:
         for jump, cause in stale_rounds(self.graph):
             word = self.word(jump).text
             if cause is None:
-                message = "no `MOVE` comes between the label and this `AOJ`: every round tries the same place"
+                message = (
+                    "there is no `MOVE` between the label and this `AOJ`, so every round tries the same place"
+                )
                 help = "a `MOVE` after the label would go to the next place"
                 yield jump, self.problem("search-stands-still", jump, message, help=help)
                 continue
             if reported.setdefault(cause, self.span(jump)) != self.span(jump):
                 continue  # one search may have several jumps back
             begin = self.word(cause)
-            message = f"`{word}` jumps back to before the `{begin.text}`: every round starts anew"
+            message = f"`{word}` jumps back to before the `{begin.text}`: every round starts it again"
             help = f"put the label after the `{begin.text}`"
             is_search = self.graph.at(cause, Search) is not None
             code = "search-begun-anew" if is_search else "count-begun-anew"
-            there = Label(span=begin.span, text="this starts anew")
+            there = Label(span=begin.span, text="this starts again")
             yield jump, self.problem(code, jump, message, there, help=help)
 
     def vain(self) -> Iterator[Finding]:
@@ -235,7 +237,7 @@ class _Flow:
         before = [n for n in self.graph.back[number] if n < number]
         cause = [Label(span=self.word(n).span, text="this raises no error") for n in before[-1:]]
         if before and self.graph.at(before[-1], Test):
-            cause = [Label(span=self.word(before[-1]).span, text="this has cleared the error")]
+            cause = [Label(span=self.word(before[-1]).span, text="this clears the error")]
         message = f"`{word}` follows no action: there is no error to test"
         help = "put the test directly after the action that raises the error"
         return self.problem("test-without-action", number, message, *cause, help=help)

@@ -44,7 +44,7 @@ def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnos
                 "skips-one-only",
                 f"`{skip.text}` skips one instruction, not the indented block",
                 skip.span,
-                Label(span=behind[-1].span, text="this is carried out in any case"),
+                Label(span=behind[-1].span, text="this line runs in any case"),
                 help="to skip more, write the opposite test and a `JUMP`",
             )
 
@@ -84,8 +84,8 @@ def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnosti
     if other is text and not text.text[end:start].strip():
         yield problem(
             "macro-ends-early",
-            f"macro {quoted(macro.name.text)} ends with `{modifier.text}`, and its motion is outside",
+            f"macro {quoted(macro.name.text)} ends with `{modifier.text}`, but its motion is outside the macro",
             modifier.span,
-            Label(span=motion.span, text="this is after the macro"),
+            Label(span=motion.span, text="this line is after the macro"),
             help="a blank line ends a macro: remove it, or write a comment there",
         )

@@ -13,9 +13,9 @@ from handeye.core.diagnostics import LIMIT, Diagnostic, Label, alternatives, nam
 from handeye.core.errors import ERRORS
 from handeye.program.taught import Taught
 
-_BUILT_IN_VECTORS = {**dict.fromkeys(AXES, "is an axis of the table"), NIL: "stands for no vector"}
+_BUILT_IN_VECTORS = {**dict.fromkeys(AXES, "is an axis of the table"), NIL: "is not a vector"}
 _MESSAGES = {
-    Refers.POSITION: "position {} is neither taught nor defined by `TRANS`",
+    Refers.POSITION: "position {} is not in the taught file, and no `TRANS` defines it",
     Refers.PART: "there is no part {}",
     Refers.TARGET: "{} is neither a position nor a part",
     Refers.PICTURE: "no `LOOK` takes a picture {}",

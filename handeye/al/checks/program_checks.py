@@ -96,7 +96,7 @@ def _early(use: Name, here: Statement) -> Diagnostic:
         use.span,
         Label(span=here.span, text="defined here"),
         *uses(use),
-        help="planning follows the order of the text; a `TRANS` would give it a place",
+        help="planning reads the text in order; a `TRANS` before it would give it a place",
     )
 
 
@@ -127,7 +127,7 @@ def check_unused(
             name = statement.operands[0]
             if isinstance(name, Name) and name.text not in found:
                 line = commented().get(name.text)
-                help = None if line is None else f"on line {line} it is in a comment, after a `;`"
+                help = None if line is None else f"line {line} has it in a comment, after a `;`"
                 message = f"{what} {quoted(name.text)} is defined but never used"
                 yield problem(f"unused-{what}", message, name.span, help=help)
     called = {statement.word.text for statement in all_statements(script) if statement.word is not None}
@@ -211,15 +211,15 @@ def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
             continue
         if any(held for _, held in looks.get(before.text, [])):
             message = f"{quoted(before.text)} is taken with `HOLD`, after {quoted(after.text)}"
-            help = "the earlier picture comes first"
+            help = "the earlier picture must be first"
             yield problem("compared-without-hold", message, across(before, after), help=help)
         else:
             yield problem(
                 "compared-without-hold",
-                f"picture {quoted(after.text)} is taken at a target voltage of its own",
+                f"picture {quoted(after.text)} is taken at a different target voltage",
                 after.span,
-                Label(span=taken[0][0].span, text="the camera sets its target voltage anew here"),
-                help=f"`LOOK {after.text} HOLD` keeps that of the earlier picture",
+                Label(span=taken[0][0].span, text="the camera sets its target voltage again here"),
+                help=f"`LOOK {after.text} HOLD` keeps the voltage of the earlier picture",
             )
 
 
@@ -231,7 +231,7 @@ def check_parameters(script: Script) -> Iterator[Diagnostic]:
             if name not in known:
                 meant = alternatives(name, known)
                 lacks = f"{quoted(macro.name.text)} has no parameter {quoted(name)}"
-                message = f"{lacks}: the text keeps its braces"
+                message = f"{lacks}: the braces stay in the text"
                 yield problem("unknown-parameter", message, span, help=names_sentence(meant))
 
 
@@ -243,7 +243,7 @@ def unused_parameters(script: Script) -> Iterator[Diagnostic]:
         for parameter in macro.parameters:
             if parameter.text not in used:
                 words = {token.text for line in macro.body for token in line.tokens}
-                braces = f"in a text it stands in braces: `{{{parameter.text}}}`"
+                braces = f"in a text, write it in braces: `{{{parameter.text}}}`"
                 help = braces if parameter.text in words else None
                 message = f"parameter {quoted(parameter.text)} is never used"
                 yield problem("unused-parameter", message, parameter.span, help=help)

@@ -40,7 +40,9 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
                     lost[statement] = name
     for statement, name in lost.items():
         if statement not in right:
-            message = f"no `SAVE` of {quoted(name.text)} comes before this `RESTORE`: the goal is not shifted"
+            message = (
+                f"there is no `SAVE` of {quoted(name.text)} before this `RESTORE`, so the goal is not shifted"
+            )
             here = Label(span=first[name.text].span, text="it is saved only here")
             yield problem("never-saved", message, name.span, here, *uses(name))
 

@@ -34,11 +34,11 @@ def cause_sentence(cause: Cause) -> str:
             goal = f"{cause.goal}: " if cause.goal else ""
             return goal + reach_sentence(cause.arm, cause.reason)
         case c.JointBehind():
-            return f"{cause.joint} stayed behind its set-point"
+            return f"{cause.joint} lags behind its set-point"
         case c.HandAstray():
             return f"the hand is {_inches(cause.distance)} from its set-point"
         case c.HandStuck():
-            return f"the hand moved {_inches(cause.moved)} and no farther"
+            return f"the hand stopped after {_inches(cause.moved)}"
         case c.GuardsUnmet():
             return "or the moment" if GuardKind.MOMENT in cause.guards else ""
         case c.TravelOutside():
@@ -46,7 +46,7 @@ def cause_sentence(cause: Cause) -> str:
             return f"it went {went} in; allowed: {least} to {most} in"
         case c.HeightOutside():
             height, least, most = _apart(cause.height, cause.minimum, cause.maximum, decimals=3)
-            return f"it stands {height} in over {cause.name}; allowed: {least} to {most} in"
+            return f"it is {height} in above {cause.name}; allowed: {least} to {most} in"
         case c.HeightUnknown():
             return f"{cause.name} was not saved"
         case c.GapTooSmall():
@@ -56,7 +56,7 @@ def cause_sentence(cause: Cause) -> str:
             gap, most = _apart(cause.gap, cause.maximum)
             return f"the gap is {gap} in, the maximum {most} in"
         case c.NothingBetween():
-            return f"the fingers do not both touch anything; the gap is {_inches(cause.gap)}"
+            return f"not both fingers touch; the gap is {_inches(cause.gap)}"
         case (
             c.SwitchesClosed() | c.SwitchesOpen() | c.SwitchesCrossed() | c.SwitchesHard() | c.GapAstray()
             | c.GapStill() | c.GapJumped() | c.GapUnlike() | c.CurrentUnlike() | c.MotorSlow() | c.ForceInAir()
@@ -67,7 +67,7 @@ def cause_sentence(cause: Cause) -> str:
         case c.NoPicture():
             return f"no picture {cause.picture} was taken"
         case c.NoGeneral():
-            return "no GENERAL found the part before"
+            return "no earlier GENERAL found the part"
         case c.NoOutline() | c.OutsidePicture() | c.NoHoles():
             return _not_found(cause)
         case c.NoGasket() | c.GasketWrong():
@@ -81,7 +81,7 @@ def cause_sentence(cause: Cause) -> str:
                 f" around {cause.around}" if cause.around else ""
             )
         case c.Looping():
-            return f"the program loops at line {cause.place}, and nothing moves"
+            return f"the program loops at line {cause.place} while nothing moves"
         case (
             c.UndoResisted() | c.HoldOff() | c.MetEarly() | c.ScrewFast() | c.ScrewLost() | c.BackingOut()
             | c.UndoUnknown()
@@ -94,9 +94,9 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
     """The result of an inspection; None is a pass."""
     match cause:
         case None:
-            return "the gasket is on properly"
+            return "the gasket is in place"
         case c.NoGasket():
-            return "no gasket: the picture after shows nothing new where it should be"
+            return "no gasket: the later picture shows nothing new where it should be"
         case c.GasketWrong():
             return "; ".join(f"the {fault.hole} hole {_hole(fault)}" for fault in cause.faults)
     assert_never(cause)
@@ -104,34 +104,32 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
 
 def match_sentence(off: float, unlike: float) -> str:
     """The result of a match: displacement (m), and the fraction that looks different."""
-    return f"moved by {_inches(off)} against what is around it; {100 * unlike:.0f} % of it looks otherwise"
+    return f"moved by {_inches(off)} relative to its surroundings; {100 * unlike:.0f} % of it looks different"
 
 
 def _undo_stopped(cause: c.UndoCause) -> str:
     match cause:
         case c.UndoResisted():
             felt, limit = distinct_digits([cause.force / OUNCE_FORCE, cause.limit / OUNCE_FORCE], 1)
-            return (
-                f"something resists while the step is undone: the hand feels {felt} oz; allowed: {limit} oz"
-            )
+            return f"something resists as the step is undone: the hand feels {felt} oz; allowed: {limit} oz"
         case c.HoldOff():
             gap, kept = _apart(cause.gap, cause.kept)
             held = "held something at" if cause.holding else "stood at"
-            return f"the fingers stand at {gap} in; when the step was executed they {held} {kept} in"
+            return f"the gap is {gap} in; when the step was executed they {held} {kept} in"
         case c.MetEarly():
             return _met_early(cause)
         case c.ScrewFast():
             torque = f"{cause.torque / OUNCE_INCH:.0f} oz in"
-            return (
-                f"the screw does not come out: it has risen {_inches(cause.risen)}, the driver shows {torque}"
-            )
+            return f"the screw does not come out: it has risen by {_inches(cause.risen)}, and the driver shows {torque}"
         case c.ScrewLost():
             force = f"{cause.force / OUNCE_FORCE:.0f} oz"
-            return f"the screw has not come along: the hand goes down {_inches(cause.way)} and does not meet {force}"
+            return (
+                f"the hand does not hold the screw: it goes down {_inches(cause.way)} without meeting {force}"
+            )
         case c.BackingOut():
-            return "the driver has turned a screw out in the step; that is not undone"
+            return "the step drove a screw out, which cannot be undone"
         case c.UndoUnknown():
-            return "what the step has left for undoing it cannot be used"
+            return "the record for undoing this step cannot be used"
     assert_never(cause)
 
 
@@ -142,19 +140,19 @@ def _met_early(cause: c.MetEarly) -> str:
     reach_sentence = f"{touching}; when the step was executed the fingers {then} at {kept} in"
     if all(cause.fingers) or not cause.holding:
         return reach_sentence
-    return f"{reach_sentence}: it lies {_inches((cause.gap - cause.kept) / 2)} off the middle of the hand"
+    return f"{reach_sentence}: it lies {_inches((cause.gap - cause.kept) / 2)} off the centre of the hand"
 
 
 def _not_found(cause: c.SightCause) -> str:
     match cause:
         case c.NoOutline():
-            return "nothing of the part's size stands out from the background where it should be"
+            return "nothing of the part's size is visible against the background where it should be"
         case c.OutsidePicture():
             return "the part is not in the field of the close picture: is the camera aimed at it?"
         case c.NoHoles(blobs=0):
-            return "no hole is found: is the picture in focus, and is the part in it?"
+            return "found no hole: is the picture in focus, and is the part in it?"
         case c.NoHoles(blobs=1):
-            return "only one hole is found, and the part cannot be located by one: is the picture in focus?"
+            return "found only one hole, which cannot locate the part: is the picture in focus?"
         case c.NoHoles():
             found = f"{cause.blobs} dark blobs are found"
             return f"{found}, but no two are the part's largest holes: is the picture in focus?"
@@ -164,11 +162,11 @@ def _not_found(cause: c.SightCause) -> str:
 def _hole(fault: c.BaseHoleUnseen | c.GasketHoleUnseen | c.GasketHoleOff) -> str:
     match fault:
         case c.BaseHoleUnseen():
-            return "of the base is not found in the picture before"
+            return "of the base was not found in the earlier picture"
         case c.GasketHoleUnseen():
-            return "of the gasket is not found"
+            return "of the gasket was not found"
         case c.GasketHoleOff():
-            return f"of the gasket is off by about {_inches(fault.off)}"
+            return f"of the gasket is displaced by about {_inches(fault.off)}"
     assert_never(fault)
 
 
@@ -192,17 +190,17 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             held = f"something {_inches(cause.gap)} thick holds the fingers apart"
             return f"{_switches(cause.fingers)} open although {held}: {_numb(cause.fingers)}"
         case c.SwitchesCrossed():
-            still = f"still closed after the hand went {_inches(cause.moved)} to that side"
+            still = f"still closed after the hand moved {_inches(cause.moved)} to that side"
             return (
                 f"{_switches(cause.fingers)} {still}: the switches are exchanged, or the other one stays open"
             )
         case c.SwitchesHard():
             force = f"{cause.force / OUNCE_FORCE:.0f} oz"
-            driven = f"the fingers are driven together with {force}"
+            driven = f"the fingers are pressed together with {force}"
             return f"{_switches(cause.fingers)} open although {driven}: {_numb(cause.fingers)}"
         case c.GapJumped():
             before, after = _apart(cause.before, cause.gap)
-            return f"it read {before} in, and {after} in at once: {_jump(cause)}"
+            return f"it jumped from {before} in to {after} in: {_jump(cause)}"
         case c.GapUnlike():
             gap, thick = _apart(cause.gap, cause.thickness)
             times = f": {cause.gap / cause.thickness:.2f} times as much" if cause.thickness else ""
@@ -220,12 +218,12 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return f"it shows {told:.1f} oz-in where the motor takes {known:.1f}{times}"
         case c.CurrentShort():
             shown, asked = (torque / OUNCE_INCH for torque in (cause.torque, cause.asked))
-            short = f"it shows {shown:.1f} oz-in, short of the {asked:.1f} asked for, while the motor is held fast"
+            short = (
+                f"it shows {shown:.1f} oz-in, short of the {asked:.1f} asked for, while the motor is stalled"
+            )
             return f"{short}: its reading ends there, or the motor is weak"
         case c.MotorSlow():
-            return (
-                f"the motor had started after {cause.share:.1f} of its time: it turns slower than commanded"
-            )
+            return f"the motor had started after {cause.share:.1f} of the usual time: it turns too slowly"
         case c.GapAstray():
             return f"the gap reads {_inches(cause.gap)}; the fingers were driven to {_inches(cause.goal)}"
         case c.GapStill():
@@ -240,18 +238,20 @@ def doubt_sentence(cause: c.SenseCause) -> str:
         case c.JointAlone():
             return _alone(cause)
         case c.CurrentSilent():
-            return f"it showed {cause.torque / OUNCE_INCH:.1f} oz-in at most, less than it takes to start"
+            return (
+                f"it showed {cause.torque / OUNCE_INCH:.1f} oz-in at most, less than the motor needs to start"
+            )
         case c.PictureRepeated():
-            return f"picture {cause.picture} is the same as {cause.earlier}, point by point"
+            return f"picture {cause.picture} is the same as {cause.earlier}, pixel by pixel"
         case c.PictureBlank():
-            return f"picture {cause.picture} is of one intensity all over"
+            return f"picture {cause.picture} is uniform"
     assert_never(cause)
 
 
 def _jump(cause: c.GapJumped) -> str:
     """What can make a gap jump. Nothing but its potentiometer does where the fingers touch nothing."""
     if not cause.held:
-        return "no finger is so fast"
+        return "no finger can move so fast"
     moved = "slipped" if cause.gap < cause.before else "been pushed, and the fingers apart"
     return f"what is held has {moved}, or the gap's potentiometer fails"
 
@@ -288,7 +288,7 @@ def _alone(cause: c.JointAlone) -> str:
     prismatic = cause.joint.kind == "prismatic"
     unit, name = (OUNCE_FORCE, "oz") if prismatic else (OUNCE_INCH, "oz-in")
     if cause.friction is None:
-        return f"{cause.joint.name}: {abs(cause.torque) / unit:.0f} {name} do not move it on"
+        return f"{cause.joint.name}: {abs(cause.torque) / unit:.0f} {name} do not move it"
     took, takes = distinct_digits([cause.friction / unit, cause.torque / unit], 0)
     tilted = ", or the arm no longer stands upright" if cause.one_way else ""
     return f"{cause.joint.name} takes {takes} {name} to move; at first it took {took} {name}{tilted}"

@@ -152,13 +152,12 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
         case InnerCylinder():
             radius, least = distinct_digits([reason.radius / INCH, reason.least / INCH], 1)
             return (
-                f"the wrist would have to be {radius} in from the axis of joint 1; "
-                f"it cannot come nearer than {least} in"
+                f"the wrist would have to be {radius} in from the axis of joint 1; the minimum is {least} in"
             )
         case FixedOrientation():
             return (
-                f"the hand would have to be turned by {enough_digits(reason.angle / DEGREE, 1)} degrees, "
-                f"and no joint of the {arm.name} arm turns it"
+                f"the hand would have to turn by {enough_digits(reason.angle / DEGREE, 1)} degrees, "
+                f"which no joint of the {arm.name} arm can do"
             )
         case FixedDirection():
             movers = [named(arm, joint) for joint in reason.joints]
@@ -173,13 +172,12 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
         case InLine():
             one, other = (joint + 1 for joint in reason.joints)
             return (
-                f"joints {one} and {other} come into line on the way, "
-                "where the hand cannot keep its orientation"
+                f"joints {one} and {other} line up on the way, and there the hand cannot keep its orientation"
             )
         case TooFast():
             scale, unit = _unit(arm, reason.joint)
             rate, limit = distinct_digits([reason.rate / scale, reason.limit / scale], 0)
-            return f"{named(arm, reason.joint)} would have to move at {rate} {unit}/s; it can do {limit} {unit}/s"
+            return f"{named(arm, reason.joint)} would have to move at {rate} {unit}/s; its limit is {limit} {unit}/s"
         case BelowTable():
             return f"the hand would be {enough_digits(reason.depth / INCH, 2)} in below the table"
     assert_never(reason)

@@ -5,10 +5,10 @@ from handeye.core.entries import PLANNED, Entry
 ENTRY = Entry(
     name=PLANNED,
     title="the system of 1973",
-    help="Programs in AL's line, planned for an arm and carried out with hand and eye.",
+    help="Programs in the 1973 arm language, planned for an arm and run with camera, touch and force.",
     system="handeye.systems.stanford.executor_run:PROGRAM",
     can=("plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format", "python"),
     commands="""
-cache = handeye.systems.stanford.cache:cache: Show the calibrations of cameras that are kept, or remove them.
+cache = handeye.systems.stanford.cache:cache: List the kept camera calibrations, or remove them.
 """,
 )

@@ -16,10 +16,10 @@ _AGES: Final = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 
 def cache(
     *,
-    clear: Annotated[bool, Parameter(help="Remove all of them.")] = False,
+    clear: Annotated[bool, Parameter(help="Remove all kept calibrations.")] = False,
     json: Json = False,
 ) -> int:
-    """Show the calibrations of cameras that are kept, or remove them.
+    """List the kept camera calibrations, or remove them.
 
     What the arm measures of itself and of the camera before the first instruction is kept for other runs in the same
     world, with the same pictures and versions: they give the same bytes and need not wait. `--calibrate`
@@ -49,7 +49,9 @@ def cache(
 
 def _show(kept: "KeptCalibrations", entries: list["KeptCalibration"]) -> None:
     if kept.folder is None:
-        say("nothing is kept: the environment variable HANDEYE_CACHE is empty, or there is no home folder")
+        say(
+            "no calibrations are kept: the environment variable HANDEYE_CACHE is empty, or there is no home folder"
+        )
         return
     size = sum(entry.bytes for entry in entries)
     say(f"{kept.folder}", whole=True)

@@ -219,7 +219,7 @@ class RunningPlan(RunningSystem):
 
     def restore(self, state: SystemState) -> None:
         if not isinstance(state, ExecutionState):
-            raise BadFile("what the run remembers is not of the executor of programs")
+            raise BadFile("the state of the run belongs to another system")
         self.context.restore(state)
         self._take_calibration()
 
@@ -319,12 +319,12 @@ class PlanSystem(System):
     state = ExecutionState
     words = StepperWords(
         about=(
-            "The script is carried out a step at a time. A step is a line that does something, together with the",
-            "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow stands before the next one.",
+            "The script runs one step at a time. A step is a line that does something, together with the",
+            "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow marks the next one.",
         ),
         places=(
             "PLACE is a line (58; pins.al:3 in a required file), a label (L1), an instruction (AOJ), a",
-            "stage or a piece of its name, or an error (error:23). WHAT is one of",
+            "stage or part of its name, or an error (error:23). WHAT is one of",
         ),
         units="inches, degrees, ounces",
         commands={
@@ -364,8 +364,8 @@ class PlanSystem(System):
         late = next((fault for fault in world.faults if (fault.stage or 0) > stages), None)
         if late is not None:
             raise BadArgument(
-                f"the fault {quoted(late.name)} sets in with stage {late.stage}; "
-                f"the program has {counted(stages, 'stage')}"
+                f"the fault {quoted(late.name)} begins at stage {late.stage}, but the program has "
+                f"{counted(stages, 'stage')}"
             )
 
     def executed(self, plan: Plan, state: ExecutionState) -> Sequence[ExecutedStep]:
@@ -388,8 +388,8 @@ class PlanSystem(System):
         first = next(step.place for step in steps if step.stage == runner.stage)
         where = "to the end of the program" if onward is None else f"continue at line {steps[onward].place}"
         return {
-            "proceed": "proceed: go on undoing" if undoing(runner) else f"proceed: {where}",
-            "retry": f"retry the stage from line {first}, with the world as it is now",
+            "proceed": "proceed: continue undoing" if undoing(runner) else f"proceed: {where}",
+            "retry": f"retry the stage from line {first}, in the world as it is now",
             "skip": "skip the rest of the stage",
         }
 

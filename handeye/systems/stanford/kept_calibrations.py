@@ -128,7 +128,7 @@ def _decoded(data: bytes, wanted: Conditions) -> Preparation:
     """The preparation in a file; ValueError unless it was made under these conditions."""
     line, _, rest = data.partition(b"\n")[2].partition(b"\n")
     if line != wanted.line or data != sealed(MAGIC, VERSION, line + b"\n" + rest):
-        raise ValueError("it is damaged, or of other conditions")
+        raise ValueError("it is damaged, or belongs to other conditions")
     return unpacked(rest, Preparation, LARGEST)
 
 

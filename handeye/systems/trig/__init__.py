@@ -5,17 +5,17 @@ from handeye.core.entries import Entry
 ENTRY = Entry(
     name="trig",
     title="TRIG",
-    help="Teach a program by doing, see it as it grows, run it backwards (MIT, 1982).",
+    help="Teach a program by example, watch it grow, run it backwards (MIT, 1982).",
     system="handeye.systems.trig.run.system:TAUGHT",
     can=("undo", "compare", "faults", "levels", "video", "chaos"),
     reasons={
-        "python": "`handeye resume` goes on with one",
-        "plans": "its programs are taught in the world they work in; `handeye trig palletise`, `handeye trig "
-        "bucket` and `handeye trig run FILE` carry them out",
+        "python": "`handeye resume` continues one",
+        "plans": "its programs are taught in the world they work in; run them with `handeye trig palletise`, "
+        "`handeye trig bucket` and `handeye trig run FILE`",
     },
     commands="""
-trig = handeye.systems.trig.cli.commands:trig: TRIG (MIT, 1982): teach a program by doing, see it as it grows, run it backwards.
-trials pallet = handeye.systems.trig.cli.jobs:pallet_trials: Palletise in many worlds, and take everything back: how often it comes out right, and how far off blocks are.
+trig = handeye.systems.trig.cli.commands:trig: TRIG (MIT, 1982): teach a program by example, watch it grow, run it backwards.
+trials pallet = handeye.systems.trig.cli.jobs:pallet_trials: Palletise in many worlds and undo it: success rate, and position errors of the blocks.
 """,  # noqa: E501 - a command a line
     tasks={
         "palletise": "handeye.systems.trig.jobs.task:PALLET",

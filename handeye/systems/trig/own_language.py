@@ -15,8 +15,8 @@ from handeye.systems.trig.run.plan import typed
 REFUSED: Final = "line-refused"
 UNSOUND: Final = "program-unsound"
 _CODES: Final = {
-    REFUSED: "a line of a script cannot be carried out at an imagined arm; the lines behind it were not typed",
-    UNSOUND: "the file is no program that W has written",
+    REFUSED: "a line of a script fails without physics; the lines after it were not typed",
+    UNSOUND: "the file is not a program written by W",
 }
 
 

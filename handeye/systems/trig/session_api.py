@@ -40,7 +40,7 @@ class TrigSession:
             InvalidInput: there is no such arm.
         """
         if arm not in get_args(ArmName):
-            raise NoSuchName(f"there is no arm {quoted(str(arm))}; `none` and `purbrick` can be taught")
+            raise NoSuchName(f"there is no arm {quoted(str(arm))}; there are `none` and `purbrick`")
         self._session = new_session(arm)
 
     def type(self, text: str) -> tuple[str, ...]:
@@ -72,7 +72,7 @@ class TrigSession:
         """
         table = self._session.table
         if not isinstance(table, SeenTable):
-            raise Refused("nobody can see an arm that is imagined; TrigSession('purbrick') has one")
+            raise Refused("an arm without physics cannot be shown; use TrigSession('purbrick')")
         check_size(width, height)
         return table.photograph(width, height)
 

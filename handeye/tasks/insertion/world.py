@@ -14,11 +14,11 @@ _RUBBING: Final = ("pad", "part")
 
 
 def _hole() -> tuple[Quantity, ...]:
-    place = "Where the hole is, against where the program was taught it is."
+    place = "Position of the hole, relative to its taught position."
     return (
         Quantity(
             name="hole.clearance", unit="mm", distribution=Range(CLEARANCE, CLEARANCE), nominal=CLEARANCE,
-            limits=(0.01, 3.0), source="Diameter of the hole over that of the pin's nose.",
+            limits=(0.01, 3.0), source="Diameter of the hole less that of the pin's nose.",
         ),
         Quantity(
             name="hole.chamfer", unit="mm", distribution=Range(CHAMFER, CHAMFER), nominal=CHAMFER,

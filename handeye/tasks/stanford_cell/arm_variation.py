@@ -25,13 +25,13 @@ MOST: Final = {
 }  # fmt: skip
 """Greatest value that a quantity can be set to, by unit: beyond anything meant."""
 _READING: Final = (
-    "Potentiometers against joints, so that the hand is wrong by .060 in (median), .112 in (95 %); layout study, "
-    "section 4."
+    "Offset of the potentiometers from the joints, which displaces the hand by .060 in (median), .112 in (95 %); "
+    "layout study, section 4."
 )
 
 
 DOUBLED: Final = (
-    "Bound: twice that, the high level, at which 99 of 100 pumps were assembled and none wrongly."
+    "Bound: twice that, the high level, at which 99 of 100 pumps were assembled and none was wrong."
 )
 
 
@@ -75,91 +75,97 @@ def arm() -> Iterator[Quantity]:
         group("arm.scale", numbered(Normal, 0.11, 0.22, 0.11, 0.11, 0.22, 0.22), "%",
             f"Scale of the reading, about the mid-work posture. {_READING}"),
         group("arm.wave", numbered(Fixed, 0.027, 0.027, 0.011, 0.044, 0.044, 0.09), JOINT_UNITS,
-            "Amplitude of the waviness of the reading, which decides how far a saved correction carries.",
-            unsourced="no sheet of 1974 gives it. Sheets of today give the greatest deviation from a line, .15 to "
+            "Amplitude of the periodic error of the reading, which limits how far from its place a saved correction "
+            "is valid.",
+            unsourced="no data sheet of 1974 gives it. Today's data sheets give the greatest deviation from a line, "
+                      ".15 to "
             ".25 % of the travel for wire-wound potentiometers and 1 to 2 % for conductive plastic (Bourns 3400 to "
-            "3590, 6537 to 6639), and not how it goes. Bound: .18, .16, .59 and .57 deg of joints 1, 2, 4 and 5 and "
+            "3590, 6537 to 6639), but not its shape. Bound: .18, .16, .59 and .57 deg of joints 1, 2, 4 and 5 and "
             ".10 in of joint 3, each of which alone makes the .1 in of the whole arm (layout study, section 4)."),
-        group("arm.wave_phase", phases, "deg", "Where the waviness of the reading begins."),
+        group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
             "Reading-to-reading noise of the potentiometers, before the converter.",
-            unsourced="far inside a step of the converter, .05 to .08 deg and .009 in, too fine for the converter to "
-            "show. Bound: output smoothness of .1 % of the travel (Bourns 6639), four steps."),
+            unsourced="far smaller than a step of the converter (.05 to .08 deg and .009 in), so the converter does "
+                      "not show it. Bound: output smoothness of .1 % of the travel (Bourns 6639), four steps."),
         group("arm.pot_step", numbered(Step, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
             f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of "
             "1974."),
         group("arm.tachometer_noise", numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5), _RATES,
             "Noise of the tachometers, before the converter.",
-            unsourced="no sheet of the arm's tachometers is known. Bound: a step of the converter, 37 to 146 times as "
-            "large, too large for it to show."),
+            unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter, 37 to 146 "
+                      "times as large, so the converter does not show the noise."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
             f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both directions. "
-            "Data sheet of 1974; that it reaches just the greatest speed is inferred."),
+            "Data sheet of 1974; that its range ends at the greatest speed is inferred."),
         group("arm.torque_step", numbered(Step, *torque_step(STANFORD).tolist()), _TORQUES,
-            f"One step of the converter that a drive gets its torque from: {TORQUE_BITS} bits over its torques in both "
+            f"One step of the converter that sets the torque of a drive: {TORQUE_BITS} bits over its torques in both "
             'directions. Data sheet of 1974: "8 bits or more".'),
         group("arm.drive_gain", numbered(Normal, *[1.0] * 6), "%",
-            "True torque of a drive over the torque put out.", least=-90.0,
-            unsourced="a linear current amplifier is as good as its resistors, and 1 % is the class of the E96 series "
-            f"(IEC 60063); what the motors add is not known. {DOUBLED}"),
+            "True torque of a drive divided by the commanded torque.", least=-90.0,
+            unsourced="a linear current amplifier is as accurate as its resistors, and 1 % is the class of the E96 "
+                      "series (IEC 60063); the error of the motors is not known. {DOUBLED}"),
         _friction(),
         group("arm.damping", numbered(Uniform, *[30.0] * 6), "%",
-            "True viscous friction of a joint over the controller's.", least=-90.0,
-            unsourced="that of robots' joints changes much as they warm up (Bittencourt and others, IROS 2010; Simoni "
+            "True viscous friction of a joint divided by the controller's value.", least=-90.0,
+            unsourced="the friction of robot joints changes much as they warm up (Bittencourt and others, IROS 2010; "
+                      "Simoni "
             f"and others, Robotica 2017), but none of the Stanford arm was measured. {DOUBLED}"),
         group("arm.armature", numbered(Uniform, *[5.0] * 6), "%",
-            "True inertia of a drive over the controller's.", least=-90.0,
-            unsourced=f"no sheet of the arm's motors is known. {DOUBLED}"),
+            "True inertia of a drive divided by the controller's value.", least=-90.0,
+            unsourced=f"no data sheet of the arm's motors is known. {DOUBLED}"),
         group("arm.link_mass", numbered(Normal, *[3.0] * 6), "%",
-            "True mass of each link over the controller's.", least=-90.0,
+            "True mass of each link divided by the controller's value.", least=-90.0,
             unsourced=f"the masses were published without their accuracy. The arm weighs its links. {DOUBLED}"),
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
-            "True distance of each link's mass centre from its joint over the controller's.", least=-90.0,
-            unsourced=f"published without their accuracy, too. The arm weighs its links. {DOUBLED}"),
+            "True distance of each link's centre of mass from its joint, divided by the controller's "
+            "value.", least=-90.0,
+            unsourced=f"also published without their accuracy. The arm weighs its links. {DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
-            "By how much the hand is longer than the controller believes.",
-            unsourced="a length that was measured with a steel rule, which is divided to 1/64 in, .016 in. Bound: "
-            "1/32 in, where a whole division was misread."),
+            "True length of the hand less the controller's value.",
+            unsourced="a length measured with a steel rule, which has divisions of 1/64 in (.016 in). Bound: 1/32 "
+                      "in, a misreading by one whole division."),
     )  # fmt: skip
 
 
 def _friction() -> Iterator[Quantity]:
     """Coulomb friction of the joints; that of joint 1, which bears no weight, is checked by nothing."""
     means = STANFORD.compliance.friction
-    what = "Coulomb friction of the joints, varied by a quarter. Switched off, it is the mean; set to 0, there is none."
+    what = (
+        "Coulomb friction of the joints, varied by a quarter. Without this error it is the mean; set to 0, there "
+        "is no friction."
+    )
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
     yield from group(
         "arm.friction", dict([first]), _TORQUES[:1], what, nominal=means[0], least=0.0,
-        unsourced=f"joint 1 bears no weight, so that the paper tells nothing of it. {DOUBLED}",
+        unsourced=f"joint 1 carries no weight, so the paper says nothing about it. {DOUBLED}",
     )  # fmt: skip
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],
-        f"{what} Inferred from the paper, by which the released arm stays where it is: joints 2 and 3 bear half a "
-        "step of their torques and what is left of gravity when the arm has weighed its links (at the parked posture, "
-        "in the worst of 200 worlds, .25 N m and .7 N); the wrist bears half a step.", nominal=means[1:], least=0.0,
+        f"{what} Inferred from the paper, where the released arm stays in place: joints 2 and 3 hold half a step of "
+        f"their torques and the gravity that remains after the arm has weighed its links (at the parked posture, "
+        "in the worst of 200 worlds, .25 N m and .7 N); the wrist holds half a step.", nominal=means[1:], least=0.0,
     )  # fmt: skip
 
 
 def hand() -> Iterator[Quantity]:
     return chain(
         group("hand", {"gap_offset": Normal(0.01)}, "in", "Error of the gap as read.",
-            unsourced=f"what the pads of the fingers have worn since the gap was last set. {DOUBLED}"),
+            unsourced=f"the wear of the finger pads since the gap was last set. {DOUBLED}"),
         group("hand", {"gap_scale": Normal(0.5)}, "%",
             "Error of the gap as read. Between the linearity of wire-wound potentiometers, .15 to .25 %, and of "
-            "conductive plastic, 1 to 2 %: sheets of Bourns 3400 to 3590 and 6537 to 6639."),
+            "conductive plastic, 1 to 2 %: data sheets of Bourns 3400 to 3590 and 6537 to 6639."),
         group("hand", {"gap_noise": Noise(0.0003)}, "in",
             "Noise of the gap as read, before the converter.",
-            unsourced="a third of a step of the converter, too fine for the converter to show. Bound: output "
+            unsourced="a third of a step of the converter, so the converter hardly shows it. Bound: output "
             "smoothness of .1 % of the travel (Bourns 6639), four steps."),
         group("hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
-            f"One step of the converter of the gap: {SENSE_BITS} bits over the opening. Data sheet of 1974."),
+            f"One step of the converter of the gap: {SENSE_BITS} bits over the full opening. Data sheet of 1974."),
         group("hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",
-            'Force at which a finger\'s switch fires. Reference 6.3: "a few oz; simulate about 2 oz".',
+            'Force at which a finger\'s switch closes. Reference 6.3: "a few oz; simulate about 2 oz".',
             nominal=2.0, least=0.0),
         group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
-            "Where the lamp is on the hand, against the drawing that the program calibrates its camera with, in the "
-            "hand's frame.",
-            unsourced="screwed on by hand, where a rule divided to 1/64 in says. Bound: 1/16 in, two sigma."),
+            "Position of the lamp in the hand's frame, relative to the drawing that the camera calibration uses.",
+            unsourced="screwed on by hand, with a rule with divisions of 1/64 in. Bound: 1/16 in, two sigma."),
     )  # fmt: skip
 
 
@@ -167,7 +173,7 @@ def rubbing(kinds: Sequence[str]) -> Iterator[Quantity]:
     """Scales of the coefficients of friction of some kinds of shapes, by their names."""
     yield from group(
         "friction", {name: Uniform(15.0) for name in kinds}, "%",
-        "Coefficients of friction over those of the drawing.", least=-100.0,
-        unsourced="the same pair of metals does not rub the same in two laboratories (VAMAS round robin, Wear 114, "
-        f"1987; ASTM G115), and nothing is known of this pump's. {DOUBLED}",
+        "Coefficients of friction divided by those of the drawing.", least=-100.0,
+        unsourced="two laboratories measure different friction for the same pair of metals (VAMAS round robin, Wear "
+                  "114, 1987; ASTM G115), and this pump was never measured. {DOUBLED}",
     )  # fmt: skip

@@ -73,7 +73,7 @@ class Schedule(Record, frozen=True, kw_only=True):
         found = faults(catalogue, self.faults, by_number)
         for fault in found:
             if fault.stage is None:
-                raise BadArgument(f"the fault {quoted(fault.name)} sets in with no stage; write @STAGE")
+                raise BadArgument(f"the fault {quoted(fault.name)} has no stage to begin at; add @STAGE")
         return found
 
 
@@ -85,16 +85,14 @@ def parse_schedule(text: str) -> Schedule:
         " ".join(f"{name}={value}" for name, value in words.items()) != " ".join(text.split())
         or {*words} - known
     ):
-        raise BadArgument(
-            f"{quoted(text)} is no schedule: write words such as seed=3 start=41 faults=lamp.dead@4"
-        )
+        raise BadArgument(f"{quoted(text)} is not a schedule; write it as seed=3 start=41 faults=lamp.dead@4")
     lists = {name: tuple(words[name].split(",")) for name in ("faults", "answers") if name in words}
     breaks = tuple(_break(word) for word in words.get("breaks", "").split(",") if word)
     numbers = {name: int(words[name]) for name in ("seed", "start", "steps") if is_count(words.get(name, ""))}
     try:
         made = msgspec.convert({**words, **lists, **numbers, "breaks": breaks}, Schedule)
     except msgspec.ValidationError as error:
-        raise BadArgument(f"{quoted(text)} is no schedule: {error}") from None
+        raise BadArgument(f"{quoted(text)} is not a schedule: {error}") from None
     checked_seed(made.seed)
     return made
 
@@ -108,7 +106,7 @@ def _break(word: str) -> dict[str, object]:
     kind, _, after = word.partition(":")
     if kind not in get_args(BreakKind) or not is_count(after):
         raise BadArgument(
-            f"{quoted(word)} is no interruption: write {', '.join(get_args(BreakKind))} with :N behind it"
+            f"{quoted(word)} is not an interruption; write {', '.join(get_args(BreakKind))}, with :N after it"
         )
     return {"kind": kind, "after": int(after)}
 

@@ -38,7 +38,7 @@ def on_disk(carried: ScheduleRun) -> Iterator[str]:
     yield from CheckpointStore(carried.folder / CHECKPOINTS).damaged()
     try:
         if list(effective(read_events(carried.folder / EVENTS))) != carried.runner.events:
-            yield "the event list is not what happened"
+            yield "the event list differs from what happened"
         msgspec.json.decode((carried.folder / RESULT).read_bytes(), type=Result)
     except (InvalidInput, OSError, msgspec.DecodeError) as fault:
         yield str(fault)
@@ -52,7 +52,7 @@ def in_trace(carried: ScheduleRun) -> Iterator[str]:
         yield str(fault)
         return
     if list(trace.events) != carried.runner.events:
-        yield "the trace does not tell what happened"
+        yield "the trace differs from what happened"
     if trace.head.world != carried.runner.setup.world:
         yield "the trace is of another world"
 
@@ -60,13 +60,13 @@ def in_trace(carried: ScheduleRun) -> Iterator[str]:
 def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]:
     """Differences of a run that was interrupted from the same without interruptions, a sentence each."""
     if carried.runner.events != unbroken.runner.events:
-        yield "other events than without interruptions"
+        yield "events differ from those without interruptions"
     if _bytes(carried.folder) != _bytes(unbroken.folder):
-        yield "another trace than without interruptions"
+        yield "the trace differs from the one without interruptions"
     if _plain(carried.runner.history[-1]) != _plain(unbroken.runner.history[-1]):
-        yield "another state than without interruptions"
+        yield "the state differs from the one without interruptions"
     if carried.pause != unbroken.pause and carried.pause.kind != unbroken.pause.kind:
-        yield f"it ended with {carried.pause.kind}, and without interruptions with {unbroken.pause.kind}"
+        yield f"it ended with {carried.pause.kind}, but without interruptions with {unbroken.pause.kind}"
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:

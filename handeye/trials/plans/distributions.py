@@ -122,7 +122,7 @@ def details(rows: Sequence[Row]) -> tuple[Details, ...]:
 def margin_details(rows: Sequence[Row]) -> Details:
     """The table of margins to the limits of the referee: the finding with the fewest deviations is the next to fail."""
     return Details(
-        name="margins", title="Margins to the referee’s limits, the next to fail first", rows=margins(rows),
+        name="margins", title="Margins to the referee’s limits, the smallest first", rows=margins(rows),
         heads=("margin to the limit of", "unit", "trials", "median", "5 %", "worst", "seed", "deviations"),
         span=("worst", "p5", "median"),
     )  # fmt: skip

@@ -101,7 +101,7 @@ class Row(TrialRow, frozen=True, kw_only=True):
     def __post_init__(self) -> None:
         """Raises ValueError if there is no result, and nothing that says why."""
         if self.result is None and not self.broken_off:
-            raise ValueError(f"a trial that counts as {self.ended!r} has left no result")
+            raise ValueError(f"a trial that counts as {self.ended!r} has no result")
 
     @property
     def outcome(self) -> str:

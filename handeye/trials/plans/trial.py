@@ -138,7 +138,7 @@ def answered(rows: Sequence[Row]) -> int:
 
 def _summary(rows: Sequence[Row]) -> list[str]:
     count = answered(rows)
-    return [f"in {count} the operator was called and answered"] if count else []
+    return [f"in {count} the program called the operator and got an answer"] if count else []
 
 
 ASSEMBLY: Final = Sweep(

@@ -69,7 +69,7 @@ def test_nearer_than_that_the_wrist_is_refused_with_the_difference() -> None:
     inwards = STANFORD.X_WB[:3, :3] @ [math.sin(q[0]), -math.cos(q[0]), 0.0]
     refused = solve(STANFORD, translated(forward(STANFORD, q), 0.01 * INCH * inwards), STANFORD.middle)
     assert refused.message(STANFORD) == (
-        "the wrist would have to be 6.05 in from the axis of joint 1; it cannot come nearer than 6.06 in"
+        "the wrist would have to be 6.05 in from the axis of joint 1; the minimum is 6.06 in"
     )
 
 

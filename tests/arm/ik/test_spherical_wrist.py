@@ -66,7 +66,7 @@ def test_a_wrist_inside_the_inner_cylinder_has_no_solution() -> None:
     assert isinstance(result.reason, InnerCylinder)
     assert result.reason.radius == pytest.approx(5 * INCH)
     assert result.message(STANFORD) == (
-        "the wrist would have to be 5.0 in from the axis of joint 1; it cannot come nearer than 6.1 in"
+        "the wrist would have to be 5.0 in from the axis of joint 1; the minimum is 6.1 in"
     )
 
 

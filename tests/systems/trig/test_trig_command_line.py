@@ -28,7 +28,7 @@ PALLETISE = str(PLANS / "palletise.trig")
 def test_a_script_is_typed_run_and_run_back(command: Command) -> None:
     assert command("trig", "run", PALLETISE, "--back") == (
         0,
-        "227 steps done; the program has ended\n227 steps undone; there is nothing to undo before this\n",
+        "227 steps done; the program has ended\n227 steps undone; nothing before this can be undone\n",
         "",
     )
 
@@ -120,7 +120,7 @@ def test_a_job_that_is_right_is_told_and_kept(command: Command) -> None:
     assert Path("other.html").read_bytes() == Path("job/report.html").read_bytes()
     assert (
         command("report", "job")[2]
-        == "handeye: job/report.html holds a report already; --overwrite replaces it\n"
+        == "handeye: job/report.html already holds a report; --overwrite replaces it\n"
     )
 
 
@@ -150,9 +150,9 @@ def test_a_job_that_is_done_and_wrong_has_an_exit_code_of_its_own(
     monkeypatch.setattr(referee, limit, 0.0)
     code, out, _ = command("trig", "palletise", "--blocks", "1", "--out", "job")
     page = Path("job/report.html").read_text(encoding="utf-8")
-    assert "Palletise: done, and the referee disagrees" in page
+    assert "Palletise: done, but the referee disagrees" in page
     assert page.count("✗") == 1
-    assert (code, out.splitlines()[-1]) == (3, "Done, and the referee disagrees.")
+    assert (code, out.splitlines()[-1]) == (3, "Done, but the referee disagrees.")
     assert out.count("WRONG") == 1
     result = json.loads(Path("job/result.json").read_bytes())
     assert (result["assembled"], result["apart"]) == (limit != "PLACED", limit != "BACK")
@@ -182,7 +182,7 @@ def test_a_job_whose_arm_is_stopped_says_what_it_has_met(
         1,
         [
             "0 steps undone; the arm has stopped at the step before that: "
-            "the finger met 4.0 N, and going back may meet 3.0 N",
+            "the finger met 4.0 N; going back, the limit is 3.0 N",
             "The arm has stopped.",
         ],
     )
@@ -280,7 +280,7 @@ def test_a_job_leaves_a_video_and_replaces_none_by_chance(
     assert command("trig", "bucket", "--video", "job.webp")[0] == 2
     assert command("trig", "bucket", "--video", "job.gif")[0] == 2
     code, _, err = command("trig", "bucket", "--out", "job", "--video", "job/it.webp")
-    assert (code, "lies in the folder of --out" in err) == (2, True)
+    assert (code, "is in the folder of --out" in err) == (2, True)
 
 
 @pytest.mark.slow

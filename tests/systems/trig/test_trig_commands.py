@@ -114,7 +114,7 @@ def test_a_threshold_is_changed_on_a_guarded_step_only() -> None:
 def test_a_force_vector_stands_in_parentheses() -> None:
     typist = Typist(f"{GUARDED}CV (0 0 2)")
     assert typist.active.vector == (0, 0, 2)
-    assert refused(typist, "CV 0 0 2") == "`0 0 2` is no force vector; write it like (0 0 1)"
+    assert refused(typist, "CV 0 0 2") == "`0 0 2` is not a force vector; write it like (0 0 1)"
 
 
 @pytest.mark.trig_row(34)
@@ -149,7 +149,7 @@ def test_here_and_sr_name_where_the_arm_is() -> None:
     known = typist.session.program.positions
     assert known["H"].data == known["S"].data == Place(x=0.025, z=0.3)
     assert (known["R"].relative, known["R"].data.measures()[0]) == (True, 15)
-    assert "no step has taken" in refused(Typist(), "SR R")
+    assert "no step has moved" in refused(Typist(), "SR R")
 
 
 def test_a_position_is_defined_anew_only_where_somebody_says_so() -> None:
@@ -172,8 +172,8 @@ def test_what_is_left_of_a_line_of_the_box_that_was_wrong_is_not_heard_later() -
 
 def test_a_position_that_a_step_needs_as_it_is_stays_so() -> None:
     typist = Typist("MR B\nX BY 5 RECORD\nM -B\nYes\nSAVPOS A")
-    assert refused(typist, "SAVPOS B") == "a step goes to -B, so B stays relative; D deletes the step"
-    assert refused(typist, "HERE B") == "a step goes to -B, so B stays relative; D deletes the step"
+    assert refused(typist, "SAVPOS B") == "a step goes to -B, so B must stay relative; D deletes the step"
+    assert refused(typist, "HERE B") == "a step goes to -B, so B must stay relative; D deletes the step"
     assert refused(typist, "SR A") == "a SAVPOS step sets A, so A stays absolute; D deletes the step"
 
 
@@ -200,27 +200,27 @@ def test_the_kill_switch_records_nothing() -> None:
             "M " + "A" * 10_000,
             "`AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA…` has 10000 characters; a name has 40 at most",
         ),
-        ("M A n", "n and g are branches of a guarded step, and this one is not guarded"),
-        ("M A sideways", "`sideways` is no branch; type n (normal) or g (guarded)"),
+        ("M A n", "n and g are branches of a guarded step, but this one is not guarded"),
+        ("M A sideways", "`sideways` is not a branch; type n (normal) or g (guarded)"),
         ("CN S1 S2", "`CN STEP` has no use for `S2`"),
         ("CT much", "`much` is not a number"),
         ("CT nan", "`nan` is not a number"),
         ("DLINK S1", "the active step does not lead to S1"),
         ("D **TOP**", "the top cannot be deleted; FLUSH erases the program"),
         ("RUN 0", "RUN 0 would do nothing; RUN 1 executes the active step, RUN -1 undoes the last one"),
-        ("W", "no file has been read or written yet; W takes a name"),
+        ("W", "no file has been read or written yet; give W a name"),
         ("N -1", "N and P go 1 to 100000 steps; N goes down, P goes up"),
         ("GOPOS B\x1b[2J", "`B\u241b[2J` is not a name: a letter, then letters, digits, `-` and `_`"),
-        ("RECORD", "RECORD is on the teach box, which is heard while M or FREE waits for it"),
+        ("RECORD", "RECORD is on the teach box, which works while M or FREE waits for it"),
         (
             "* DANCE",
-            "`DANCE` cannot be done with a table; write `* STACK 20 X 150 Y 0`, `* BUCKET X 140 Y 0`, or `* CLEAR`",
+            "`DANCE` is not an action on the table; type `* STACK 20 X 150 Y 0`, `* BUCKET X 140 Y 0`, or `* CLEAR`",
         ),
-        ("M B\nUP", "`UP` is nothing on the teach box; write `X -30`, `Z BY 12`, `RECORD` or `KILL`"),
+        ("M B\nUP", "`UP` is not on the teach box; type `X -30`, `Z BY 12`, `RECORD` or `KILL`"),
         ("M B\nX 500 RECORD", "X would be 500 mm; the arm goes from -200 to 200"),
         ("M B\nX 500 RECORD\nM C", "X would be 500 mm; the arm goes from -200 to 200"),
-        ("M B\nRECORD X 3", "RECORD ends what is done with the teach box; `X` comes too late"),
-        ("M A\nperhaps", "`perhaps` is no answer; type Yes or No"),
+        ("M B\nRECORD X 3", "RECORD ends the work with the teach box; `X` is too late"),
+        ("M A\nperhaps", "`perhaps` is not an answer; type Yes or No"),
     ],
 )
 def test_a_line_that_is_wrong_is_refused_in_a_sentence_that_helps(line: str, sentence: str) -> None:

@@ -124,9 +124,7 @@ def test_editing_leaves_the_trail_and_what_was_deleted_cannot_be_undone() -> Non
     typist.type("CN OTHER\nCP P1\nD S2")
     assert list(typist.session.program.trail) == before
     typist.type("RUN -1000")
-    assert typist.told == [
-        "1 step undone; the step that was done before this has been deleted and cannot be undone"
-    ]
+    assert typist.told == ["1 step undone; the step before this has been deleted and cannot be undone"]
 
 
 def test_a_step_that_is_reached_by_one_father_only_is_not_unlinked_from_it() -> None:
@@ -146,7 +144,7 @@ def test_a_link_makes_its_step_the_most_recent_father() -> None:
 def test_nothing_is_put_below_a_link() -> None:
     typist = Typist(PALLETISE)
     with pytest.raises(
-        InvalidInput, match=r"^a link leads on to FINISH here; `DLINK FINISH` takes it away first$"
+        InvalidInput, match=r"^a link leads from here to FINISH; remove it first with `DLINK FINISH`$"
     ):
         typist.type("GRASP")
 

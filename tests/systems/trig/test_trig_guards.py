@@ -55,7 +55,7 @@ def test_what_a_guarded_step_has_met_must_still_be_there() -> None:
     typist.type("* CLEAR\nRUN -2")
     assert typist.told[-1] == (
         "0 steps undone; the arm has stopped at the step before that: "
-        "the finger met something here then, and meets nothing now"
+        "on the way forward the finger met something here; now it meets nothing"
     )
     assert stopped(typist, "RUN -2") == MissingContact()
     typist.type("* STACK 2 X 100 Y 0")
@@ -85,7 +85,7 @@ def test_a_force_on_the_finger_stops_the_way_back_whatever_its_direction() -> No
     met = arm.back(Place(x=0.05), lambda: False)
     assert met == Resistance(force=PURBRICK.limits.resistance + 0.1, limit=PURBRICK.limits.resistance)
     assert arm.here().x < 0.001
-    assert told(met) == "the finger met 3.1 N, and going back may meet 3.0 N"
+    assert told(met) == "the finger met 3.1 N; going back, the limit is 3.0 N"
     axes.push = PURBRICK.limits.resistance - 0.1
     assert arm.back(Place(y=0.05), lambda: False) is None
 

@@ -34,9 +34,9 @@ def test_a_program_is_taught_line_by_line(
     )
     assert [step.position for step in session.program.graph.steps()] == ["CENTER", "CENTER"]
     out = capsys.readouterr().out
-    assert "`UP` is nothing on the teach box" in out
+    assert "`UP` is not on the teach box" in out
     assert "did you mean GRASP?" in out
-    assert "`perhaps` is no answer; type Yes or No" in out
+    assert "`perhaps` is not an answer; type Yes or No" in out
     assert out.endswith(" o[o]\n\n   ***  CENTER\n▶  ***  CENTER\n\nX 10 Y 0 Z 300, hand open\n")
 
 
@@ -55,4 +55,4 @@ def test_without_the_library_of_the_screen_lines_are_enough(
     code, out, err = command("trig")
     assert (code, out) == (0, "\n[ ]\n\n▶\n\nX 0 Y 0 Z 300, hand open\n")
     assert err.startswith("`trig` needs prompt_toolkit, which is not installed")
-    assert err.endswith("without it there are lines and no screen\n")
+    assert err.endswith("without it you can type lines\n")

@@ -63,7 +63,7 @@ def test_an_inner_loop_that_was_left_by_a_link_begins_anew() -> None:
 
 def test_a_loop_goes_back_and_not_on() -> None:
     typist = Typist(straight(3) + "\nGOTO S1")
-    with pytest.raises(InvalidInput, match=r"^S3 does not stand above the active step, and a loop goes back"):
+    with pytest.raises(InvalidInput, match=r"^S3 is not above the active step, and a loop must go back"):
         typist.type("LOOP S3 2")
 
 
@@ -94,5 +94,5 @@ def test_a_million_rounds_are_halted_and_undone_as_far_as_they_are_remembered() 
     typist.type("RUN")
     assert typist.told[-1].startswith("499 steps done; stopped")
     typist.type("RUN -1000")
-    assert typist.told[-1] == "499 steps undone; there is nothing to undo before this"
+    assert typist.told[-1] == "499 steps undone; nothing before this can be undone"
     assert typist.steps[-1].count == 0

@@ -224,5 +224,5 @@ def test_only_so_much_is_remembered_and_it_is_told(monkeypatch: pytest.MonkeyPat
     typist = Typist("MR DX\nX BY 1 RECORD\nCN A\nLOOP A 40\nFREE\nX 0 RECORD\n")
     typist.session.program.trail = type(typist.session.program.trail)(maxlen=10)
     typist.type("RUN\nRUN -1000")
-    assert typist.told[-1].endswith("what was done before that has been forgotten")
+    assert typist.told[-1].endswith("earlier steps have been forgotten")
     assert typist.at[0] > 0

@@ -226,9 +226,9 @@ def test_a_state_of_another_bench_is_refused() -> None:
     [
         ("NOISE", "there is no command `NOISE`"),
         ("M A\nX 10 RECORD\nCN A\nLOOP A 900000000\nRUN", "does not end"),
-        ("M A\nX 10 RECORD\nW stolen", "reads and writes no files"),
-        ("M A\nX 10 RECORD\nEX stolen", "reads and writes no files"),
-        ("R stolen", "reads and writes no files"),
+        ("M A\nX 10 RECORD\nW stolen", "cannot read or write files"),
+        ("M A\nX 10 RECORD\nEX stolen", "cannot read or write files"),
+        ("R stolen", "cannot read or write files"),
     ],
 )
 def test_a_plan_that_cannot_be_taught_is_refused(
@@ -244,7 +244,7 @@ def test_the_script_of_a_job_touches_no_file_on_the_bench_either(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(InvalidInput, match="reads and writes no files"):
+    with pytest.raises(InvalidInput, match="cannot read or write files"):
         open_job("bucket", WorldSpec(seed=0), "W stolen").teach(lambda: False)
     assert not [*tmp_path.iterdir()]
 
@@ -262,8 +262,8 @@ def test_worlds_with_what_the_bench_does_not_have_are_refused() -> None:
 @pytest.mark.parametrize(
     ("job", "script", "said"),
     [
-        ("palletise", "M DONE\nX 10 RECORD", "looks for the position PALLET, which"),
-        ("bucket", "M CENTER\nX 10 RECORD", "looks at 2 blocks, and the script has laid 0"),
+        ("palletise", "M DONE\nX 10 RECORD", "needs the position PALLET, which"),
+        ("bucket", "M CENTER\nX 10 RECORD", "needs 2 blocks, but the script placed 0"),
     ],
 )
 def test_what_the_script_lacks_of_what_the_referee_looks_for_is_told(
@@ -280,7 +280,7 @@ def test_what_the_script_lacks_of_what_the_referee_looks_for_is_told(
 def test_a_plan_on_disk_whose_script_is_wrong_is_refused_by_its_name() -> None:
     plan = plans.encode(TaughtPlan(job="palletise", script="NOISE"))
     with pytest.raises(
-        InvalidInput, match=r"^plan\.json is not sound: palletise\.trig, line 1: there is no command"
+        InvalidInput, match=r"^plan\.json is not valid: palletise\.trig, line 1: there is no command"
     ):
         plans.decode(plan, "plan.json")
 
@@ -291,7 +291,7 @@ def test_python_takes_up_only_runs_of_plans(tmp_path: Path) -> None:
     for out in (None, path):
         with pytest.raises(
             InvalidInput,
-            match=r"TRIG cannot have its runs taken up from Python: `handeye resume` goes on with one$",
+            match=r"TRIG cannot continue its runs from Python: `handeye resume` continues one$",
         ):
             handeye.begin(path, out=out)
 
@@ -314,7 +314,7 @@ def test_no_step_is_skipped_that_the_arm_undoes(monkeypatch: pytest.MonkeyPatch)
     events = [*runner.events]
     refused = stepper.do("skip")
     assert refused.error is not None
-    assert refused.error.startswith("no step is skipped on the way back")
+    assert refused.error.startswith("no step can be skipped while going back")
     assert (runner.events, runner.call is not None) == (events, True)
     result = outcome(runner, stepper.pause, Meter(), judged=True)
     assert (result.completed, result.apart, result.exit_code) == (False, UNSET, 1)
@@ -337,17 +337,20 @@ def test_the_stepper_tells_of_a_taught_program_what_is_true_of_it(monkeypatch: p
     assert grasp.outcome == "gap 0.0 mm"
     monkeypatch.setattr(AxesArm, "back", lambda *_: Resistance(force=4.0, limit=3.0))
     called = stepper.do("undo 3")
-    assert called.said == "the operator is called: answer `proceed`, `retry` or `abort`, go back, or `undo`"
+    assert (
+        called.said
+        == "the program calls the operator: answer `proceed`, `retry` or `abort`, go back, or `undo`"
+    )
     said: list[str] = []
     answers = Ask(iter(["s", "a"]), said.append)
     pause = attend(runner, answers)
     assert pause.kind == "operator"
     assert [line[:1] for line in said[0].splitlines()[-6:]] == ["p", "r", "b", "u", "a", "s"]
-    assert "is not an answer; answer p, r, b, u, a or show" in said[1]
+    assert "is not an answer; type p, r, b, u, a or show" in said[1]
 
 
 def test_no_breakpoint_waits_for_an_error_that_a_taught_program_never_raises() -> None:
-    with pytest.raises(InvalidInput, match=r"^steps of this program raise no errors; where it"):
+    with pytest.raises(InvalidInput, match=r"^steps of this program raise no errors; a stop"):
         breakpoint("error:23", listing(TaughtPlan(job="palletise", script=low_script(1))))
 
 

@@ -111,10 +111,10 @@ def test_an_unwritable_place_and_a_foreign_file_are_refused() -> None:
     Path("mine.trig.json").write_text('{"mine": 1}', encoding="utf-8")
     typist = Typist("GRASP")
     for line, sentence in {
-        "W mine": "mine.trig.json exists and is no TRIG program; nothing was written",
+        "W mine": "mine.trig.json exists and is not a TRIG program; nothing was written",
         "W nowhere/f": "nowhere/f.trig.json cannot be written: No such file or directory",
         "R nothing": "nothing.trig.json: there is no such file",
-        "R mine": "mine.trig.json is no TRIG program",
+        "R mine": "mine.trig.json is not a TRIG program",
     }.items():
         with pytest.raises(InvalidInput) as error:
             typist.type(line)
@@ -140,9 +140,9 @@ def forged(path: str, value: object) -> bytes:
     ("path", "value", "sentence"),
     [
         ("trig", 2, "has version 2; this version of handeye reads 1"),
-        ("units.length", "inch", "has other units than mm, deg, oz"),
+        ("units.length", "inch", "has units other than mm, deg, oz"),
         ("nodes.3.sons", [5], "step 5 does not know its father 3"),
-        ("nodes.3.sons", [99], "step 3 has a son 99 that there is not"),
+        ("nodes.3.sons", [99], "step 3 has a son 99 that does not exist"),
         ("nodes.3.sons", [], "step 3 is bloop and has 0 sons"),
         ("nodes.3.sons", None, "step 3: Object missing required field `sons`"),
         (
@@ -155,20 +155,20 @@ def forged(path: str, value: object) -> bytes:
         ("nodes.21.loop.wanted", -4, "has gone back 0 times of -4"),
         ("nodes.4.type", "jump", "step 4: Invalid enum value 'jump'"),
         ("nodes.4.type", "top", "not numbered one by one from the top"),
-        ("nodes.4.type", "none", "step 4 is no step, but none"),
+        ("nodes.4.type", "none", "step 4 is not a step, but none"),
         ("nodes.4.id", 5, "not numbered one by one from the top"),
         ("nodes.4.name", "FINISH", "two steps are called FINISH"),
-        ("nodes.4.name", "a name", "step 4 has a name that is none"),
+        ("nodes.4.name", "a name", "step 4 has a name that is not valid"),
         ("nodes.4.position", "NOWHERE", "step 4 is normal and lacks its position"),
         ("nodes.4.negate", True, "step 4 goes the other way of an absolute position"),
         ("nodes.6.threshold", -1, "step 6 has a threshold below 0"),
         ("nodes.6.vector", [0, 0], "step 6: Expected `array` of length 3, got 2"),
-        ("nodes.6.links", [5], "step 6 has a link that leads nowhere"),
+        ("nodes.6.links", [5], "step 6 has a link without a target"),
         ("nodes.0", None, "not numbered one by one from the top"),
         ("nodes.0.sons", [-1], "step 1 has a father 0 who does not know it"),
         ("positions.PALLET.init", [1, 2, 3], "Expected `array` of length 6, got 3"),
         ("positions.PALLET.relative", True, "saves a relative position"),
-        ("positions.PALLET.data", [1e30, 0, 0, 0, 0, 0], "is farther away than anything"),
+        ("positions.PALLET.data", [1e30, 0, 0, 0, 0, 0], "is too far away"),
         ("positions", [], "Expected `object`, got `array`"),
     ],
 )
@@ -182,7 +182,7 @@ def test_a_forged_file_is_refused_in_a_sentence(path: str, value: object, senten
 
 def test_a_file_that_is_cut_short_anywhere_is_refused() -> None:
     for length in range(0, len(WRITTEN) - 2, 7):
-        with pytest.raises(InvalidInput, match=r"^f is no TRIG program"):
+        with pytest.raises(InvalidInput, match=r"^f is not a TRIG program"):
             decoded(WRITTEN[:length], "f")
 
 

@@ -92,7 +92,7 @@ def test_an_export_takes_the_place_of_an_export_only_if_asked(
     assert command("export", "mjcf", "--seed", "1", "-o", "a")[0] == 0
     drawn = Path("a/scene.xml").read_bytes()
     assert command("export", "mjcf", str(ended[0]), "-o", "a") == (
-        2, "", "handeye: a holds an export of handeye already; --overwrite replaces it\n",
+        2, "", "handeye: a already holds an export of handeye; --overwrite replaces it\n",
     )  # fmt: skip
     assert Path("a/scene.xml").read_bytes() == drawn
     assert command("export", "mjcf", str(ended[0]), "-o", "a", "--overwrite")[0] == 0
@@ -165,7 +165,7 @@ def test_solids_are_written_and_what_is_wrong_with_them_is_said(
     ("name", "sentence"),
     [
         ("a.obj", "the name of the GLB file must end in .glb"),
-        ("mine.glb", "exists and is no GLB file; nothing was written"),
+        ("mine.glb", "exists and is not a GLB file; nothing was written"),
     ],
 )
 def test_solids_take_the_place_of_no_other_file(command: Command, name: str, sentence: str) -> None:

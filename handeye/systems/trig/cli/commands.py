@@ -19,21 +19,21 @@ ArmKind = Annotated[
     Literal["none", "purbrick"],
     Parameter(
         name="--arm",
-        help="The arm: `none` is only imagined; `purbrick` is that of the paper, with physics.",
+        help="The arm: `none` has no physics; `purbrick` is the simulated arm of the paper.",
     ),
 ]
 TrigFile = Annotated[
-    Path, Parameter(help="A script of typed lines (.trig), or a program that W has written (.trig.json).")
+    Path, Parameter(help="A script of typed lines (.trig), or a program written by W (.trig.json).")
 ]
 ALL: Final = 1_000_000_000  # steps: more than can be recorded
 
-trig = App(
-    name="trig", help="TRIG (MIT, 1982): teach a program by doing, see it as it grows, run it backwards."
-)
+trig = App(name="trig", help="TRIG (MIT, 1982): teach a program by example, watch it grow, run it backwards.")
 
 
 def edit(
-    file: Annotated[Path | None, Parameter(help="A program to begin with: .trig or .trig.json.")] = None,
+    file: Annotated[
+        Path | None, Parameter(help="A program to load at the start: .trig or .trig.json.")
+    ] = None,
     /,
     *,
     arm: ArmKind = "none",
@@ -56,7 +56,7 @@ def run(
     /,
     *,
     arm: ArmKind = "none",
-    back: Annotated[bool, Parameter(help="Then run it backwards, to where it began.")] = False,
+    back: Annotated[bool, Parameter(help="Then run it backwards to its start.")] = False,
     json: Json = False,
 ) -> int:
     """Run a program from the top; a script is typed first, line by line, as at the editor.
@@ -94,7 +94,7 @@ def show(
     /,
     *,
     width: Annotated[
-        WholeNumber, Parameter(help="Characters of a line; by default those of the terminal.")
+        WholeNumber, Parameter(help="Characters per line. Default: the width of the terminal.")
     ] = 0,
 ) -> int:
     """Show both displays of a program: all of it in miniature, and its steps in full.
@@ -144,7 +144,7 @@ def _conversed(session: "Session", arm: str) -> int:
         from handeye.systems.trig.cli.lines import converse
 
         missing = MissingExtra("trig", "prompt_toolkit", "terminal")
-        note(f"{missing}; without it there are lines and no screen")
+        note(f"{missing}; without it you can type lines, but there is no screen")
         with PanicButton() as panic:
             converse(session, panic)
         return 0

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from handeye.systems.trig.run.job_video import JobVideo
 
 
-Seed = Annotated[WholeNumber, Parameter(help="The world: how far off people teach, machine and blocks are.")]
+Seed = Annotated[WholeNumber, Parameter(help="Seed of the world: errors of teaching, machine and blocks.")]
 
 
 @Parameter(name="*")
@@ -71,7 +71,9 @@ class _Progress(Observer):
 
 def palletise(
     *,
-    blocks: Annotated[WholeNumber, Parameter(help="In the stack, 0 to 20; the pallet takes 15.")] = 20,
+    blocks: Annotated[
+        WholeNumber, Parameter(help="Number of blocks in the stack, 0 to 20; the pallet takes 15.")
+    ] = 20,
     seed: Seed = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     fault: Faults = None,
@@ -89,7 +91,7 @@ def palletise(
     from handeye.systems.trig.jobs.benches import MOST_BLOCKS
 
     if not 0 <= blocks <= MOST_BLOCKS:
-        raise BadArgument(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
+        raise BadArgument(f"a stack has 0 to {MOST_BLOCKS} blocks, not {blocks}")
     return _work("palletise", _world("palletise", seed, errors, fault), blocks, kept, json=json)
 
 
@@ -212,7 +214,9 @@ def _check_apart(kept: KeptOptions) -> None:
     if kept.out is None or kept.video is None:
         return
     if kept.video.absolute().is_relative_to(kept.out.absolute()):
-        raise CannotWrite(f"{kept.video} lies in the folder of --out, which is that of a run; name another")
+        raise CannotWrite(
+            f"{kept.video} is in the folder of --out, which belongs to a run; choose another place"
+        )
 
 
 def _tell(done: "JobReport") -> None:
@@ -224,7 +228,7 @@ def _tell(done: "JobReport") -> None:
     if done.outcome == "stopped":
         say(done.told[-1])
     say(
-        {"right": "Right.", "stopped": "The arm has stopped.", "silent": "Done, and the referee disagrees."}[
+        {"right": "Right.", "stopped": "The arm has stopped.", "silent": "Done, but the referee disagrees."}[
             done.outcome
         ]
     )
@@ -233,12 +237,12 @@ def _tell(done: "JobReport") -> None:
 def pallet_trials(
     *,
     n: Annotated[
-        WholeNumber, Parameter(name="--n", help="Trials; number k is in the world of --seed + k.")
+        WholeNumber, Parameter(name="--n", help="Number of trials; trial K has the seed --seed plus K.")
     ] = 10,
     seed: FirstSeed = 0,
     blocks: Annotated[WholeNumber, Parameter(help="In the stack, 0 to 20.")] = 7,
     interrupt: Annotated[
-        bool, Parameter(help="Break each run off after a drawn number of steps, and undo it from there.")
+        bool, Parameter(help="Interrupt each run after a random number of steps, and undo it from there.")
     ] = False,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
@@ -259,8 +263,8 @@ def pallet_trials(
     positive(n, "trial")
     options.check()
     if not 0 <= blocks <= MOST_BLOCKS:
-        raise BadArgument(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
-    settings = {"blocks": str(blocks), "whether runs are broken off": "yes" if interrupt else "no"}
+        raise BadArgument(f"a stack has 0 to {MOST_BLOCKS} blocks, not {blocks}")
+    settings = {"blocks": str(blocks), "interrupted runs": "yes" if interrupt else "no"}
     world = errors.of("palletise").spec(seed)
     words = shlex.join(errors.words())
     broken = f"{' --interrupt' if interrupt else ''}{' ' + words if words else ''}"

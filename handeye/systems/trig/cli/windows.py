@@ -34,7 +34,7 @@ JOGS: Final = {
     "r": (3, -1), "R": (3, 1), "p": (4, -1), "P": (4, 1), "w": (5, -1), "W": (5, 1),
 }  # fmt: skip
 BOX_HELP: Final = "xXyYzZrRpPwW or ←→↓↑PgDnPgUp: drive   Enter: record   k: kill   +-:"
-LINE_HELP: Final = "HELP: commands   Tab: complete   Ctrl-C: drop the line   Q or Ctrl-D: leave"
+LINE_HELP: Final = "HELP: commands   Tab: complete   Ctrl-C: clear the line   Q or Ctrl-D: leave"
 BUSY_HELP: Final = "any key stops the arm"
 PAGE_HELP: Final = "PgUp PgDn, then any line"
 STEPS: Final = (0.1, 1.0, 5.0, 10.0, 50.0)  # mm or deg per teach box key

@@ -83,9 +83,9 @@ def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
     try:
         plan = msgspec.json.decode(data, type=TaughtPlan)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise BadFile(f"{name} is not sound: {error}") from None
+        raise BadFile(f"{name} is not valid: {error}") from None
     if len(plan.script) > _LONGEST:
-        raise BadFile(f"{name} is not sound: its script has more than {_LONGEST} characters")
+        raise BadFile(f"{name} is not valid: its script has more than {_LONGEST} characters")
     return plan
 
 

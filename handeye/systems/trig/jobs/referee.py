@@ -32,7 +32,9 @@ def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings
     off = [float(np.hypot(*(X[:2, 3] - place[:2]))) for X, place in zip(there, places, strict=True)]
     high = [abs(float(X[2, 3]) - HEIGHT / 2) for X in there]
     return {
-        "placed": at_most(_most(off) * _MM, PLACED, "mm", "farthest block from its place on the taught grid"),
+        "placed": at_most(
+            _most(off) * _MM, PLACED, "mm", "distance of the farthest block from its place on the taught grid"
+        ),
         "on_the_pallet": at_most(_most(high) * _MM, ON, "mm", "height of a block above the pallet"),
         "flat": at_most(
             degrees(_most([tilt(X) for X in there])), FLAT, "deg", "lean of a block on the pallet"
@@ -50,10 +52,15 @@ def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pos
     """Check that a block lies in a bucket, its middle at `inside`, and another one at `place`; x, y in m."""
     aside = float(np.max(np.abs(X[:2, 3] - inside)))
     return {
-        "below_its_rim": at_most(float(X[2, 3]) * _MM, RIM, "mm", "height of the middle of block A"),
-        "in_the_bucket": at_most(aside * _MM, BUCKET, "mm", "block A from the middle of the bucket"),
+        "below_its_rim": at_most(float(X[2, 3]) * _MM, RIM, "mm", "height of the centre of block A"),
+        "in_the_bucket": at_most(
+            aside * _MM, BUCKET, "mm", "distance of block A from the centre of the bucket"
+        ),
         "replaced": at_most(
-            float(np.hypot(*(other[:2, 3] - place))) * _MM, PLACED, "mm", "block B from where A was grasped"
+            float(np.hypot(*(other[:2, 3] - place))) * _MM,
+            PLACED,
+            "mm",
+            "distance of block B from where A was grasped",
         ),
         "lies": at_most(
             abs(float(other[2, 3]) - HEIGHT / 2) * _MM, ON, "mm", "height of block B above the platter"
@@ -64,7 +71,7 @@ def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pos
 def judge_hand(truth: Array, place: Array, what: str) -> Finding:
     """Check that the hand truly is at a place; both of shape (6,), m and rad."""
     off = float(np.linalg.norm(truth[:3] - place[:3]))
-    return at_most(off * _MM, HAND, "mm", f"hand from where the program {what}")
+    return at_most(off * _MM, HAND, "mm", f"distance of the hand from where the program {what}")
 
 
 def judge_program(pallet: tuple[Place, Place], counts: Sequence[int]) -> Findings:
@@ -72,7 +79,7 @@ def judge_program(pallet: tuple[Place, Place], counts: Sequence[int]) -> Finding
     now, taught = pallet
     off = float(np.linalg.norm(np.array(now) - np.array(taught)))
     return {
-        "pallet": at_most(off * _MM, 0.0, "mm", "PALLET from what was taught"),
+        "pallet": at_most(off * _MM, 0.0, "mm", "distance of PALLET from its taught place"),
         "loops": at_most(max(counts, default=0), 0, "rounds", "count of a loop"),
     }
 
@@ -81,9 +88,11 @@ def _as_before(before: Poses, now: Poses, names: Sequence[str], what: str) -> Fi
     off = [float(np.linalg.norm(now[name][:3, 3] - before[name][:3, 3])) for name in names]
     turns = [_turn(inverse(before[name]) @ now[name]) for name in names]
     return {
-        "blocks": at_most(_most(off) * _MM, BACK, "mm", f"farthest block, {what}, from where it was"),
+        "blocks": at_most(
+            _most(off) * _MM, BACK, "mm", f"distance of the farthest block, {what}, from where it was"
+        ),
         "turned": at_most(
-            degrees(_most(turns)), TURNED, "deg", f"turn of a block, {what}, against how it lay"
+            degrees(_most(turns)), TURNED, "deg", f"rotation of a block, {what}, from its first direction"
         ),
     }
 

@@ -64,7 +64,7 @@ class BlockTable(SeenTable):
     def bucket(self, x: float, y: float) -> None:
         platter = self._spec.body("platter")
         if self._spec.geom("bucket_1") is not None:
-            raise Refused("there is a bucket already; `* CLEAR` takes it away")
+            raise Refused("there is already a bucket; `* CLEAR` removes it")
         for number, (dx, dy) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1)), 1):
             size = [_WALL if dx else _WIDE + 2 * _WALL, _WALL if dy else _WIDE, _DEEP / 2]
             at = [x + dx * (_WIDE + _WALL), y + dy * (_WIDE + _WALL), _DEEP / 2]

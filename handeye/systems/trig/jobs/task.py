@@ -96,14 +96,14 @@ class Bucket(_BlocksTask):
     """Drop a block into a bucket, and put another one in its place."""
 
     name = "bucket"
-    words = Words(product="the bucket", done="The block is in the bucket, and another one in its place.")
+    words = Words(product="the bucket", done="The block is in the bucket, and another one is in its place.")
 
     def judge(self, truth: Truth) -> Findings:
         seen = initial_scene(truth)
         stood = stands(truth.data, seen.blocks)
         blocks = [*stood.poses.values()]
         if len(blocks) != _DROPPED:
-            raise Refused(f"the referee looks at {_DROPPED} blocks, and the script has laid {len(blocks)}")
+            raise Refused(f"the referee needs {_DROPPED} blocks, but the script placed {len(blocks)}")
         place: Array = np.array(seen.place("BLOCK")[:2])
         dropped = judge_dropped(blocks[0], BUCKET, place, blocks[1])
         return {**dropped, "hand": _ends_at(seen, stood, "CENTER")}

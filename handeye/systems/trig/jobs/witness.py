@@ -49,7 +49,7 @@ class InitialScene(ObservedScene, frozen=True, kw_only=True):
         """A taught position; raises Refused."""
         found = self.taught.get(name)
         if found is None:
-            raise Refused(f"the referee looks for the position {name}, which the script does not teach")
+            raise Refused(f"the referee needs the position {name}, which the script does not teach")
         return found
 
 
@@ -79,7 +79,7 @@ class Witness(Mechanism[InitialScene]):
         turned = state.turned or state
         alike = {*turned.blocks} == {*state.blocks}
         if not (alike and state.sound and turned.sound and np.isfinite([*state.taught.values()]).all()):
-            raise BadFile("what was seen before the program was run is no place")
+            raise BadFile("the recorded place before the run is not valid")
 
     def restore(self, state: InitialScene) -> None:
         self.began = state

@@ -28,30 +28,56 @@ def _quantity(name: str, unit: str, distribution: Distribution, most: float, sou
 
 
 VARIATION: Final = Variation(
-    _quantity(TAUGHT, "mm", Noise(0.3), 5.0, "Sigma of an axis driven with the teach box. Chosen."),
-    _quantity(STACKED, "mm", Noise(0.3), 5.0, "Sigma of a stack along X and Y. Chosen: against a mark."),
-    _quantity(ALIGNED, "mm", Noise(0.1), 5.0, "Sigma of a block in its stack along X and Y. Chosen."),
-    _quantity(TURNED, "deg", Noise(0.2), 10.0, "Sigma of a block's yaw in its stack. Chosen."),
+    _quantity(
+        TAUGHT, "mm", Noise(0.3), 5.0, "Standard deviation of an axis driven with the teach box. Chosen."
+    ),
+    _quantity(
+        STACKED,
+        "mm",
+        Noise(0.3),
+        5.0,
+        "Standard deviation of a stack's position along X and Y. Chosen: as placed at a mark.",
+    ),
+    _quantity(
+        ALIGNED,
+        "mm",
+        Noise(0.1),
+        5.0,
+        "Standard deviation of a block's position in its stack along X and Y. Chosen.",
+    ),
+    _quantity(TURNED, "deg", Noise(0.2), 10.0, "Standard deviation of a block's yaw in its stack. Chosen."),
     _quantity(FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of blocks and platter. Chosen: dry aluminium."),
-    _quantity(SLIDES, "mm", Noise(0.05), 5.0, "Sigma of how far sliding potentiometers bend. Chosen."),
-    _quantity(TURNS, "rad", Noise(2e-4), 0.1, "Sigma of how far turning potentiometers bend. Chosen."),
+    _quantity(
+        SLIDES,
+        "mm",
+        Noise(0.05),
+        5.0,
+        "Standard deviation of the nonlinearity of linear potentiometers. Chosen.",
+    ),
+    _quantity(
+        TURNS,
+        "rad",
+        Noise(2e-4),
+        0.1,
+        "Standard deviation of the nonlinearity of rotary potentiometers. Chosen.",
+    ),
 )  # quantities of the bench: sigmas of errors, of which each has a stream of its own, and the friction
 WEAK, HEAVY, SLIPPERY = "hand.weak", "blocks.heavy", "platter.slippery"
 FAULTS: Final = Catalogue(
     FaultKind(
-        name=WEAK, meaning="The hand presses with so much force only; 30 N are built in.", when="before",
+        name=WEAK, meaning="The hand presses only with this force; the usual force is 30 N.", when="before",
         size=Size(unit="N", usual=0.1, limits=(0.001, 30.0)),
     ),
     FaultKind(
-        name=HEAVY, meaning="Blocks weigh so many times as much as aluminium.", when="before",
+        name=HEAVY, meaning="Blocks weigh this many times as much as aluminium ones.", when="before",
         size=Size(unit="", usual=10.0, limits=(1.0, 100.0)),
         expected=ExpectedDetection(harmless="The hand holds a hundred times the weight of a block."),
     ),
     FaultKind(
-        name=SLIPPERY, meaning="Blocks and platter are oiled: their friction is this.", when="before",
+        name=SLIPPERY, meaning="Blocks and platter are oiled: this is their friction.", when="before",
         size=Size(unit="", usual=0.05, limits=(0.01, 0.3)),
         expected=ExpectedDetection(
-            harmless="Blocks lie flat where they are put, and are held with all the force of the hand."
+            harmless="Blocks stay flat where they are put, and the hand holds them with its full force."
         ),
     ),
 )  # fmt: skip

@@ -53,7 +53,7 @@ def read_branch(word: str) -> int:
     """A branch of a guarded step, as typed."""
     branch = BRANCHES.get(word.strip().rstrip(".").upper())
     if branch is None:
-        raise BadArgument(f"{quoted(word.strip())} is no branch; type n (normal) or g (guarded)")
+        raise BadArgument(f"{quoted(word.strip())} is not a branch; type n (normal) or g (guarded)")
     return branch
 
 
@@ -61,7 +61,7 @@ def read_threshold(word: str) -> float:
     """A threshold typed in ounces, N."""
     ounces = number(word.strip())
     if ounces < 0:
-        raise BadArgument(f"a threshold is not less than 0 oz, as {quoted(word.strip())} is")
+        raise BadArgument(f"a threshold must be 0 oz or more, not {quoted(word.strip())} is")
     return ounces * OUNCE_FORCE
 
 
@@ -69,16 +69,16 @@ def read_vector(text: str) -> Vector3:
     """A force vector, three weights in parentheses."""
     found = _VECTOR.fullmatch(text.strip())
     if found is None:
-        raise BadArgument(f"{quoted(text.strip())} is no force vector; write it like (0 0 1)")
+        raise BadArgument(f"{quoted(text.strip())} is not a force vector; write it like (0 0 1)")
     x, y, z = map(number, found.groups())
     if (x, y, z) == (0, 0, 0):
-        raise BadArgument("the force vector (0 0 0) heeds no force; (0 0 1) heeds one upwards")
+        raise BadArgument("the force vector (0 0 0) has no direction; (0 0 1) feels a force upwards")
     return x, y, z
 
 
 def _position(word: str) -> str:
     if word.startswith("-"):
-        raise BadArgument(f"a minus has no meaning here: give {quoted(word[1:])} without it")
+        raise BadArgument(f"a minus has no meaning here: type {quoted(word[1:])}")
     return name_of(word)
 
 

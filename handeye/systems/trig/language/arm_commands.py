@@ -62,7 +62,7 @@ def here_relative(session: Session, given: Arguments) -> None:
     """SR: name the offset from the end of the last step to the arm's present place."""
     start = session.program.ended_at
     if start is None:
-        raise Refused("no step has taken the arm anywhere yet; CALPOS and ENDCAL measure any way")
+        raise Refused("no step has moved the arm yet; CALPOS and ENDCAL measure any distance")
     _define(session, given.position or "", session.arm.here().seen_from(start), relative=True)
 
 
@@ -74,7 +74,7 @@ def begin_way(session: Session, given: Arguments) -> None:
 def end_way(session: Session, given: Arguments) -> None:
     """ENDCAL: name the offset from there to the arm's present place."""
     if session.origin is None:
-        raise Refused("CALPOS comes first: it remembers where the way begins")
+        raise Refused("type CALPOS first: it remembers the start")
     _define(session, given.position or "", session.arm.here().seen_from(session.origin), relative=True)
     session.origin = None
 
@@ -96,4 +96,4 @@ def _check_redefinition(session: Session, name: str, relative: bool) -> None:
         check_no_opposite(session, name)
     kinds = {True: "relative", False: "absolute"}
     change = "" if was == relative else f", and {kinds[was]}"
-    session.confirmed(f"{name} is defined already{change}. Replace it? ")
+    session.confirmed(f"{name} is already defined{change}. Replace it? ")

@@ -22,10 +22,10 @@ from handeye.systems.trig.language.trig_arm import Halted
 
 WITHDRAWN: Final = "cancelled"
 TABLE_HELP: Final = (
-    "To lay the table, as somebody beside it:",
-    "  * STACK 20 X 150 Y 0  put blocks on each other at a place, in mm",
-    "  * BUCKET X 140 Y 0    put a bucket there",
-    "  * CLEAR               take everything away",
+    "To set the table, as a person next to it:",
+    "  * STACK 20 X 150 Y 0  stack blocks at a place, in mm",
+    "  * BUCKET X 140 Y 0    put a bucket at a place",
+    "  * CLEAR               remove everything",
 )
 
 
@@ -60,7 +60,7 @@ def command_of(word: str) -> TrigCommand:
     if command is not None:
         return command
     if upper in (*AXES, *ENDS):
-        raise BadArgument(f"{upper} is on the teach box, which is heard while M or FREE waits for it")
+        raise BadArgument(f"{upper} is on the teach box, which works while M or FREE waits for it")
     near = nearest(upper, [*COMMANDS, *SYNONYMS], max(1, len(upper) // 3)) if len(upper) > 1 else None
     raise NoSuchName(
         f"there is no command {quoted(word)}; " + (f"did you mean {near}?" if near else "HELP lists them")

@@ -29,29 +29,29 @@ class TrigCommand:
         return self.usage.partition(" ")[0]
 
 
-ARM: Final = "drive the arm, and leave the program as it is"
+ARM: Final = "drive the arm without changing the program"
 STEPS: Final = "add a step below the active one"
 CHANGES: Final = "change steps"
 POSITIONS: Final = "define positions"
 CURSOR: Final = "move the cursor"
-RUNS: Final = "run, keep, leave"
+RUNS: Final = "run, save, leave"
 
 TABLE: Final = (
     TrigCommand(
-        usage="FREE", group=ARM, act=arm_commands.free, help="drive it with the teach box until save is pressed"
+        usage="FREE", group=ARM, act=arm_commands.free, help="drive it with the teach box until you press save"
     ),
     TrigCommand(
         usage="GOPOS [-]POS", group=ARM, takes=("signed",), needs=1, act=arm_commands.go, help="go to a position"
     ),
     TrigCommand(
         usage="GOGPOS [-]POS", group=ARM, takes=("signed",), needs=1, act=arm_commands.feel,
-        help="go there slowly until a force stops the arm",
+        help="go there slowly, until a force stops the arm",
     ),
     TrigCommand(usage="GOGRASP", group=ARM, act=arm_commands.close, help="close the hand"),
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
     TrigCommand(
         usage="M [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None),
-        help="move to a position, which is taught if it is not defined: of its own kind, or that of the move before",
+        help="move to a position; if it is not defined, teach it, of the same kind as the previous move",
     ),
     TrigCommand(
         usage="MA [POS [n|g]]", group=STEPS, takes=("position", "branch"), act=step_commands.move("absolute"),
@@ -63,7 +63,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="MG [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None, guarded=True),
-        help="as M, slowly, and guarded: a force on the finger stops it, and the program goes on by another branch",
+        help="as M, slowly and guarded: a force on the finger stops it, and the program continues on the other branch",
     ),
     TrigCommand(
         usage="MAG [POS [n|g]]", group=STEPS, takes=("position", "branch"),
@@ -77,15 +77,15 @@ TABLE: Final = (
     TrigCommand(usage="UNGRASP", group=STEPS, act=step_commands.hand(False), help="open the hand"),
     TrigCommand(
         usage="SAVPOS POS [n|g]", group=STEPS, takes=("position", "branch"), needs=1, act=step_commands.save,
-        help="set a position to where the arm is then",
+        help="set a position to the arm's place during the run",
     ),
     TrigCommand(
         usage="LOOP STEP COUNT", group=STEPS, takes=("step", "count"), needs=2, act=step_commands.loop,
-        help="go back to a step so many times before going on",
+        help="go back to a step COUNT times, then continue",
     ),
     TrigCommand(
         usage="L STEP [n|g]", group=STEPS, takes=("step", "branch"), needs=1, act=step_commands.link,
-        help="go on at a step that there is already; LINK, too",
+        help="continue at an existing step; also LINK",
     ),
     TrigCommand(
         usage="CN STEP", group=CHANGES, takes=("step",), needs=1, act=step_commands.rename,
@@ -93,71 +93,72 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="CP POS", group=CHANGES, takes=("position",), needs=1, act=step_commands.change_position,
-        help="give the active step another position",
+        help="change the position of the active step",
     ),
     TrigCommand(
         usage="CT THRESHOLD", group=CHANGES, takes=("threshold",), needs=1, act=step_commands.change_threshold,
-        help="give the active guarded step another threshold, in ounces",
+        help="change the threshold of the active guarded step, in ounces",
     ),
     TrigCommand(
         usage="CV (X Y Z)", group=CHANGES, takes=("vector",), needs=1, act=step_commands.change_vector,
-        help="give it another force vector",
+        help="change its force vector",
     ),
     TrigCommand(
         usage="D [STEP [n|g]]", group=CHANGES, takes=("step", "branch"), act=step_commands.delete,
-        help="delete a step; of a guarded one, n or g is the branch that stays",
+        help="delete a step; for a guarded one, n or g is the branch to keep",
     ),
     TrigCommand(
         usage="DA [STEP]", group=CHANGES, takes=("step",), act=step_commands.delete_all,
-        help="delete a step and all that can be reached through it only",
+        help="delete a step and all steps that only it leads to",
     ),
     TrigCommand(
         usage="DLINK STEP [n|g]", group=CHANGES, takes=("step", "branch"), needs=1, act=step_commands.unlink,
-        help="lead no longer from the active step to one that others lead to",
+        help="remove the link from the active step to one that others also lead to",
     ),
     TrigCommand(usage="FLUSH", group=CHANGES, act=step_commands.flush, help="erase the program"),
     TrigCommand(
         usage="HERE POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here,
-        help="name the place where the arm is",
+        help="name the place of the arm",
     ),
     TrigCommand(
         usage="SA POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here, help="the same"
     ),
     TrigCommand(
         usage="SR POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here_relative,
-        help="name the way there from where the last step took the arm",
+        help="name the move to here from the end of the last step",
     ),
     TrigCommand(
-        usage="CALPOS", group=POSITIONS, act=arm_commands.begin_way, help="remember where the arm is, for ENDCAL"
+        usage="CALPOS", group=POSITIONS, act=arm_commands.begin_way, help="remember the place of the arm for ENDCAL"
     ),
     TrigCommand(
         usage="ENDCAL POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.end_way,
-        help="name the way from there to where the arm is",
+        help="name the move from there to the place of the arm",
     ),
     TrigCommand(
-        usage="N [COUNT]", group=CURSOR, takes=("count",), act=program_commands.next_step, help="go down so many steps"
+        usage="N [COUNT]", group=CURSOR, takes=("count",), act=program_commands.next_step, help="go down COUNT steps"
     ),
     TrigCommand(
         usage="P [COUNT]", group=CURSOR, takes=("count",), act=program_commands.previous_step,
-        help="go up so many steps, by those that were active last",
+        help="go up COUNT steps, along those that were active last",
     ),
     TrigCommand(
         usage="GOTO STEP", group=CURSOR, takes=("step",), needs=1, act=program_commands.goto, help="go to a named step"
     ),
     TrigCommand(
         usage="RUN [COUNT]", group=RUNS, takes=("count",), act=program_commands.run,
-        help="run the program from the top, or so many steps from the active one; with a minus, backwards",
+        help="run the program from the top, or COUNT steps from the active one; with a minus, backwards",
     ),
-    TrigCommand(usage="W [FILE]", group=RUNS, takes=("file",), act=program_commands.write, help="write the program"),
+    TrigCommand(usage="W [FILE]", group=RUNS, takes=("file",), act=program_commands.write,
+        help="write the program to a file"),
     TrigCommand(
         usage="R FILE", group=RUNS, takes=("file",), needs=1, act=program_commands.read,
-        help="read a program in the place of this one",
+        help="read a program from a file, replacing this one",
     ),
     TrigCommand(
         usage="EX FILE", group=RUNS, takes=("file",), needs=1, act=program_commands.leave_written,
-        help="write it, and leave",
+        help="write the program to a file and leave",
     ),
-    TrigCommand(usage="Q", group=RUNS, act=program_commands.leave, help="leave, and write nothing"),
+    TrigCommand(usage="Q", group=RUNS, act=program_commands.leave, help="leave without writing"),
 )  # fmt: skip  # the 37 commands of the paper's appendix
 COMMANDS: Final = {command.word: command for command in TABLE}
 SYNONYMS: Final = {"LINK": "L"}  # the paper's text uses this name for a command of its appendix

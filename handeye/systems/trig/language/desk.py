@@ -79,7 +79,7 @@ def yes(word: str) -> bool:
     """Yes or no, as typed; raises BadArgument."""
     answer = word.strip().rstrip(".!").casefold()
     if answer not in ("y", "yes", "n", "no"):
-        raise BadArgument(f"{quoted(word.strip())} is no answer; type Yes or No")
+        raise BadArgument(f"{quoted(word.strip())} is not an answer; type Yes or No")
     return answer[0] == "y"
 
 
@@ -93,9 +93,7 @@ def buttons(line: str) -> list[Button]:
             found.append(_jog(word, words))
             continue
         if words:
-            raise BadArgument(
-                f"{word} ends what is done with the teach box; {quoted(words[0])} comes too late"
-            )
+            raise BadArgument(f"{word} ends the work with the teach box; {quoted(words[0])} is too late")
         found.append(ENDS[word])
     return found
 
@@ -103,13 +101,13 @@ def buttons(line: str) -> list[Button]:
 def _jog(word: str, words: deque[str]) -> Jog:
     if word not in AXES:
         raise BadArgument(
-            f"{quoted(word)} is nothing on the teach box; write `X -30`, `Z BY 12`, `RECORD` or `KILL`"
+            f"{quoted(word)} is not on the teach box; type `X -30`, `Z BY 12`, `RECORD` or `KILL`"
         )
     by = bool(words) and words[0] == "BY"
     if by:
         words.popleft()
     if not words:
-        raise BadArgument(f"{word} moves where? `{word} 30` is a place, `{word} BY 30` a way")
+        raise BadArgument(f"{word} needs a number: `{word} 30` is a place, `{word} BY 30` a distance")
     axis = AXES.index(word)
     return Jog(axis, number(words.popleft()) * SIZES[axis], by)
 
@@ -117,7 +115,7 @@ def _jog(word: str, words: deque[str]) -> Jog:
 MARK: Final = "*"  # first character of lines about the table
 MAX_STACK: Final = 25  # blocks
 TABLE_RADIUS_MM: Final = 200.0
-_HELP: Final = "write `* STACK 20 X 150 Y 0`, `* BUCKET X 140 Y 0`, or `* CLEAR`"
+_HELP: Final = "type `* STACK 20 X 150 Y 0`, `* BUCKET X 140 Y 0`, or `* CLEAR`"
 
 
 class Tabletop(ABC):
@@ -154,11 +152,11 @@ def arrange(table: Tabletop, line: str) -> str:
         case ["CLEAR"]:
             table.clear()
         case _:
-            raise BadArgument(f"{quoted(' '.join(words))} cannot be done with a table; {_HELP}")
+            raise BadArgument(f"{quoted(' '.join(words))} is not an action on the table; {_HELP}")
     return f"blocks on the table: {table.count}"
 
 
 def _at(word: str) -> float:
     if abs(number(word)) > TABLE_RADIUS_MM:
-        raise BadArgument(f"a table ends {TABLE_RADIUS_MM:g} mm from its middle, before {quoted(word)}")
+        raise BadArgument(f"the table ends {TABLE_RADIUS_MM:g} mm from its centre, before {quoted(word)}")
     return number(word) * MILLIMETRE

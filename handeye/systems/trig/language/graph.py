@@ -181,7 +181,7 @@ def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int)
     """Insert a loop below a node, and its bloop above its target; raises Refused if that is not above."""
     if after not in graph.distances(target):
         raise Refused(
-            f"{graph[target].name} does not stand above the active step, and a loop goes back: `L` leads on to it"
+            f"{graph[target].name} is not above the active step, and a loop must go back; use `L` to link to it"
         )
     loop, bloop = graph.new("loop"), graph.new("bloop")
     loop.partner, bloop.partner, loop.wanted = bloop.id, loop.id, wanted

@@ -79,12 +79,12 @@ def told_run(ran: RunResult, *, back: bool = False) -> str:
     return {
         "count": steps,
         "none": f"{steps}; the program has ended",
-        "halted": f"{steps}; stopped: RUN with a number goes on, with a minus goes back",
-        "beginning": f"{steps}; there is nothing to undo before this"
+        "halted": f"{steps}; stopped: RUN with a number continues, with a minus goes back",
+        "beginning": f"{steps}; nothing before this can be undone"
         if ran.steps
         else "there is nothing to undo",
-        "forgotten": f"{steps}; what was done before that has been forgotten",
-        "deleted": f"{steps}; the step that was done before this has been deleted and cannot be undone",
+        "forgotten": f"{steps}; earlier steps have been forgotten",
+        "deleted": f"{steps}; the step before this has been deleted and cannot be undone",
     }[ran.end]
 
 
@@ -114,7 +114,7 @@ def read(session: Session, given: Arguments) -> None:
     _check_files(session)
     file = trig_file(Path(given.file or ""))
     program = read_program(file)
-    ask_if_unsaved(session, f"Read {file} in its place")
+    ask_if_unsaved(session, f"Read {file} instead")
     session.program, session.file, session.origin = program, file, None
 
 
@@ -131,4 +131,4 @@ def leave(session: Session, given: Arguments) -> None:
 
 def _check_files(session: Session) -> None:
     if not session.files:
-        raise Refused("the script of a job reads and writes no files")
+        raise Refused("the script of a job cannot read or write files")

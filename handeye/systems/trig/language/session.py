@@ -82,7 +82,7 @@ class Session:
         node = self.program.active if node is None else node
         if node.type != "guarded":
             if given is not None:
-                raise Refused("n and g are branches of a guarded step, and this one is not guarded")
+                raise Refused("n and g are branches of a guarded step, but this one is not guarded")
             return 0
         if given is not None:
             return given
@@ -98,9 +98,11 @@ class Session:
             target = self.program.graph[self.program.graph.step_at(active.sons[branch])]
             if target.name is None:
                 raise Refused(
-                    "a link leads on from here to a step without a name; N and CN name it for DLINK"
+                    "a link leads from here to a step without a name; name it with N and CN, then use DLINK"
                 )
-            raise Refused(f"a link leads on to {target.name} here; `DLINK {target.name}` takes it away first")
+            raise Refused(
+                f"a link leads from here to {target.name}; remove it first with `DLINK {target.name}`"
+            )
         return branch
 
     def taught(self) -> Place:

@@ -45,7 +45,7 @@ def _to_known(session: Session, given: Arguments, kind: str | None, node: Node, 
     _add(session, node, branch)
     session.program.taken = taken
     if halted:
-        session.desk.tell(f"stopped at {told_place(session.arm.here())}; RUN 1 goes on with this step")
+        session.desk.tell(f"stopped at {told_place(session.arm.here())}; RUN 1 continues this step")
 
 
 def _to_taught(session: Session, name: str | None, relative: bool, node: Node, branch: int) -> None:
@@ -82,7 +82,7 @@ def save(session: Session, given: Arguments) -> None:
         session.program.positions[name] = Position(relative=False, init=here, data=here)
     elif position.relative:
         check_no_opposite(session, name)
-        session.confirmed(f"{name} is relative. Make it the absolute place where the arm is now? ")
+        session.confirmed(f"{name} is relative. Make it the present, absolute place of the arm? ")
         session.program.positions[name] = Position(relative=False, init=here, data=here)
     node = session.program.graph.new("savpos")
     node.position = name
@@ -93,7 +93,7 @@ def save(session: Session, given: Arguments) -> None:
 def check_no_opposite(session: Session, name: str) -> None:
     """Raise Refused if a step uses the opposite of a position that is to become absolute."""
     if any(node.negate for node in session.program.users(name)):
-        raise Refused(f"a step goes to -{name}, so {name} stays relative; D deletes the step")
+        raise Refused(f"a step goes to -{name}, so {name} must stay relative; D deletes the step")
 
 
 def loop(session: Session, given: Arguments) -> None:
@@ -123,14 +123,14 @@ def link(session: Session, given: Arguments) -> None:
     """L: continue at an existing step."""
     program, target = session.program, session.step(given.step or "")
     if program.cursor == TOP or target.id == TOP:
-        raise Refused("a link leads from a step to a step, and not to or from the top")
+        raise Refused("a link leads from a step to a step, not to or from the top")
     branch = session.branch(given.branch)
     entry = program.graph.entry(target.id)
     son = program.active.sons[branch]
     if son == entry:
-        raise Refused(f"the active step leads on to {target.name} already")
+        raise Refused(f"the active step already leads to {target.name}")
     if son != NONE:
-        session.confirmed(f"Another step follows here. Replace it by a link to {target.name}? ")
+        session.confirmed(f"Another step follows here. Replace it with a link to {target.name}? ")
     above = program.above(program.cursor)
     program.graph.attach(program.cursor, branch, entry, link=True)
     prune(program.graph)
@@ -149,7 +149,7 @@ def rename(session: Session, given: Arguments) -> None:
     """CN: give the active step a name."""
     node, name = active_step(session), given.step or ""
     if node.type == "loop":
-        raise Refused("a loop step shows where it goes back to, and has no name of its own")
+        raise Refused("a loop step shows where it goes back to and has no name")
     other = session.program.graph.named(name)
     if other is not None and other is not node:
         raise BadArgument(f"another step is called {name}; GOTO {name} shows which")
@@ -164,7 +164,7 @@ def change_position(session: Session, given: Arguments) -> None:
     node = active_step(session)
     position = session.position(given.position)
     if node.position is None:
-        raise Refused("the active step has no position to change: it is not a move, and saves none")
+        raise Refused("the active step has no position to change: it neither moves nor saves one")
     if node.type == "savpos" and position.relative:
         raise Refused(f"{given.position} is relative; SAVPOS saves an absolute place")
     node.position, node.negate = given.position, False
@@ -241,7 +241,7 @@ def active_step(session: Session) -> Node:
         raise Refused(
             "the program is empty; M teaches its first step"
             if empty
-            else "the top is no step; N goes to the first"
+            else "the top is not a step; N goes to the first one"
         )
     return session.program.active
 
@@ -249,7 +249,7 @@ def active_step(session: Session) -> Node:
 def _guarded(session: Session, what: str) -> Node:
     node = active_step(session)
     if node.type != "guarded":
-        raise Refused(f"the active step is not guarded, and has no {what}; MG adds one that is")
+        raise Refused(f"the active step is not guarded and has no {what}; MG adds a guarded one")
     return node
 
 

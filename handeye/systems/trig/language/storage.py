@@ -22,7 +22,7 @@ def faults(graph: Graph, positions: Positions) -> Iterator[str]:
     """Violations of invariants in words; none if the program is sound."""
     torn = list(_edge_faults(graph))
     if not torn and not _has_tree(graph):
-        torn = ["its steps do not hang together from the top"]
+        torn = ["its steps are not all connected to the top"]
     yield from torn
     if not torn:
         yield from _loop_faults(graph)
@@ -35,21 +35,21 @@ def faults(graph: Graph, positions: Positions) -> Iterator[str]:
 def _edge_faults(graph: Graph) -> Iterator[str]:
     for id, node in graph.nodes.items():
         if node.type == "none" or (node.type == "top") != (id == TOP):
-            yield f"step {id} is no step, but {node.type}"
+            yield f"step {id} is not a step, but {node.type}"
         if len(node.sons) != (2 if node.type == "guarded" else 1):
             yield f"step {id} is {node.type} and has {len(node.sons)} sons"
         for son in node.sons:
             if son != NONE and (son not in graph or son == TOP):
-                yield f"step {id} has a son {son} that there is not"
+                yield f"step {id} has a son {son} that does not exist"
             elif son != NONE and id not in graph[son].fathers:
                 yield f"step {son} does not know its father {id}"
         for father in node.fathers:
             if father not in graph or id not in graph[father].sons:
                 yield f"step {id} has a father {father} who does not know it"
         if any(not 0 <= branch < len(node.sons) or node.sons[branch] == NONE for branch in node.links):
-            yield f"step {id} has a link that leads nowhere"
+            yield f"step {id} has a link without a target"
     if graph[TOP].fathers:
-        yield "something leads up to the top"
+        yield "a step leads back to the top"
 
 
 def _has_tree(graph: Graph) -> bool:
@@ -74,14 +74,14 @@ def _loop_faults(graph: Graph) -> Iterator[str]:
         if partner is None or partner.partner != id or {node.type, partner.type} != {"loop", "bloop"}:
             yield f"the {node.type} {id} has no partner"
         elif node.type == "bloop" and node.partner not in graph.distances(id):
-            yield f"the loop {node.partner} does not stand below where it goes back to"
+            yield f"the loop {node.partner} is not below the step that it goes back to"
         if not 0 <= node.count <= node.wanted:
             yield f"the loop {id} has gone back {counted(node.count, 'time')} of {node.wanted}"
 
 
 def _step_faults(node: Node, positions: Positions) -> Iterator[str]:
     if node.name is not None and not (re.fullmatch(NAME, node.name) and len(node.name) <= LONGEST):
-        yield f"step {node.id} has a name that is none"
+        yield f"step {node.id} has a name that is not valid"
     if node.name is not None and (not node.shown or node.type == "loop"):
         yield f"step {node.id} is a {node.type} and has a name"
     position = positions.get(node.position or "")
@@ -217,7 +217,7 @@ def decoded(content: bytes, name: str) -> TrigProgram:
     try:
         return _program(content)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
-        raise BadFile(f"{name} is no TRIG program: it is not JSON, or has been cut short") from None
+        raise BadFile(f"{name} is not a TRIG program: it is not JSON, or was cut short") from None
     except _Fault as fault:
         raise BadFile(f"{name} {fault}") from None
 
@@ -229,24 +229,24 @@ class _Fault(Exception):
 def _program(content: bytes) -> TrigProgram:
     fields = msgspec.json.decode(content)
     if not isinstance(fields, dict) or not isinstance(fields.get("trig"), int):
-        raise _Fault("is no TRIG program")
+        raise _Fault("is not a TRIG program")
     if fields["trig"] > VERSION:
         raise _Fault(f"has version {fields['trig']}; this version of handeye reads {VERSION}")
     file = _read(fields, _File, "the file")
     if file.units != UNITS:
-        raise _Fault(f"has other units than {', '.join(UNITS.values())}")
+        raise _Fault(f"has units other than {', '.join(UNITS.values())}")
     graph = Graph()
     nodes = [_node(one) for one in file.nodes]
     if sorted(node.id for node in nodes) != [*range(len(nodes))] or [
         n.id for n in nodes if n.type == "top"
     ] != [TOP]:
-        raise _Fault("is not sound: its steps are not numbered one by one from the top")
+        raise _Fault("is not valid: its steps are not numbered one by one from the top")
     graph.fill(nodes)
     positions = {name: _position(name, fields) for name, fields in file.positions.items()}
     program = TrigProgram(graph=graph, positions=positions, unread=_unread(fields, _File))
     fault = next(faults(graph, program.positions), None)
     if fault is not None:
-        raise _Fault(f"is not sound: {fault}")
+        raise _Fault(f"is not valid: {fault}")
     return program
 
 
@@ -254,7 +254,7 @@ def _read(fields: object, type: type[Read], what: str) -> Read:
     try:
         return msgspec.convert(fields, type)
     except msgspec.ValidationError as error:
-        raise _Fault(f"is not sound: {what}: {error}") from None
+        raise _Fault(f"is not valid: {what}: {error}") from None
 
 
 def _unread(fields: Mapping[str, object], type: type[msgspec.Struct]) -> dict[str, object]:
@@ -264,7 +264,7 @@ def _unread(fields: Mapping[str, object], type: type[msgspec.Struct]) -> dict[st
 def _position(name: str, fields: dict[str, object]) -> Position:
     read = _read(fields, _Position, f"position {name!r:.60}")
     if any(not abs(value) <= _MAX_MEASURE for value in (*read.init, *read.data)):
-        raise _Fault(f"is not sound: position {name!r:.60} is farther away than anything")
+        raise _Fault(f"is not valid: position {name!r:.60} is too far away")
     init = Place.measured(read.init)
     return Position(relative=read.relative, init=init, data=init, unread=_unread(fields, _Position))
 
@@ -288,7 +288,7 @@ def _node(fields: dict[str, object]) -> Node:
     )
     if (read.type == "loop") != (read.loop is not None):
         raise _Fault(
-            f"is not sound: step {read.id} is {read.type}, and {'says' if read.loop else 'lacks'} how it loops"
+            f"is not valid: step {read.id} is {read.type}, and {'says' if read.loop else 'lacks'} how it loops"
         )
     if read.loop is not None:
         node.partner, node.wanted = read.loop.bloop, read.loop.wanted

@@ -53,17 +53,17 @@ def told_obstacle(obstacle: Obstacle) -> str:
     match obstacle:
         case Resistance(force=force, limit=limit):
             felt, allowed = distinct_digits((force, limit), 1)
-            return f"the finger met {felt} N, and going back may meet {allowed} N"
+            return f"the finger met {felt} N; going back, the limit is {allowed} N"
         case HoldOff(gap=gap, kept=kept):
             now, then = distinct_digits((gap / MILLIMETRE, kept / MILLIMETRE), 1)
-            return f"the fingers are {now} mm apart, and were {then} mm apart then"
+            return f"the fingers are {now} mm apart; on the way forward they were {then} mm apart"
         case LeftBehind(axis=axis, off=off, limit=limit):
             far, allowed = distinct_digits((off / SIZES[axis], limit / SIZES[axis]), 1)
-            return f"{AXES[axis]} is {far} {UNITS[axis]} from where it was told to be, and may be {allowed}"
+            return f"{AXES[axis]} is {far} {UNITS[axis]} from its commanded place; the limit is {allowed}"
         case MissingContact():
-            return "the finger met something here then, and meets nothing now"
+            return "on the way forward the finger met something here; now it meets nothing"
         case MissingSupport():
-            return "what the hand holds was taken up from something here, and there is nothing here now"
+            return "the hand picked its part up from something here, and now there is nothing here"
 
 
 Halted = Callable[[], bool]  # polled during motion: True to stop the arm

@@ -29,7 +29,7 @@ Point = tuple[float, float]
 VERDICTS: Final[dict[Outcome, str]] = {
     "right": "right",
     "stopped": "the arm has stopped",
-    "silent": "done, and the referee disagrees",
+    "silent": "done, but the referee disagrees",
     "halted": "interrupted",
 }
 _SIDE: Final = 30.0  # mm, of a block
@@ -56,14 +56,14 @@ def job_page(done: JobReport, program: TrigProgram) -> bytes:
 def _facts(done: JobReport) -> str:
     blocks = "" if done.blocks is None else f", with {counted(done.blocks, 'block')}"
     world = f"TRIG, on the Purbrick arm in the world of {done.world or f'seed {done.seed}'}{blocks}"
-    return f"{world}; {done.arm_s:,.0f} s of the arm’s clock, teaching included."
+    return f"{world}; {done.arm_s:,.0f} s of simulated time, including teaching."
 
 
 def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
-    yield section("blocks", "Where the blocks lay", *_blocks(done))
+    yield section("blocks", "Positions of the blocks", *_blocks(done))
     for name, title, checks in (
-        ("ended", "What the referee measured when the program had ended", done.checks),
-        ("undone", "What the referee measured when it was undone", done.checks_back),
+        ("ended", "Measurements of the referee after the program", done.checks),
+        ("undone", "Measurements of the referee after the undo", done.checks_back),
     ):
         if checks:
             yield section(name, title, findings_table(checks.values()))
@@ -78,10 +78,10 @@ def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
 
 def _blocks(done: JobReport) -> Iterator[Markup]:
     above = (
-        "The truth, which neither arm nor program sees, from above: outlines where the blocks are wanted and where "
-        "they were, numbers in the order in which they are taken, a cross in the middle of the platter."
+        "Ground truth, which neither arm nor program sees, from above: outlines of the wanted and the actual places "
+        "of the blocks, numbers in the order of grasping, and a cross at the centre of the platter."
     )
-    off = " Beside it: the middle of each block, seen from where it should be."
+    off = " On the right: the centre of each block, relative to its wanted place."
     yield note(above + (off if _placed(done) or done.checks_back else ""))
     yield element("figure", _drawn(done), class_="chart")
 
@@ -101,7 +101,7 @@ def _drawn(done: JobReport) -> Markup:
         *_scatter("taken back, seen from above", back, None, _PANELS[1]),
         wide=_WIDE,
         high=_HIGH,
-        label="The blocks from above, and how far off they were placed and taken back",
+        label="The blocks from above, and their position errors when placed and when taken back",
     )
 
 
@@ -119,7 +119,7 @@ def _platter(done: JobReport) -> Iterator[Markup]:
     x, y = (west + east) / 2, (south + north) / 2
     xs = Scale(x - half, x + half, *_PLATTER)
     ys = Scale(y - half, y + half, _BOTTOM, _BOTTOM - (_PLATTER[1] - _PLATTER[0]))
-    yield words(_PLATTER[0], 12, "when the program had ended" if done.checks else "when the program was left")
+    yield words(_PLATTER[0], 12, "after the program" if done.checks else "when the program was interrupted")
     yield rule(xs(-4), ys(0), xs(4), ys(0), class_="axis")
     yield rule(xs(0), ys(-4), xs(0), ys(4), class_="axis")
     for x, y in done.goals:
@@ -190,10 +190,10 @@ def _read_account(path: Path) -> JobReport:
             restore_figures(written.get(name))
         done = msgspec.convert(written, JobReport)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise BadFile(f"{path} is no account of a job: {error}") from None
+        raise BadFile(f"{path} is not a record of a job: {error}") from None
     lying = [
         figure for blocks in done.lying.values() for each in blocks for figure in (*each.at, each.turned)
     ]
     if any(abs(figure) > _MAX_MEASURE for figure in (*lying, *(x for goal in done.goals for x in goal))):
-        raise BadFile(f"{path} is no account of a job: a block lies farther away than anything")
+        raise BadFile(f"{path} is not a record of a job: a block is too far away")
     return done

@@ -61,7 +61,7 @@ class JobVideo:
     def write(self, job: TaughtJob, ended: float | None, told: Callable[[int, int], None]) -> None:
         """Write the video, whole or not at all; reversal began at `ended` (s), and `told` is called for each frame."""
         if not self._moments:
-            raise Refused(f"the arm has not moved: {self._path} was not made")
+            raise Refused(f"the arm has not moved, so {self._path} was not made")
         most = int(MAX_SECONDS * RATE) - _HELD
         rows = np.unique(np.linspace(0, len(self._moments) - 1, most).round().astype(int))
         shown = [self._moments[row] for row in rows.tolist()]

@@ -94,5 +94,5 @@ PALLET: Final = Sweep(
     outcomes={"right": "right", "silent": "silent", "stopped": "wrong", "halted": "wrong"},
     success="right",
     more=_more,
-    summary=lambda rows: [f"{_arm_s(rows):.0f} s of the arm's clock"],
+    summary=lambda rows: [f"{_arm_s(rows):.0f} s of simulated time"],
 )  # palletising and its reversal

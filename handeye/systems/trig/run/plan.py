@@ -80,7 +80,7 @@ def decode(data: bytes, name: str) -> TaughtPlan:
     try:
         listing(plan)
     except InvalidInput as error:
-        raise BadFile(f"{name} is not sound: {error}") from None
+        raise BadFile(f"{name} is not valid: {error}") from None
     return plan
 
 
@@ -97,7 +97,7 @@ def typed(text: str, name: str) -> TrigProgram:
         nonlocal asked
         asked += 1
         if asked > PATIENCE:
-            raise Refused("what is run in it does not end")
+            raise Refused("a run in it does not end")
         return False
 
     script = Script(text.splitlines(), halted=ask)

@@ -106,7 +106,7 @@ class RunningJob(RunningSystem):
         session = self.job.session
         session.desk = Script((), halted=self._around.halt)
         if [node.id for node in session.program.graph.steps()] != [step.node for step in self._steps]:
-            raise Refused("the script teaches other steps in this world than elsewhere")
+            raise Refused("the script teaches different steps in this world")
         self._look_on()
         session.program.begin()
         self._to(session.program.graph[TOP].sons[0])
@@ -241,8 +241,8 @@ class RunningJob(RunningSystem):
         state = self._state
         if choice == "skip" and state.undoing is not None:
             raise Refused(
-                "no step is skipped on the way back, where each begins as the last one ends: "
-                "`proceed` has it undone again, `abort` ends the run"
+                "no step can be skipped while going back, because each starts where the last one ended: `proceed` "
+                "tries again, `abort` ends the run"
             )
         if state.undoing is None:
             state.turn = None
@@ -286,7 +286,7 @@ class RunningJob(RunningSystem):
 
     def restore(self, state: SystemState) -> None:
         if not isinstance(state, TaughtState):
-            raise BadFile("what the run remembers is not of a taught program")
+            raise BadFile("the state of the run is not that of a taught program")
         session = self.job.session
         state.check(session.program, len(self._steps))
         put_back(self._state, state)
@@ -317,7 +317,7 @@ class RunningJob(RunningSystem):
         return {}
 
     def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        raise Refused(f"{what} {name} cannot be set: nothing can be in a taught program")
+        raise Refused(f"{what} {name} cannot be set: a taught program has nothing to set")
 
     # -- inside ---------------------------------------------------------------------------------------
 

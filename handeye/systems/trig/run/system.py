@@ -34,15 +34,13 @@ class TaughtSystem(System):
     plan = TaughtPlan
     state = TaughtState
     words = StepperWords(
-        about=(
-            "The program is carried out a step at a time, as it was taught; the arrow stands before the next one.",
-        ),
+        about=("The program runs one step at a time, as it was taught; the arrow marks the next one.",),
         places=("PLACE is a line (8), the name of a step, or what steps do (LOOP, GRASP). WHAT is one of",),
         units="millimetres, degrees, newtons",
         commands={
-            "proceed": "have the step done again, or undone again, that called",
+            "proceed": "try the step that called again, forwards or backwards",
             "retry": "the same as `proceed`",
-            "skip": "end the program here; on the way back no step is skipped",
+            "skip": "end the program here; going back, no step can be skipped",
         },
     )
 

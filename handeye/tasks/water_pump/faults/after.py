@@ -81,7 +81,7 @@ def _pose(data: mujoco.MjData, body: str) -> Array:
 
 
 _OF_A_PUMP: Final[Mapping[str, tuple[str, Make]]] = {
-    "screw.tightened": ("A screw is tightened by hand, with 1.5 N m.", _tighten),
+    "screw.tightened": ("A screw is tightened by hand to 1.5 N m.", _tighten),
     "pump.moved.x": (
         "The pump is moved by 5 mm along table x, away from its block.",
         partial(_moved, (MOVED_M, 0.0)),
@@ -90,16 +90,16 @@ _OF_A_PUMP: Final[Mapping[str, tuple[str, Make]]] = {
         "The pump is moved by 5 mm along table y, away from its block.",
         partial(_moved, (0.0, -MOVED_M)),
     ),
-    "driver.removed": ("The screwdriver is taken out of its rack.", partial(_removed, "driver")),
-    "magnet.dead": ("The magnet of the screwdriver is dead.", _demagnetize),
-    "pin.removed": ("A pin is taken out of its holder.", partial(_removed, "pin0")),
-    "pin.swapped": ("A pin is swapped for one of .6 of its thickness.", partial(_thinned, "pin1")),
+    "driver.removed": ("The screwdriver is removed from its rack.", partial(_removed, "driver")),
+    "magnet.dead": ("The magnet of the screwdriver fails.", _demagnetize),
+    "pin.removed": ("A pin is removed from its holder.", partial(_removed, "pin0")),
+    "pin.swapped": ("A pin is replaced by one of .6 of its thickness.", partial(_thinned, "pin1")),
 }
 _OF_A_STACK: Final[Mapping[str, tuple[str, Make]]] = {
     "gasket.glued": ("The gasket is glued to the base.", partial(_glued, "gasket")),
     "top.glued": ("The top is glued to the base.", partial(_glued, "top")),
-    "top.removed": ("The top is taken away.", partial(_removed, "top")),
-    "gasket.removed": ("The gasket is taken out from under the top.", partial(_removed, "gasket")),
+    "top.removed": ("The top is removed.", partial(_removed, "top")),
+    "gasket.removed": ("The gasket is removed from under the top.", partial(_removed, "gasket")),
     "stack.moved": (
         "The base is moved by 5 mm along table x, with gasket and top.",
         partial(_moved, (MOVED_M, 0.0)),

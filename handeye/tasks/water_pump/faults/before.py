@@ -80,12 +80,12 @@ def _base() -> Iterator[PartFault]:
         lambda spec, yaw: _turn(spec, "base", _plate_centre(), yaw),
         ExpectedDetection(
             errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=(detect.UNSEEN,),
-            harmless="The job is for a base that lies anyhow within the arm's reach.",
+            harmless="The job allows any direction of the base within the arm's reach.",
         ),
         Size(unit="deg", usual=35.0, limits=(-360.0, 360.0)),
     )  # fmt: skip
     yield _fault(
-        "base.far", "The belt has carried the base so much too far: out of the arm's reach, or out of sight.",
+        "base.far", "The belt has carried the base too far by this distance: out of the arm's reach, or out of sight.",
         partial(_shift, "base", (0.0, 1.0)),
         ExpectedDetection(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=(detect.UNSEEN,)),
         Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
@@ -106,19 +106,19 @@ def _gasket() -> Iterator[PartFault]:
     )  # fmt: skip
     yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0), wrong)
     yield _fault(
-        "gasket.thick", "The gasket is so thick, where .06 in are right.",
+        "gasket.thick", "The gasket has this thickness; .06 in is right.",
         lambda spec, thick: _thicken(spec, thick / thin), wrong,
         Size(unit="in", usual=0.09, limits=(0.02, 0.5)),
     )  # fmt: skip
     yield from _moved(part, "the gasket", {
-        "x": ExpectedDetection(calls=(detect.GASKET_OFF,), harmless="The hand feels for it around its place."),
+        "x": ExpectedDetection(calls=(detect.GASKET_OFF,), harmless="The hand searches for it around its place."),
         "y": ExpectedDetection(
             errors=(SEARCH_EXHAUSTED,), calls=(detect.GASKET_OFF, detect.ON_PINS),
-            harmless="The search finds the pins with a gasket that is held a quarter inch off.",
+            harmless="The search finds the pins even with the gasket held .25 in off.",
         ),
     })  # fmt: skip
     yield _fault(
-        "gasket.turned", "The gasket lies turned about the vertical on its stand.",
+        "gasket.turned", "The gasket is turned about the vertical on its stand.",
         lambda spec, angle: _turn(spec, part, middle, _yaw(spec, part) + angle),
         ExpectedDetection(
             errors=(SEARCH_EXHAUSTED,),
@@ -142,11 +142,11 @@ def _top() -> Iterator[PartFault]:
     off = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED,),
         calls=(detect.ON_PINS,),
-        harmless="CENTER takes the top where it stands, and the search finds the pins along the fingers.",
+        harmless="CENTER grasps the top where it is, and the search finds the pins along the fingers.",
     )
     yield from _moved("top", "the top", {"x": off, "y": off})
     yield _fault(
-        "top.tilted", "A chip so high lies under one end of the top, on its stand.", _chip,
+        "top.tilted", "A chip of this height lies under one end of the top, on its stand.", _chip,
         ExpectedDetection(
             errors=(WRONG_HEIGHT, SEARCH_EXHAUSTED),
             calls=(detect.NOT_FLAT, "PIN {number} DOES NOT STAND: THE TOP HAS DRAWN IT OUT", detect.ON_PINS),
@@ -163,7 +163,7 @@ def _top() -> Iterator[PartFault]:
 
 def _moved(part: str, article: str, expected: Mapping[str, ExpectedDetection]) -> Iterator[PartFault]:
     for axis, direction in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
-        meaning = f"On its stand {article} lies so far along table {axis} from its place."
+        meaning = f"On its stand, {article} is displaced by this distance along table {axis}."
         yield _fault(f"{part}.off.{axis}", meaning, partial(_shift, part, direction), expected[axis], _AWAY)
 
 
@@ -173,7 +173,7 @@ def _pins() -> Iterator[PartFault]:
         meaning = f"Aligning pin {number} is not in its holder."
         yield _fault(f"pin.{number}.missing", meaning, partial(_missing, pin), detect.NO_PIN)
         yield _fault(
-            f"pin.{number}.thick", f"The nose of aligning pin {number} is so much thicker, in radius.",
+            f"pin.{number}.thick", f"The nose of aligning pin {number} is thicker by this radius.",
             partial(_thick_nose, pin), detect.NO_HOLE_FOR_PIN, Size(unit="mm", usual=0.2, limits=(-1.0, 0.25)),
         )  # fmt: skip
 
@@ -190,13 +190,15 @@ def _screws(count: int) -> Iterator[PartFault]:
             calls(f"NO SCREW AT S{number}"),
         )  # fmt: skip
         yield _fault(
-            f"screw.{number}.burred", f"A burr makes the point of screw {number} so much thicker, in radius: from .35 "
-            "mm on it enters no tapped hole.", partial(_thick_point, screw), calls(detect.misfit_screw(number), loose),
+            f"screw.{number}.burred",
+            f"A burr adds this radius to the point of screw {number}: from .35 mm on it enters no tapped hole.",
+            partial(_thick_point, screw), calls(detect.misfit_screw(number), loose),
             Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip
         yield _fault(
-            f"screw.{number}.slotless", f"The head of screw {number} has no slot: the bit slips on it, and no "
-            "thread takes it.", partial(_slippery, f"screw_head{number - 1}"), calls(loose),
+            f"screw.{number}.slotless",
+            f"The head of screw {number} has no slot: the bit slips, and the screw enters no thread.",
+            partial(_slippery, f"screw_head{number - 1}"), calls(loose),
         )  # fmt: skip
 
 
@@ -213,18 +215,19 @@ def _holes(count: int) -> Iterator[PartFault]:
         if number in detect.PINNED:
             blocked = full = detect.NO_HOLE_FOR_PIN
         for name, meaning, breaks, expected, size in (
-            (f"hole.{number}.blocked", f"Tapped hole {number} of the base is open only so far below its mouth.",
+            (f"hole.{number}.blocked", f"Tapped hole {number} of the base is open only to this depth below its mouth.",
              partial(_block, hole, "plug"), blocked, Size(unit="mm", usual=2.0, limits=(0.0, 20.0))),
             (f"thread.{number}.scarred",
-             f"A screw was crossed in tapped hole {number} before: another crosses there more easily.", _as_drawn,
+             f"An earlier screw was cross-threaded in tapped hole {number}: another crosses there more "
+             f"easily.", _as_drawn,
              ExpectedDetection(
-                 harmless="A screw that comes in straight goes home in a scarred thread, too; the referee cautions."
+                 harmless="A screw that enters straight also seats in a scarred thread; the referee adds a caution."
              ), None),
             (f"thread.{number}.crosses",
-             f"Whatever screw comes into tapped hole {number} crosses, however straight it stands.", _as_drawn,
+             f"Every screw in tapped hole {number} cross-threads, however straight it is.", _as_drawn,
              ExpectedDetection(calls=(high,)), None),
             (f"thread.{number}.stripped",
-             f"The thread of tapped hole {number} is worn away: a screw slides in and holds nothing.",
+             f"The thread of tapped hole {number} is worn away: a screw slides in and clamps nothing.",
              partial(_strip, hole), ExpectedDetection(calls=(loose, detect.driven_loose_screw(screw))), None),
             (f"thread.{number}.full",
              f"The shank of a broken screw fills tapped hole {number} up to its mouth.",
@@ -239,11 +242,11 @@ def _screwdriver_and_light() -> Iterator[PartFault]:
         ExpectedDetection(errors=(NOTHING_HELD,), calls=(detect.NO_DRIVER,), stages=(detect.DRIVE_FIRST,)),
     )  # fmt: skip
     yield _fault(
-        _SMOOTH, "The bit does not rub on what it turns, and no thread takes it.", partial(_slippery, "bit"),
+        _SMOOTH, "The bit has no friction: it turns no screw into a thread.", partial(_slippery, "bit"),
         ExpectedDetection(calls=(detect.loose_screw(1),)),
     )  # fmt: skip
     yield _fault(
-        "light.shadow", "A card in the way of the light throws the edge of its shadow across the base.", _shade,
+        "light.shadow", "A card in the light casts the edge of its shadow across the base.", _shade,
         detect.POOR_LIGHT,
     )  # fmt: skip
 

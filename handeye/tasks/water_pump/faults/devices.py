@@ -57,16 +57,14 @@ _FACTOR: Final = Size(unit="", usual=1.04, limits=(0.1, 5.0))
 _PERCENT_LEFT: Final = (0.0, 100.0)
 
 _WITHIN_AGREEMENT: Final = (
-    "A joint's senses agree within the errors of both, 2 % of a long motion; near its zero no factor shows."
+    "The senses of a joint agree within their errors, 2 % of a long motion; near zero no factor shows."
 )
-_WITHIN_SEARCHES: Final = "The searches and CENTER find parts that are off by less."
-_WITHIN_DRIVES: Final = (
-    "The drives overcome it, and what is pressed on is felt by less than its guard allows."
-)
+_WITHIN_SEARCHES: Final = "The searches and CENTER find parts that are displaced by less."
+_WITHIN_DRIVES: Final = "The drives overcome it, and the error of the felt force is below its guard's limit."
 
 _WITHIN_WEIGHTS: Final = (
-    "Joints 2 and 3 alone bear weight, which the arm knows to 6 and to 17 %; what is wrong from the beginning is "
-    "weighed with its links."
+    "Only joints 2 and 3 carry weight, which the arm knows to 6 and 17 %; an error from the start is taken for the "
+    "weight of the links."
 )
 _GAIN: Final = Size(unit="", usual=1.3, limits=(0.0, 3.0))
 
@@ -105,7 +103,7 @@ def _fault(
 
 
 def _switches() -> Iterator[DeviceFault]:
-    told = {"closed": "tells of touch, whatever it meets", "open": "never tells of touch"}
+    told = {"closed": "always reports touch", "open": "never reports touch"}
     expected = ExpectedDetection(errors=(SWITCH_WRONG,))
     for state, tells in told.items():
         stuck = Stuck(float(state == "closed"))
@@ -117,35 +115,35 @@ def _switches() -> Iterator[DeviceFault]:
             meaning = f"The switch of the {side} finger {tells}."
             yield _fault(f"{line}.stuck_{state}", meaning, line, stuck, expected)
     yield _fault(
-        "finger_switch.swapped", "Either finger's switch tells of the other finger.", "switches", Stuck(1.0),
-        replace(expected, harmless="CENTER alone goes by which finger touches; both may touch at once."),
+        "finger_switch.swapped", "The switches of the two fingers are exchanged.", "switches", Stuck(1.0),
+        replace(expected, harmless="Only CENTER depends on which finger touches; both may touch at once."),
     )  # fmt: skip
     yield _fault(
-        "finger_switch.hard", "The switches of both fingers take a multiple of their force.",
+        "finger_switch.hard", "The switches of both fingers need a multiple of their force.",
         ("switch_force.plus_y", "switch_force.minus_y"), GainEffect,
-        replace(expected, harmless="Up to five times its force a switch tells of fingers that press with ten ounces; "
-                "CENTER alone goes by a lighter touch."),
+        replace(expected, harmless="Up to five times its force, a switch still closes when fingers press with 10 oz; "
+                                   "only CENTER depends on a lighter touch."),
         Size(unit="", usual=10.0, limits=(0.0, 100.0)),
     )  # fmt: skip
 
 
 def _hand() -> Iterator[DeviceFault]:
     gap, expected = "gap_potentiometer", ExpectedDetection(errors=(GAP_WRONG,))
-    yield _fault(f"{gap}.stuck", "The gap reads what it read when this set in.", gap, Stuck(), expected)
+    yield _fault(f"{gap}.stuck", "The gap reading is frozen.", gap, Stuck(), expected)
     yield _fault(
-        f"{gap}.off", "The gap reads so much more than it is.", gap, OffsetEffect, expected,
+        f"{gap}.off", "The gap reads too large by this amount.", gap, OffsetEffect, expected,
         Size(unit="in", usual=0.5, limits=(-4.0, 4.0)),
     )  # fmt: skip
     yield _fault(
         f"{gap}.factor", "The gap reads a multiple of its true value.", gap, GainEffect,
-        replace(expected, harmless="Parts are felt between fingers: a gap that is wrong by less than a tenth holds "
-                "them as well."),
+        replace(expected, harmless="The switches feel parts between the fingers: a gap that is wrong by less than a "
+                                   "tenth holds them equally well."),
         Size(unit="", usual=1.15, limits=(0.1, 5.0)),
     )  # fmt: skip
     expected = ExpectedDetection(errors=(GAP_WRONG, NOTHING_HELD, FORCE_WRONG))
-    yield _fault("finger_motor.dead", "The fingers press with nothing.", "finger_motor", DEAD, expected)
+    yield _fault("finger_motor.dead", "The fingers have no force.", "finger_motor", DEAD, expected)
     yield _fault(
-        "finger_motor.weak", "So much is left of the force with which the fingers press.", "finger_motor", GainEffect,
+        "finger_motor.weak", "The fingers press with this fraction of their force.", "finger_motor", GainEffect,
         ExpectedDetection(errors=(SWITCH_WRONG, GAP_WRONG, FORCE_WRONG)),
         Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
     )  # fmt: skip
@@ -155,8 +153,8 @@ def _force() -> Iterator[DeviceFault]:
     for axis in "xyz":
         yield _fault(
             f"force.off_zero.{axis}",
-            f"The drives are off zero by what a force at the hand, along table {axis}, is to them: the arm bears a "
-            "force that is not there, and the program, which reckons the force from the torques it put out, feels it.",
+            f"The drives have an offset equal to this force at the hand along table {axis}: the program, which "
+            f"computes the force from the commanded torques, feels a force that does not exist.",
             f"force.{axis}", OffsetEffect, ExpectedDetection(errors=(FORCE_WRONG,), at_setup=True),
             Size(unit="N", usual=20.0, limits=(-100.0, 100.0)),
         )  # fmt: skip
@@ -167,15 +165,13 @@ def _joints() -> Iterator[DeviceFault]:
     for number, unit in enumerate(JOINT_UNITS, 1):
         pot, tachometer, drive = f"potentiometer.{number}", f"tachometer.{number}", f"drive.{number}"
         joint = f"of joint {number}"
+        yield _fault(f"{pot}.stuck", f"The position reading {joint} is frozen.", pot, Stuck(), wrong)
         yield _fault(
-            f"{pot}.stuck", f"The position {joint} reads what it read when this set in.", pot, Stuck(), wrong
-        )
-        yield _fault(
-            f"{pot}.jump", f"The position {joint} reads so much more than it is.", pot, OffsetEffect,
+            f"{pot}.jump", f"The position {joint} reads too large by this amount.", pot, OffsetEffect,
             replace(wrong, errors=(JOINT_SENSE_WRONG, FORCE_WRONG), calls=(detect.JOINT_OR_PLACE,)), _JUMP[unit],
         )  # fmt: skip
         yield _fault(
-            f"{pot}.drift", f"The position {joint} reads more and more: so much more each second.", pot, DriftEffect,
+            f"{pot}.drift", f"The reading of the position {joint} drifts by this amount per second.", pot, DriftEffect,
             wrong, _DRIFT[unit],
         )  # fmt: skip
         yield _fault(
@@ -188,7 +184,7 @@ def _joints() -> Iterator[DeviceFault]:
         )  # fmt: skip
         yield declared(
             f"gear.{number}.slips",
-            f"The gear {joint} slips so far within {SLIP_S:g} s behind both senses: neither shows it.",
+            f"The gear {joint} slips by this amount within {SLIP_S:g} s; neither sense shows it.",
             ((pot, _slipped), (tachometer, _slipping)),
             ExpectedDetection(
                 calls=(detect.JOINT_OR_PLACE,), harmless=_WITHIN_SEARCHES
@@ -201,7 +197,7 @@ def _joints() -> Iterator[DeviceFault]:
         )  # fmt: skip
         yield _fault(f"{tachometer}.dead", f"The rate {joint} reads zero.", tachometer, DEAD, wrong)
         yield _fault(
-            f"{drive}.weak", f"So much is left of the torque that the drive {joint} is told.", drive, GainEffect,
+            f"{drive}.weak", f"The drive {joint} gives this fraction of the commanded torque.", drive, GainEffect,
             ExpectedDetection(errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True),
             Size(unit="%", usual=50.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
@@ -213,9 +209,10 @@ def _joints() -> Iterator[DeviceFault]:
             _GAIN, stage=4,
         )  # fmt: skip
         yield _fault(
-            f"brake.{number}.slips", f"So much is left of what the brake {joint} holds.", f"brake.{number}", GainEffect,
-            replace(wrong, harmless="The brakes hold for as long as a picture takes, and the potentiometers tell where "
-                    "the arm sank."),
+            f"brake.{number}.slips",
+            f"The brake {joint} holds this fraction of its torque.", f"brake.{number}", GainEffect,
+            replace(wrong, harmless="The brakes hold for as long as a picture takes, and the potentiometers show "
+                                    "where the arm sank."),
             Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
     yield _fault(
@@ -224,7 +221,7 @@ def _joints() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True, harmless=_WITHIN_WEIGHTS), _GAIN, stage=4,
     )  # fmt: skip
     yield _fault(
-        "servo.late", "The computer is late: no torque arrives at the drives for so many servo periods.", "servo",
+        "servo.late", "The computer is late: the drives get no torque for this number of servo periods.", "servo",
         lambda periods: DropoutEffect(periods * JIFFY), ExpectedDetection(errors=(WATCHDOG,)),
         Size(unit="", usual=60.0, limits=(1.0, 36000.0)), stage=3,
     )  # fmt: skip
@@ -254,7 +251,7 @@ def _screwdriver() -> Iterator[DeviceFault]:
         f"{motor}.slow", "The screwdriver's motor turns at a multiple of the commanded speed.", motor, GainEffect,
         ExpectedDetection(
             errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
-            harmless="A screw that turns slower goes home as well; half the speed shows in a shorter start.",
+            harmless="A screw that turns more slowly seats as well; half the speed shows in a shorter start.",
         ),
         Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip
@@ -263,14 +260,15 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1),)),
     )  # fmt: skip
     yield _fault(
-        "magnet.weak", "So much is left of the force of the bit's magnet, which holds a screw.", "magnet", GainEffect,
+        "magnet.weak", "The bit's magnet, which holds a screw, has this fraction of its force.", "magnet", GainEffect,
         ExpectedDetection(
             calls=(
                 "SCREW {number} IS NOT ON THE BIT",
                 "SCREW {number} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE",
                 "NO SCREW AT S{number}",  # it is fetched once more, and may lie elsewhere by then
             ),
-            harmless="A screw weighs .06 N, a hundredth of that force: what bears it holds it straight, too.",
+            harmless="A screw weighs .06 N, a hundredth of that force: a magnet that carries it also holds it "
+                     "straight.",
         ),
         Size(unit="%", usual=1.0, limits=_PERCENT_LEFT),
     )  # fmt: skip
@@ -282,20 +280,25 @@ def _sight() -> Iterator[DeviceFault]:
     )
     wrong = ExpectedDetection(errors=(PICTURE_WRONG,), at_setup=True)
     yield _fault(
-        "picture.frozen", "Every picture is the first one after this set in.", PICTURE, Stuck(), wrong
+        "picture.frozen",
+        "Every picture repeats the first one after the fault began.",
+        PICTURE,
+        Stuck(),
+        wrong,
     )
     yield _fault("picture.dark", "Every picture is black.", PICTURE, DEAD, wrong)
     yield _fault(
-        "camera.bumped", "The camera has been bumped: it looks so far aside and down of where its mount is told.",
+        "camera.bumped",
+        "The camera has been bumped: it points this far to the side of its mount's direction, and below it.",
         ("camera.pan", "camera.tilt"), OffsetEffect,
         ExpectedDetection(
             errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, SEARCH_EXHAUSTED, NOTHING_HELD, GASKET_WRONG),
             calls=(detect.UNSEEN, detect.NOT_WHERE_SEEN, detect.NOT_ON),
-            harmless="The hand feels for the base around where it was seen.",
+            harmless="The hand searches for the base around where the camera saw it.",
         ),
         Size(unit="deg", usual=1.0, limits=(-20.0, 20.0)), stage=1,
     )  # fmt: skip
     yield _fault(
-        "turret.stuck", "The lens stays that was turned to first after this set in.", "turret", Stuck(),
+        "turret.stuck", "The lens turret stays at the first lens chosen after the fault began.", "turret", Stuck(),
         ExpectedDetection(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG), calls=(detect.UNSEEN,)), stage=1,
     )  # fmt: skip

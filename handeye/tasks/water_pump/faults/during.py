@@ -86,7 +86,7 @@ def _lose(part: str, scene: Scene, state: MishapState) -> bool:
 
 
 def _put_out(scene: Scene, _: MishapState) -> bool:
-    """The lamp of the cell goes out; what light the room has stays."""
+    """The lamp of the cell goes out; only the light of the room remains."""
     scene.model.light_diffuse[:] = 0.0
     return True
 
@@ -98,16 +98,16 @@ def mishap_faults() -> tuple[MishapFault, ...]:
 
 
 def _light_and_pushes() -> Iterator[MishapFault]:
-    meaning = "The lamp of the cell goes out; what light the room has stays."
+    meaning = "The lamp of the cell goes out; only the light of the room remains."
     yield declared("light.off", meaning, always(Mishap(_put_out)), detect.POOR_LIGHT, stage=6)
     size = Size(unit="N", usual=40.0, limits=(-300.0, 300.0))
     expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),
         calls=(detect.ASTRAY,),
-        harmless="The drives bear a push that is over before the hand feels for anything.",
+        harmless="The drives withstand a push that ends before the hand feels for anything.",
     )
     for number, axis in enumerate("xyz"):
-        meaning = f"Somebody pushes the hand along table {axis} for {PUSH_S:g} s."
+        meaning = f"A person pushes the hand along table {axis} for {PUSH_S:g} s."
         yield declared(f"arm.pushed.{axis}", meaning, partial(_pushed, number), expected, size, stage=3)
 
 
@@ -116,12 +116,12 @@ def _base() -> Iterator[MishapFault]:
     expected = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED, NOTHING_HELD),
         calls=(detect.NOT_WHERE_SEEN, detect.PUMP_ASTRAY, detect.OR_PUMP),
-        harmless="The hand feels for the base around where it was seen.",
+        harmless="The hand searches for the base around where the camera saw it.",
     )
     for number, axis in enumerate("xy"):
-        meaning = f"Somebody moves the base along table {axis} within {MOVE_S:g} s, with what stands on it."
+        meaning = f"A person moves the base along table {axis} within {MOVE_S:g} s, with everything on it."
         yield declared(f"base.moved.{axis}", meaning, partial(_moved, number), expected, size, stage=2)
-    meaning = "Somebody takes the base away, and all that stands on it."
+    meaning = "A person removes the base with everything on it."
     gone = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED,), calls=(detect.NO_BASE, detect.PUMP_ASTRAY, detect.OR_PUMP)
     )

@@ -101,9 +101,9 @@ def _screws() -> Iterator[MishapFault]:
         expected = ExpectedDetection(
             errors=(FORCE_WRONG,),  # the hand comes down on a head that stands far out
             calls=(detect.untight_screw(number), detect.shifted_head(number)),
-            harmless="Each screw is driven again, to the torque stop, before the pump is called finished.",
+            harmless="Each screw is driven again, to the torque stop, before the program calls the pump finished.",
         )
-        meaning = f"Screw {number} works loose by this number of turns, behind the driver."
+        meaning = f"Screw {number} works loose by this number of turns after it was driven."
         yield declared(
             f"screw.{number}.loose", meaning, _with_turns(number - 1), expected, size, stage=LAST_STAGE
         )
@@ -120,21 +120,21 @@ def _rotors() -> Iterator[MishapFault]:
     hard = ExpectedDetection(calls=(detect.STIFF_ROTOR,))
     yield declared("rotor.jammed", "The rotor does not turn.", always(Mishap(_jam)), hard)
     size = Size(unit="deg", usual=75.0, limits=(-170.0, 170.0))
-    meaning = "The rotor meets a stop at this angle from where it stood."
+    meaning = "The rotor meets a stop at this angle from its position."
     yield declared("rotor.stops", meaning, _stop, hard, size, stage=LAST_STAGE)
     expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),
         calls=(detect.CRANK_ASTRAY,),
-        harmless="Fingers that close on the crank find it near its place.",
+        harmless="Fingers that close on the crank find it if it is near its place.",
     )
-    meaning = "Somebody turns the rotor by this angle."
+    meaning = "A person turns the rotor by this angle."
     yield declared("rotor.turned", meaning, _turn, expected, size, stage=LAST_STAGE)
 
 
 def _taken() -> Iterator[MishapFault]:
     for number in (1, 2):
         expected = ExpectedDetection(errors=(NOTHING_HELD,), calls=(detect.missing_pin(number),))
-        meaning = f"Somebody takes aligning pin {number} away."
+        meaning = f"A person removes aligning pin {number}."
         yield declared(
             f"pin.{number}.removed", meaning, always(Mishap(partial(_take, f"pin{number - 1}"))), expected,
             stage=LAST_STAGE,
@@ -152,7 +152,7 @@ def _taken() -> Iterator[MishapFault]:
         ),
         ("top", ExpectedDetection(calls=(detect.driven_loose_screw(1), detect.loose_screw(1))), 8),
     ):
-        meaning = f"Somebody takes the {part} away, if nothing holds it."
+        meaning = f"A person removes the {part}, if nothing holds it."
         yield declared(
             f"{part}.removed", meaning, always(Mishap(partial(_take_layer, part))), expected, stage=stage
         )

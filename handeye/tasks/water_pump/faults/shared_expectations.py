@@ -79,7 +79,7 @@ NO_HOLE_FOR_PIN: Final = ExpectedDetection(
 POOR_LIGHT: Final = ExpectedDetection(
     errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG, GASKET_WRONG),
     calls=(UNSEEN, NOT_ON),
-    harmless="The eye adjusts itself to what light there is.",
+    harmless="The camera adjusts itself to the light.",
 )
 
 

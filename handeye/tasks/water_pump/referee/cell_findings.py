@@ -41,16 +41,16 @@ def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     return {
         "pins_tilt": _upright(measured, PINS, limits.PIN_TILT, "lean of a pin in its holder"),
         "rack_tilt": _upright(measured, ("driver",), limits.RACK_TILT, "lean of the screwdriver in its rack"),
-        "floor": at_least(lowest * 1e3, limits.FLOOR, "mm", "lowest part over the table top"),
+        "floor": at_least(lowest * 1e3, limits.FLOOR, "mm", "height of the lowest part above the table top"),
         "tray": mm(
             max((measured.from_site(f"screw{k}", f"park{k}") for k in in_threads), default=0.0), limits.TRAY,
-             "body of a screw that is in its thread from the tray under the floor",
+             "distance of the body of a screw in its thread from the tray under the floor",
         ),
         "hand": _hand(measured, parts),
         "still": _speed(measured, np.flatnonzero(there), "part"),
         "arm_still": _speed(measured, np.flatnonzero(arm), "link of the arm"),
         "overlap_bores": mm(
-            bores.depth, limits.SOFT, f"deepest cut of a shank or pin into a bore, of {bores.between}"
+            bores.depth, limits.SOFT, f"deepest overlap of a shank or pin with a bore, of {bores.between}"
         ),
         "overlap": mm(others.depth, limits.PENETRATION, f"deepest overlap, of {others.between}"),
     }  # fmt: skip
@@ -60,7 +60,7 @@ def resting(left: SettledState, settled: SettledState, holes: tuple[Thread, ...]
     """Whether everything stays where it was left."""
     away = np.linalg.norm(settled.data.xpos - left.data.xpos, axis=1)
     away[[left.model.body(f"screw{hole.screw}").id for hole in holes if hole.screw is not None]] = 0.0
-    subject = "farthest that anything goes until the cell has settled"
+    subject = "farthest motion of a part until the cell has settled"
     return {"rest": _greatest(left, 1e3 * away, limits.REST, "mm", subject)}
 
 
@@ -73,11 +73,11 @@ def made(left: SettledState, truth: Truth) -> Findings:
             len(differing), limits.ALTERED, "parts",
             "parts that are not as drawn" + (f": {told(differing)}" if differing else ""),
         ),
-        "bonds": at_most(_bonds(left, truth), 0, "bonds", "bonds that are open, closed or strained and should not be"),
+        "bonds": at_most(_bonds(left, truth), 0, "bonds", "bonds in a wrong state: open, closed or strained"),
         "held": at_most(max(forces), limits.FORCE, "N", "greatest force from outside on a part or the arm"),
         "motor": at_most(
             len(driven), 0, "motors",
-            "motors with a command left" + (f": {', '.join(driven)}" if driven else ""),
+            "motors with a command still set" + (f": {', '.join(driven)}" if driven else ""),
         ),
         "numbers": at_most(_not_finite(truth), 0, "numbers", "numbers of the state that are not finite"),
     }  # fmt: skip
@@ -206,4 +206,4 @@ def _hand(measured: SettledState, parts: Sequence[str]) -> Finding:
     nearest = measured.nearest(
         np.flatnonzero(arm & solid), np.flatnonzero(mine & solid), 2 * limits.HAND_CLEAR / 1e3
     )
-    return at_least(nearest * 1e3, limits.HAND_CLEAR, "mm", "hand from the nearest part")
+    return at_least(nearest * 1e3, limits.HAND_CLEAR, "mm", "distance of the hand from the nearest part")

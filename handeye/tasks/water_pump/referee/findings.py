@@ -58,7 +58,7 @@ def _base(measured: SettledState) -> Findings:
             for side, gap in gaps.items()
         },
         "base_yaw": at_most(abs(turn), limits.BASE_YAW, "deg", "turn of the base against the blocks"),
-        "base_height": mm(abs(X_WB[2, 3]), limits.BASE_HEIGHT, "height of the base off the table"),
+        "base_height": mm(abs(X_WB[2, 3]), limits.BASE_HEIGHT, "height of the base above the table"),
         "base_tilt": deg(tilt(X_WB), limits.BASE_TILT, "tilt of the base"),
     }  # fmt: skip
 
@@ -143,9 +143,13 @@ def _cell(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     rack = measured.strayed(("driver",), ("driver",))
     dispenser = measured.strayed(loose_screws(holes), [f"screw{k}" for k in range(len(holes))])
     return {
-        "pins": mm(measured.strayed(PINS, PINS), limits.PIN_PLACE, "farther pin from its hole in the holder"),
-        "rack": mm(rack, limits.RACK_PLACE, "screwdriver from its rack"),
-        "dispenser": mm(dispenser, limits.PIN_PLACE, "loose screw from the dispenser"),
+        "pins": mm(
+            measured.strayed(PINS, PINS),
+            limits.PIN_PLACE,
+            "distance of the farther pin from its hole in the holder",
+        ),
+        "rack": mm(rack, limits.RACK_PLACE, "distance of the screwdriver from its rack"),
+        "dispenser": mm(dispenser, limits.PIN_PLACE, "distance of a loose screw from the dispenser"),
     }
 
 
@@ -200,9 +204,9 @@ def _apart(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
         **{
             name: mm(measured.strayed(things, things), limits.APART, what)
             for name, things, what in (
-                ("pins", PINS, "farther pin from its hole in the holder"),
-                ("dispenser", screws, "farthest screw from its place in the dispenser"),
-                ("rack", ("driver",), "screwdriver from its rack"),
+                ("pins", PINS, "distance of the farther pin from its hole in the holder"),
+                ("dispenser", screws, "distance of the farthest screw from its place in the dispenser"),
+                ("rack", ("driver",), "distance of the screwdriver from its rack"),
             )
         },
         **_rotor(measured),

@@ -73,7 +73,7 @@ class BaseTrial(Trial[BaseAttempt]):
             return attempt.failure or "not found"
         x, y, turn = attempt.error
         off = f"{x / INCH:+.3f} in, {y / INCH:+.3f} in, {turn / DEGREE:+.2f} deg"
-        return f"something else was taken for it, {off}" if attempt.wrong else f"found, {off}"
+        return f"something else was found instead, {off}" if attempt.wrong else f"found, {off}"
 
     def outcome(self, attempt: BaseAttempt) -> Literal["right", "missed", "wrong"]:
         return "wrong" if attempt.wrong else "missed" if attempt.error is None else "right"

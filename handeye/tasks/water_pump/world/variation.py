@@ -46,7 +46,7 @@ def variation() -> Variation:
             "screwdriver", {"torque_noise": Noise(0.004)}, "N m",
             "Noise of the screwdriver's motor current, as torque.",
             unsourced="about a hundredth of the torque at which its clutch slips. Bound: .02 N m, the torque of a "
-            "clean thread, which the program feels.",
+                      "clean thread, which the program can feel.",
         ),
         *_camera(), *_light(), *_fixtures(), *_holes(), *_parts(),
     )  # fmt: skip
@@ -55,8 +55,8 @@ def variation() -> Variation:
 def _make() -> Iterator[Quantity]:
     yield Quantity(
         name=SCREWS, unit="", distribution=Choice(tuple(map(float, MAKES))), nominal=float(USUAL),
-        source="How many screws the pump has, in as many tapped holes: the job, and no error. No seed draws it and no "
-        "level scales it. The seventh is that of a later make, of which the program of 1973 knows nothing.",
+        source="Number of screws, and of tapped holes: part of the job, not an error. It does not depend on seed or "
+               "level. The seventh is of a later make, which the program of 1973 does not know.",
     )  # fmt: skip
 
 
@@ -70,7 +70,7 @@ def _belt() -> Iterator[Quantity]:
     for name, (low, high), unit in (("x", BELT_X, "in"), ("y", BELT_Y, "in"), ("yaw", BELT_LINE, "deg")):
         yield from group(
             "base", {name: Range(low, high)}, unit,
-            "Where the pump base lies on the belt: its reference point, and the direction of its line of centres. "
+            "Position of the pump base on the belt: its reference point, and the direction of its line of centres. "
             "Layout study, section 2.",
             nominal=(low + high) / 2,
         )  # fmt: skip
@@ -78,37 +78,36 @@ def _belt() -> Iterator[Quantity]:
 
 def _camera() -> Iterator[Quantity]:
     lenses = ("25mm", "50mm")
-    middle = "Where the middle of the lens is, against the drawing."
-    turret = (
-        f"sheets of lenses do not give the entrance pupil, and no drawing of the turret is known. {DOUBLED}"
-    )
+    middle = "Position of the lens centre, relative to the drawing."
+    turret = f"data sheets of lenses do not give the entrance pupil, and no drawing of the turret is known. {DOUBLED}"
     aside = {way: Normal(0.1) for way in ("ahead", "side", "up")}
     return chain(
         group("camera.place", {axis: Normal(0.15) for axis in "xyz"}, "in",
-            f"Where the camera's mount is, each axis. {_VISION}"),
+            f"Position of the camera's mount, each axis. {_VISION}"),
         group("camera.turn", {axis: Normal(0.2) for axis in ("pan", "tilt", "roll")}, "deg",
-            f"How the camera's mount is turned. {_VISION}"),
+            f"Rotation of the camera's mount. {_VISION}"),
         group("camera.focal_length", {lens: Normal(0.4) for lens in lenses}, "%",
-            f"Focal length of each lens over that of the drawing. {_VISION}", least=-50.0),
+            f"Focal length of each lens divided by that of the drawing. {_VISION}", least=-50.0),
         group("camera", {"pot_noise": Noise(0.07)}, "deg",
             "Noise of the pan and tilt readings. Vision study: .07-.10 reproduces 1973."),
         *(group(f"camera.lens.{lens}", aside, "in", middle, unsourced=turret) for lens in lenses),
         group("camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
-            "Shape of the raster: how far a corner is drawn in, over its distance from the middle, and how far the "
-            "middle of lines and of the field is off, over half their length. Honesty study, finding 10: 1 % at the "
+            "Shape of the raster: the inward shift of a corner as a fraction of its distance from the centre, and "
+            "the shift of the middle of lines and field as a fraction of half their length. Honesty study, finding "
+            "10: 1 % at the "
             "corners."),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
-            "How far each picture lies off the one before, over half its length and height: half a point. The paper "
-            "speaks of a slight shift between two pictures; vision study, section 4: up to a point."),
+            "Shift of each picture from the previous one, as a fraction of half its width and height: half a pixel. "
+            "The paper mentions a slight shift between two pictures; vision study, section 4: up to one pixel."),
     )  # fmt: skip
 
 
 def _light() -> Iterator[Quantity]:
     for name, unit, low, high, nominal, source in (
-        ("zenith", "deg", 5.0, 50.0, 25.0, "Where the key light comes from: angle to the vertical."),
-        ("azimuth", "deg", -180.0, 180.0, -160.0, "Where the key light comes from: angle to the table's x."),
+        ("zenith", "deg", 5.0, 50.0, 25.0, "Direction of the key light: angle to the vertical."),
+        ("azimuth", "deg", -180.0, 180.0, -160.0, "Direction of the key light: angle to the table's x axis."),
         ("strength", "", 0.35, 0.85, 0.6, "Diffuse intensity of the key light."),
-        ("ambient", "", 0.15, 0.40, 0.25, "What the room adds to the key light."),
+        ("ambient", "", 0.15, 0.40, 0.25, "Intensity of the room's light, added to the key light."),
     ):
         limits = {"zenith": (0.0, 89.0), "azimuth": (-360.0, 360.0)}.get(name, (0.0, 1.0))
         yield Quantity(
@@ -124,10 +123,10 @@ def _fixtures() -> Iterator[Quantity]:
             {"x": Normal(0.02), "y": Normal(0.02), "z": Normal(0.01), "yaw": Normal(0.2), "pitch": Normal(0.1),
              "roll": Normal(0.1)},
             ("in", "in", "in", "deg", "deg", "deg"),
-            "Where the fixture stands against its drawing, how high, and how it tilts, set up with a rule, a square "
-            "and a spirit level. Sigma is what ISO 2768-1 allows in class m, which a third of them then exceed: .5 mm "
-            "over 120 to 400 mm, .3 mm of height over 30 to 120 mm, 20 minutes over 50 to 120 mm. A rule is divided to "
-            "1/64 in; a spirit level is good for .5 to 1 mm/m, .03 to .06 deg.",
+            "Position, height and tilt of the fixture relative to its drawing, as set up with a rule, a square and a "
+            "spirit level. Sigma is the tolerance of ISO 2768-1, class m, which a third of the fixtures then exceed: "
+            ".5 mm over 120 to 400 mm, .3 mm of height over 30 to 120 mm, 20 minutes of arc over 50 to 120 mm. A "
+            "rule has divisions of 1/64 in; a spirit level is accurate to .5 to 1 mm/m, .03 to .06 deg.",
         )  # fmt: skip
 
 
@@ -136,34 +135,39 @@ def _holes() -> Iterator[Quantity]:
         for hole in range(1, max(MAKES) + 1):
             yield from _of(hole, group(
                 f"holes.{part}.{hole}", {"x": Normal(0.0015), "y": Normal(0.0015)}, "in",
-                f"Where the screw hole of the {part} is against its drawing. The base's are tapped, those of gasket "
-                "and top drilled apart from them.",
-                unsourced="no drawing of the pump is known; two sigma are +-.003 in, as a jig drills. Bound: +-.004 in "
+                f"Position of the screw hole of the {part}, relative to its drawing. The holes of the base are "
+                f"tapped; those of gasket and top are drilled separately.",
+                unsourced="no drawing of the pump is known; two sigma are +-.003 in, the accuracy of a drilling jig. "
+                          "Bound: +-.004 in "
                 "over 6 to 30 mm and +-.006 in over 30 to 120 mm, class f of ISO 2768-1.",
             ))  # fmt: skip
 
 
 def _parts() -> Iterator[Quantity]:
-    stood = "Where a person has put the part on its stand, against the drawing. Honesty study, finding 9."
+    stood = (
+        "Position in which a person has put the part on its stand, relative to the drawing. Honesty study, "
+        "finding 9."
+    )
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
-        "Where it is within the play that guides or hole leave it. Even, so far that it stays within them at the high "
-        "level too. A pin has none: the bevel that it stands in puts it in the middle."
+        "Position within the play of its guides or hole. Uniform, with limits that it stays within at the high level "
+        "too. A pin has none: the bevel of its hole centres it."
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
     numbers = range(1, max(MAKES) + 1)
-    masses = "Masses of base and top over those of the drawing."
+    masses = "Masses of base and top divided by those of the drawing."
     cast = (
-        "no drawing of the castings is known. Bound: 10 to 15 %, which foundries allow for the thickness of walls in "
-        "sand (Badger Iron Works)."
+        "no drawing of the castings is known. Bound: 10 to 15 %, the tolerance of foundries for the wall thickness "
+        "of sand castings (Badger Iron Works)."
     )
-    starts = "Where the thread of a screw hole starts."
+    starts = "Start angle of the thread of a screw hole."
     return chain(
         *(group(f"parts.{part}", off, ("in", "in", "deg"), stood) for part in STOOD),
         group("parts.driver", play, "%", played, greatest=IN_PLAY),
         *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
-            "Turn of the screwdriver in its guides. What their play allows beside its place.", greatest=0.6),
+            "Rotation of the screwdriver in its guides. The play that their width allows, in addition to its "
+            "position.", greatest=0.6),
         [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses,
                   unsourced=cast)],
         rubbing(RUBBING),
