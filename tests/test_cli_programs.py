@@ -83,7 +83,7 @@ def test_no_plan_has_a_module_imported(command: Command) -> None:
         ("trials", "assembly", "--n", "1", "--plan", "plan.json"),
     ):
         code, _, err = command(*words)
-        assert (code, err[:40]) == (2, "handeye: there is no task `exits:TASK`;")
+        assert (code, err[:39]) == (2, "handeye: there is no task `exits:TASK`;")
     assert not Path("run").exists()
     code, _, err = command("world", "--task", "exits:TASK")
     assert (code, err) == (2, "handeye: the task `exits:TASK` cannot be imported: SystemExit: 7\n")

@@ -142,7 +142,7 @@ def _piece(token: Token, put: Argument | None, given: Mapping[str, Argument], wo
         tokens = tuple(Token(token.start, token.end, each.kind, each.text) for each in put.tokens)
         return _Piece(token.start, token.end, tokens, put.text)
     text = token.text
-    if words or token.kind is STRING:  # an argument stands in a text without its quotes
+    if words or token.kind is STRING:  # in a text, an argument is written without its quotes
         text = _BRACED.sub(lambda n: given[n[1]].text.strip('"') if n[1] in given else n[0], text)
     return _Piece(token.start, token.end, (Token(token.start, token.end, token.kind, text),), text)
 

@@ -11,7 +11,7 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Name, Script, Statement, Value, Vector
 
 ByWord = Mapping[str, Sequence[Statement]]  # statements by instruction or macro, in text order
-Used = Mapping[Refers, Sequence[Name]]  # names by the kind of thing they refer to
+Used = Mapping[Refers, Sequence[Name]]  # names by the kind of object they refer to
 _NAMED = {
     i.op: [(place, operand.refers) for place, operand in enumerate(i.operands) if Name in operand.takes]
     for i in INSTRUCTIONS.values()

@@ -1,1 +1,1 @@
-"""The Python interface: plans, worlds and runs as values that show themselves."""
+"""The Python interface: plans, worlds and runs as values with a readable display."""

@@ -1,4 +1,4 @@
-"""Runs are begun, taken up, and carried out to their end."""
+"""Begin a run, resume one, or run it to its end."""
 
 import warnings
 from collections.abc import Sequence
@@ -45,28 +45,28 @@ def begin(
     out: FileName | None = None,
     overwrite: bool = False,
 ) -> Run:
-    """Begin a run, or take one up; it pauses before its first step, or before a stage.
+    """Begin a run, or resume one; it pauses before its first step, or before a stage.
 
     Args:
-        script: what `handeye.plan` takes, or a plan; by default the script of the task. Or a state that was kept: a
-            checkpoint, or the folder of a run, which stands for its newest checkpoint.
+        script: what `handeye.plan` takes, or a plan; by default the script of the task. Or a saved state: a
+            checkpoint, or the folder of a run, which means its newest checkpoint.
         seed: draws the world, 0 by default.
-        at: a stage to begin with, by its name, a part of it that no other has, or its number from 1. The stages before
-            it are carried out, from the nearest checkpoint if there is a folder of a run.
-        world: the world, in the place of a seed.
-        camera: how pictures are made: `gl` (OpenGL), `ray` (ray casting, everywhere the same) or `auto`; or a class
-            or function that is called with a copy of the scene (`mujoco.MjModel`) and gives an object whose
-            `render(data, view)` works out the light on the target, shape (256, 333), 1 for white in full light.
-        search: the places that a `SEARCH` tries, in the place of its square spiral: called with the number of a
-            place, from 0, it gives x and y in steps of the search (table coordinates). It is called once for each
-            number, and again where the run is taken up: it must give the same then. A search ends with error 6 where it
-            gives None or raises StopIteration, and after as many places as the `SEARCH` has, 49 if it does not say;
-            one `ALONG` a line tries its own. Tries are events `SearchAdvanced`, and `run.state.memory.place` is the
-            number it has reached.
-        referee: called with the truth of the cell, gives findings by their names; or limits alone, by the names of the
-            findings that the task's referee has, as `{"screws_clamp": 60}`, each in the unit of its finding. A run that
-            was kept is judged again by `handeye.begin(folder, referee=...).result`.
-        judge: the referee is called at the end; by default if one is given, or the run was begun so.
+        at: the first stage: its name, a unique part of its name, or its number from 1. The stages before it run first,
+            from the nearest checkpoint if there is a folder of a run.
+        world: the world, instead of a seed.
+        camera: how to render pictures: `gl` (OpenGL), `ray` (ray casting, everywhere the same) or `auto`; or a class
+            or function that takes a copy of the scene (`mujoco.MjModel`) and returns an object whose `render(data,
+            view)` computes the light on the target, shape (256, 333), with 1 for white in full light.
+        search: the places that a `SEARCH` tries, instead of its square spiral: a function from the number of a place,
+            from 0, to x and y in steps of the search (table coordinates). It is called once for each number, and again
+            after the run is resumed, and must then return the same. A search ends with error 6 if the function returns
+            None or raises StopIteration, and after the number of places of the `SEARCH`, 49 by default; a search
+            `ALONG` a line uses its own places. Tries are events `SearchAdvanced`, and `run.state.memory.place` is the
+            current number.
+        referee: a function from the truth of the cell to findings by name; or only limits for findings of the task's
+            referee, such as `{"screws_clamp": 60}`, each in the unit of its finding. To judge a kept run again, use
+            `handeye.begin(folder, referee=...).result`.
+        judge: have the referee judge the end; by default if one is given, or if the run began so.
         taught: as for `handeye.plan`.
         task: name of the task; by default that of the plan, program, run or world, else the water pump.
         out: folder for plan, events, trace, checkpoints, pictures and result; nothing else is written to. To go on in
@@ -125,16 +125,16 @@ def assemble(
     overwrite: bool = False,
     on_stop: str = "abort",
 ) -> Run:
-    """Carry out a script to its end, and have the referee judge the result: what `handeye assemble` does.
+    """Run a script to its end, and have the referee judge the result: what `handeye assemble` does.
 
     Args:
-        on_stop: what is done when the operator is called: `abort`; `retry:N`: the stage again, N times at
-            most; or `unwind`: the arm undoes what it did in that stage, and the program begins it anew, once for each.
+        on_stop: what to do when the program calls the operator: `abort`; `retry:N`: the stage again, N times at
+            most; or `unwind`: the arm undoes its work in that stage, and the program repeats the stage, once for each.
 
     The other arguments are those of `handeye.begin`.
 
     Returns:
-        the closed run; its `assembled`, `completed`, `result`, `events` tell what came of it.
+        the closed run; its `assembled`, `completed`, `result`, `events` have the outcome.
 
     Raises:
         ScriptError: the script has errors.
@@ -164,7 +164,7 @@ def assemble(
 
 
 def _rule(on_stop: object) -> Operator:
-    """The operator that a word stands for; raises InvalidInput if it is unknown or would have to ask a person."""
+    """The operator of a given name; raises InvalidInput if it is unknown or would have to ask a person."""
     operator = None
     with suppress(InvalidInput):  # whose sentence speaks of the command line
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
@@ -174,7 +174,7 @@ def _rule(on_stop: object) -> Operator:
 
 
 def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
-    """A folder for a run that begins so. Raises InvalidInput if it cannot be had."""
+    """A folder for a run that begins in this way. Raises InvalidInput if it cannot be used."""
     try:
         return open_new(path, state, overwrite=overwrite)
     except HoldsRun:

@@ -1,4 +1,4 @@
-"""Diagnostics as a caller from Python sees them: placed, and able to show themselves."""
+"""Diagnostics for Python programs: with their places, and a readable display."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ from handeye.core.source import Source
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Diagnostic:
-    """One mistake in a script, or something doubtful in it; `print` shows it with the line it is on.
+    """One error or warning in a script; `print` shows it with its line.
 
     >>> try:
     ...     handeye.plan("OPNE 1\\n")
@@ -37,7 +37,7 @@ class Diagnostic:
 
     @classmethod
     def of(cls, found: diagnostics.Diagnostic, source: Source) -> Self:
-        """The diagnostic of a source, placed."""
+        """The diagnostic of a source, with its place."""
         span = found.primary.span
         text, offset = source.find(span.start)
         line, column = text.position(offset)
@@ -55,13 +55,13 @@ class Diagnostic:
 
 
 class ScriptError(InvalidInput):
-    """A script has errors, so that there is no plan; `str` shows all of them with their lines.
+    """A script has errors, so it has no plan; `str` shows all of them with their lines.
 
     >>> try:
     ...     handeye.plan("OPEN 1\\nMOVE NOWHERE\\n")
     ... except handeye.ScriptError as error:
     ...     print(len(error.diagnostics), error.diagnostics[0].message)
-    1 position `NOWHERE` is neither taught nor defined by `TRANS`
+    1 position `NOWHERE` is not in the taught file, and no `TRANS` defines it
     """
 
     diagnostics: tuple[Diagnostic, ...]
@@ -72,5 +72,5 @@ class ScriptError(InvalidInput):
         super().__init__("\n\n".join(map(str, self.diagnostics)))
 
     def _render_traceback_(self) -> list[str]:
-        """The traceback for a notebook: the mistakes with their places in the script, without handeye's own frames."""
+        """The traceback for a notebook: the errors with their places in the script, without handeye's own frames."""
         return str(self).splitlines()

@@ -1,4 +1,4 @@
-"""Runs and worlds are handed to other programs."""
+"""Export runs and worlds to other programs."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING

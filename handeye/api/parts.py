@@ -1,4 +1,4 @@
-"""Replaceable parts as people give them: checked, and wrapped so that what they give back is checked as well."""
+"""Replaceable parts as the caller gives them: checked, and wrapped so that their results are checked as well."""
 
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -17,13 +17,15 @@ CAMERAS: Final = ("auto", "gl", "ray")
 
 
 Camera = str | CameraMaker
-"""`auto`, `gl` (OpenGL), `ray` (ray casting), or what makes a maker of pictures for a scene: a class will do."""
+"""`auto`, `gl` (OpenGL), `ray` (ray casting), or a function or class that makes a renderer for a scene."""
 
 Code = TypeVar("Code", bound=Callable[..., Any])
 
 
 def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
-    """Parts of a run that are not handeye's own; raises InvalidInput if one cannot be called, or has no such name."""
+    """Parts of a run that replace handeye's own; raises InvalidInput if one cannot be called, or its name is
+    unknown.
+    """
     if isinstance(camera, str):
         if camera not in CAMERAS:
             near = suggestion(camera, CAMERAS)
@@ -38,12 +40,14 @@ def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
 
 
 def limits_of(given: Referee | Limits | None) -> dict[str, float] | None:
-    """Limits given in the place of a referee; None without; raises InvalidInput if one is no number."""
+    """Limits given instead of a referee, or None; raises InvalidInput if one is not a number."""
     return checked_limits(given) if isinstance(given, Mapping) else None
 
 
 def referee_of(given: Referee | Limits | None) -> Referee | None:
-    """A referee that is not the task's own, if any; raises InvalidInput if it is no referee, and no table of limits."""
+    """A referee that is not the task's own, if any; raises InvalidInput if it is neither a referee nor a table of
+    limits.
+    """
     if given is None or isinstance(given, Mapping):
         return None
     if not callable(given):
@@ -60,7 +64,7 @@ def _checked_search(search: SearchPattern) -> SearchPattern:
 
     name = name_of(search)
 
-    @cache  # a place is asked for by AOJ, by each MOVE and by whoever shows it
+    @cache  # AOJ, each MOVE and every display ask for a place
     def place(number: int) -> tuple[float, float] | None:
         try:
             given = search(number)
@@ -72,7 +76,7 @@ def _checked_search(search: SearchPattern) -> SearchPattern:
 
 
 def _checked_place(name: str, number: int, given: object) -> tuple[float, float]:
-    """Raises InvalidInput if a search gave something else than a place."""
+    """Raises InvalidInput if a search did not return a place."""
     try:
         x, y = (float(each) for each in np.asarray(given, dtype=object))
     except (TypeError, ValueError):
@@ -83,6 +87,6 @@ def _checked_place(name: str, number: int, given: object) -> tuple[float, float]
 
 
 def _named(wrapped: Code, code: Any) -> Code:
-    """Code that goes by the name of other code."""
+    """Code under the name of other code."""
     wrapped.__module__, _, wrapped.__qualname__ = name_of(code).partition(".")
     return wrapped

@@ -1,4 +1,4 @@
-"""Plans: a script's motions and actions as a value that shows itself."""
+"""Plans: a script's motions and actions as a value with a readable display."""
 
 import os
 from collections.abc import Sequence
@@ -29,7 +29,7 @@ from handeye.runs.scripts import plan_script, plan_text, program_named
 
 @dataclass(frozen=True, kw_only=True)
 class FlowDrawing:
-    """The steps of a plan, and the ways from one to the next, by themselves or on an error. Notebooks show it."""
+    """The steps of a plan, and the edges from one to the next, in sequence or on an error. Notebooks draw it."""
 
     svg: str  # the drawing, as `handeye inspect --graph svg` writes it
     about: str  # what it shows, in words
@@ -49,7 +49,7 @@ def flow_drawing(plan: planfile.Plan, stage: int | None = None) -> FlowDrawing:
 
 
 def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic], flow: FlowDrawing | None) -> str:
-    """The stages of a plan with the time that each takes, what is doubtful about its script, and its flow."""
+    """The stages of a plan with their times, the warnings about its script, and its flow."""
     longest = max((stage.seconds for stage in found.stages), default=0.0) or 1.0
     steps = sum(len(stage.steps) for stage in found.stages)
     said = (
@@ -66,17 +66,17 @@ def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic], flow: FlowDr
 
 
 DRAWN: Final = 30
-"""Steps of a plan up to which a notebook shows its flow with it; of a longer one it shows `flow(stage)`."""
+"""Number of steps up to which a notebook shows the flow of a plan; for a longer plan use `flow(stage)`."""
 FileName = str | os.PathLike[str]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """A script compiled, and the motions that one arm makes of it.
+    """A compiled script, with its motions for one arm.
 
-    Two plans are equal if they do the same, but for last places of computed numbers.
+    Two plans are equal if they do the same, except for rounding of computed numbers.
 
-    In a notebook it shows its stages, how long they take, what is doubtful about the script, and if short its flow.
+    A notebook shows its stages, their times, the warnings about the script, and its flow if it is short.
 
     >>> plan = handeye.plan('STAGE "a hand"\\nOPEN 1\\nOPEN 2\\n')
     >>> plan
@@ -87,11 +87,11 @@ class Plan:
 
     record: planfile.Plan  # all of it, as it is on disk, in SI units
     diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
-    """Warnings about the script it was made from; none if it was read from a file of plans."""
+    """Warnings about its script; none if the plan was read from a file."""
 
     @property
     def name(self) -> str:
-        """Name of its program: that of the script's file."""
+        """Name of its program: the name of the script's file."""
         return self.record.program.name
 
     @property
@@ -106,35 +106,35 @@ class Plan:
 
     @property
     def seconds(self) -> float:
-        """Seconds of planned motion, each step counted once. Fingers and pictures count nothing."""
+        """Seconds of planned motion, each step counted once, without fingers and pictures."""
         return self._laid_open.seconds
 
     @property
     def digest(self) -> str:
         """Sixteen hexadecimal digits that identify the plan in runs and traces, the same on every processor.
 
-        They are taken over script, what is taught, arm, task and planner, and not over the computed motions.
+        They depend on script, taught positions, arm, task and planner, not on the computed motions.
         """
         return plan_digest(self.record)
 
     def save(self, path: FileName) -> Path:
-        """Write it as a file of JSON, which `handeye run` and `handeye.plan` read.
+        """Write it as a JSON file, which `handeye run` and `handeye.plan` read.
 
         Returns:
             the file.
 
         Raises:
-            InvalidInput: it cannot be written there, or a file that is no plan is there.
+            InvalidInput: it cannot be written there, or the file exists and is not a plan.
         """
         file = given_file(path, "the destination of a plan must be a file")
         write_plan(file, self.record)
         return file
 
     def flow(self, stage: str | int | None = None) -> FlowDrawing:
-        """Draw its steps, and the ways from one to the next: by themselves, and (red) on an error.
+        """Draw its steps, and the edges from one to the next: in sequence, and (red) on an error.
 
         Args:
-            stage: one stage alone: its number from 1, its name, or a piece of it that no other name has.
+            stage: only this stage: its number from 1, its name, or a unique part of its name.
 
         Raises:
             InvalidInput: there is no such stage.
@@ -172,16 +172,16 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
     """Compile and plan a script; nothing moves.
 
     Args:
-        script: a file (`.al`), with what is taught for it beside it (`.toml`); or the name of a program that a task
-            comes with, where there is no such file; or a text, which is a `str` with a line end in it; or a plan that
-            was saved, whose name ends in .json.
+        script: a file (`.al`), with its taught file (`.toml`) next to it; or the name of a program of a task, if there
+            is no such file; or a text, which is a `str` with a line end in it; or a saved plan, whose name ends in
+            .json.
         taught: positions (in, deg) of the script: a TOML file, or the text of one. A text has none by default.
-        task: name of the task whose arm is planned for; by default that of the plan or the program, else the water
+        task: name of the task, which decides the arm; by default that of the plan or the program, else the water
             pump.
 
     Raises:
         ScriptError: the script has errors; they are its `diagnostics`.
-        InvalidInput: a file cannot be read, or what is in it cannot be used.
+        InvalidInput: a file cannot be read, or its contents cannot be used.
 
     >>> handeye.plan("MOVE P\\nOPEN 2\\n", taught="[positions]\\nP = { at = [25, 38, 6, 90, 90, 0] }\\n").seconds > 1
     True
@@ -209,7 +209,7 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
 
 
 def _for_task(made: Plan, task: str | None) -> Plan:
-    """The plan itself; raises InvalidInput if it is for another task than was named."""
+    """The plan itself; raises InvalidInput if it is for another task than the given one."""
     if task not in (None, made.record.task):
         raise BadArgument(f"the plan is for the task {quoted(made.record.task)}, not for {quoted(str(task))}")
     return made

@@ -1,4 +1,4 @@
-"""Files that come with handeye."""
+"""Files included with handeye."""
 
 from pathlib import Path
 from typing import Final
@@ -7,6 +7,6 @@ from handeye.core.resources import demo as demo_folder
 from handeye.core.resources import plans
 
 scripts: Final[Path] = plans()
-"""Folder of the scripts that come with handeye, with what is taught for them: `handeye.scripts / "water_pump.al"`."""
+"""Folder of the included scripts and their taught files: `handeye.scripts / "water_pump.al"`."""
 demo: Final[Path] = demo_folder()
-"""Folder of a run that comes with handeye, thinned to a few servo periods a second: `handeye.open(handeye.demo)`."""
+"""Folder of an included recorded run, thinned to a few servo periods a second: `handeye.open(handeye.demo)`."""

@@ -1,4 +1,4 @@
-"""A run controlled from Python: it goes on, goes back, and shows its state."""
+"""A run controlled from Python: step, go back, and read its state."""
 
 import os
 from collections.abc import Callable
@@ -59,18 +59,18 @@ class RunEnding:
 
 
 class Run:
-    """A run of a plan in a world, which pauses where it is asked to; `handeye.begin` begins one.
+    """A run of a plan in a world, which pauses where you ask; `handeye.begin` begins one.
 
-    What moves it returns the `State` in which it pauses, which says why. As a context manager it closes itself.
+    Methods that move it return the `State` in which it pauses, which says why. As a context manager it closes itself.
 
-    `CLOSE .5` asks for something at least half an inch thick: on an empty hand it calls the operator.
+    `CLOSE .5` needs a part at least half an inch thick: on an empty hand it calls the operator.
 
     >>> with handeye.begin("OPEN 1\\nL1: CLOSE .5\\nOPEN 2\\n", camera="ray") as run:
     ...     state = run.until("L1")
     ...     print(state.line, state.why)
     ...     print(run.until().why)
     2 breakpoint at label L1
-    the operator is called: ...
+    the program called the operator: ...
     """
 
     def __init__(self, stepper: Stepper, keeping: RunEnding, why: str) -> None:
@@ -85,22 +85,22 @@ class Run:
     # -- going on -------------------------------------------------------------------------------------
 
     def step(self, n: int = 1) -> State:
-        """Do the next `n` steps, fewer if something stops the run before.
+        """Do the next `n` steps, or fewer if something stops the run.
 
         Raises:
-            InvalidInput: the run cannot go on, or `n` is no whole number from 1 up.
+            InvalidInput: the run cannot continue, or `n` is not a whole number of 1 or more.
         """
         return self._go(steps=given_count(n, "steps"))
 
     def until(self, place: Place | None = None) -> State:
-        """Go on to a place, or to the end; a breakpoint or a call of the operator stops the run before, too.
+        """Run to a place, or to the end; a breakpoint or a call of the operator also stops the run.
 
         Args:
-            place: a stage, by its name or a part that no other has; a label; an instruction (`"AOJ"`: the next step
+            place: a stage, by its name or a unique part of it; a label; an instruction (`"AOJ"`: the next step
                 that begins with it); a line (58, `"pins.al:3"`); or `"error:23"`: after the step that raises it.
 
         Raises:
-            InvalidInput: the run cannot go on, there is no such place, or the run never reaches it from here.
+            InvalidInput: the run cannot continue, there is no such place, or the run cannot reach it from here.
         """
         stops: list[AnyStop] = []
         if place is not None:
@@ -110,13 +110,13 @@ class Run:
         return self._go(stops)
 
     def back(self, steps: Place = 1) -> State:
-        """Be again where some steps were not done: arm, parts, program and clock; what was undone leaves the events.
+        """Go back to before some steps: arm, parts, program and clock; the events of these steps are dropped.
 
         Args:
-            steps: how many to undo; or a stage, by its name or a part of it: back to where it last began.
+            steps: the number of steps; or a stage, by its name or a part of it: back to where it last began.
 
         Raises:
-            InvalidInput: the run has not come so far, or nothing is left of the state it was in then.
+            InvalidInput: the run has not reached it, or its state then is no longer kept.
         """
         self._check_open()
         if isinstance(steps, str):
@@ -133,21 +133,21 @@ class Run:
         return self._stand("went back")
 
     def undo(self, steps: Place = 1) -> State:
-        """Have the arm undo what it did, the last step first, under guards; the program can go on from there.
+        """Have the arm undo its work, the last step first, under guards; the program can continue from there.
 
-        `back` puts the simulator back; here the arm does it, so that it could be done on a real one. What was undone
-        stays in the events. Where something resists, or the hand holds something else than then, the operator is
-        called.
+        `back` resets the simulator; here the arm moves, as it would on a real machine. The undone steps stay in the
+        events. If something resists, or the hand holds something else than it did then, the program calls the operator.
 
         Args:
-            steps: how many executed steps to undo; or a stage, by its name or a part of it: to where it last began.
+            steps: the number of executed steps to undo; or a stage, by its name or a part of it: to where it last
+                began.
 
         Raises:
-            InvalidInput: fewer steps were executed, or the run cannot go on.
+            InvalidInput: fewer steps were executed, or the run cannot continue.
 
         >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
         >>> run.until().why
-        'the program came to its end'
+        'the program finished'
         >>> run.undo().line
         2
         """
@@ -164,10 +164,10 @@ class Run:
         return self._stand(reason(self._session.have_undone(left)))
 
     def dismantle(self) -> State:
-        """Have the arm undo all that it did; the run ends there, and `result.apart` is the word of the referee.
+        """Have the arm undo all its work; the run then ends, and `result.apart` has the referee's verdict.
 
         Raises:
-            InvalidInput: nothing was done that it could undo.
+            InvalidInput: there is nothing to undo.
         """
         self._check_open()
         pause = self._session.have_undone(0, halts=True)
@@ -178,7 +178,7 @@ class Run:
         """Pause at a place whenever the run reaches it; places are those of `until`.
 
         Returns:
-            the breakpoint and its `number`, by which `run.say("delete 1")` takes it away.
+            the breakpoint and its `number`, with which `run.say("delete 1")` removes it.
 
         Raises:
             InvalidInput: there is no such place, or the run is closed.
@@ -187,14 +187,15 @@ class Run:
         return self._session.add_break(given_place(place))
 
     def say(self, line: str) -> Answer:
-        """Say a command of the stepper (`handeye run --step`), as `"show force"`, `"set saved H 0 0 .1"`, `"retry"`.
+        """Give a command of the stepper (`handeye run --step`), such as `"show force"`, `"set saved H 0 0 .1"`,
+        `"retry"`.
 
         Returns:
-            the answer as a record; `print` shows it as the stepper does. A command that is wrong changes nothing, and
-            its answer says so in `error`.
+            the answer as a record; `print` shows it as the stepper does. A wrong command changes nothing, and its
+            answer has the reason in `error`.
 
         Raises:
-            InvalidInput: the line is no text, or the run is closed.
+            InvalidInput: the line is not a text, or the run is closed.
 
         >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
         >>> print(run.say("show gap"))
@@ -216,7 +217,7 @@ class Run:
         return self._stand(reason(self._session.go(stops or [], steps)))
 
     def reach(self, stage: int) -> State:
-        """Go on until a stage, given by its index, is about to begin; a run that is there already stays.
+        """Run until a stage, given by its index, is about to begin; a run already there stays.
 
         Raises:
             InvalidInput: the run never reaches it, or stopped before it; the run is then closed.
@@ -237,7 +238,7 @@ class Run:
         return state
 
     def attend(self, operator: Operator) -> State:
-        """Go on to the end, with a person or a rule to answer calls of the operator."""
+        """Run to the end, with a person or a rule to answer calls of the operator."""
         self._check_open()
         try:
             pause = attend(self._runner, operator, [], self._session.kept)
@@ -254,7 +255,7 @@ class Run:
 
     @property
     def plan(self) -> Plan:
-        """The plan that is carried out."""
+        """The plan of the run."""
         return Plan(record=plan_of(self._runner.setup))
 
     @property
@@ -267,7 +268,7 @@ class Run:
 
     @property
     def events(self) -> tuple[AnyEvent, ...]:
-        """Everything that has happened and was not undone, as records of `handeye.program.events`."""
+        """All events that were not undone, as records of `handeye.program.events`."""
         return Several(self._runner.events)
 
     @property
@@ -278,7 +279,7 @@ class Run:
 
     @property
     def ended(self) -> bool:
-        """No step can be done unless the operator answers, or the run goes back."""
+        """True if no step is possible unless the operator answers, or the run goes back."""
         return self._runner.ended
 
     @property
@@ -322,10 +323,10 @@ class Run:
     # -- keeping --------------------------------------------------------------------------------------
 
     def checkpoint(self, path: str | os.PathLike[str] | None = None) -> Path:
-        """Keep the present state: `handeye.begin` and `handeye resume` go on from it.
+        """Save the present state: `handeye.begin` and `handeye resume` continue from it.
 
         Args:
-            path: the file to write; by default one in the folder of the run, under a name of its own.
+            path: the file to write; by default a new one in the folder of the run.
 
         Returns:
             the file.
@@ -348,18 +349,18 @@ class Run:
     def export(
         self, path: str | os.PathLike[str], *, part: str | None = None, overwrite: bool = False
     ) -> "Export":
-        """Hand the cell as it now is to other programs, whether the run is closed or not.
+        """Export the present cell to other programs, whether the run is closed or not.
 
         Args:
-            path: a folder, for a scene that plain MuJoCo opens; or a file that ends in .glb, for solids.
-            part: what of the solids: `cell`, as by default, or `pump`.
-            overwrite: an export that is in the folder may be replaced.
+            path: a folder, for a scene that plain MuJoCo can load; or a file that ends in .glb, for solids.
+            part: which solids: `cell`, the default, or `pump`.
+            overwrite: replace an existing export.
 
         Returns:
-            what was written, and what was found out about it; a run that is not finished is marked so.
+            a record of the written files, with remarks; an unfinished run is marked as such.
 
         Raises:
-            InvalidInput: it cannot be written there, there is no such part, or the run is on no cell.
+            InvalidInput: it cannot be written there, there is no such part, or the run has no cell.
 
         >>> run = handeye.begin("OPEN 1\\n", camera="ray")
         >>> run.export(folder).moment
@@ -421,13 +422,13 @@ class Run:
 
 
 def _too_many(steps: int, done: int, how: str) -> Refused:
-    """The refusal to undo more steps than were done, or executed."""
+    """The error for undoing more steps than were done or executed."""
     left = f"only {done} {'has' if done == 1 else 'have'}" if done else "none has"
     return Refused(f"{counted(steps, 'step')} cannot be undone: {left} been {how}")
 
 
 def reason(pause: Pause) -> str:
-    """Why a run pauses, in words that stand behind those of where."""
+    """Why a run pauses, as the second half of a sentence."""
     if isinstance(pause.met, AfterSteps):
         return f"paused after {counted(pause.met.count, 'step')}"
     said = pause_sentence(pause)

@@ -18,7 +18,7 @@ _INKS: Final = {
 
 
 def run_page(result: Result, state: State, name: str | None, webp: bytes | None) -> str:
-    """A run: where it stands or what came of it, its stages, times, the referee's findings, and its last picture."""
+    """A run: its state or outcome, its stages, times, the referee's findings, and its last picture."""
     pieces = [heading(f"{result.program}, {result.world}"), line(_standing(result, state)), _stages(result)]
     if not result.paused:
         then = period(result)
@@ -48,7 +48,7 @@ def run_page(result: Result, state: State, name: str | None, webp: bytes | None)
 
 
 def _standing(result: Result, state: State) -> Markup:
-    """The verdict on a run that is over; where any other stands."""
+    """The verdict on a finished run; the state of any other."""
     if result.paused:
         return inked(str(state), "plain")
     good = result.completed and result.assembled is not False

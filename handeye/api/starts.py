@@ -102,7 +102,7 @@ def start_of(
 
 
 def _is_kept(given: FileName) -> bool:
-    """A name is that of a checkpoint, or of the folder of a run."""
+    """True if a name is that of a checkpoint, or of the folder of a run."""
     name = os.fspath(given)
     return bool(name) and "\n" not in name and (name.endswith(ENDING) or os.path.isdir(name))
 
@@ -120,7 +120,7 @@ def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
 
 
 def _again(given: FileName, wanted: RunRequest) -> Start:
-    """The folder of a run and its newest state, to go on in the same folder; raises InvalidInput."""
+    """The folder of a run and its newest state, to continue in the same folder; raises InvalidInput."""
     path = given_file(given, "resume a run from a folder")
     folder, start, _ = open_again(path)
     if has_ended(path, start, judged=start.setup.judged):
@@ -134,7 +134,7 @@ def _again(given: FileName, wanted: RunRequest) -> Start:
 
 
 def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
-    """Raises InvalidInput unless a run carries out a plan, in the world and with the camera that are wanted."""
+    """Raises InvalidInput unless a run has the requested plan, world and camera."""
     require(begun.system, "python", str(path))
     if wanted.of_task not in (None, begun.task):
         told = f"{quoted(begun.task)}, not of {quoted(str(wanted.of_task))}"

@@ -1,4 +1,4 @@
-"""The state of a run that pauses, as a caller from Python sees it: SI units, read-only arrays."""
+"""The state of a paused run, for Python programs: SI units, read-only arrays."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
@@ -15,7 +15,7 @@ from handeye.runs.runner import Runner
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Memory:
-    """The program's memory; differences and places are of the frame W."""
+    """The program's memory; differences and places are in the frame W."""
 
     error: int | None  # the error that was raised and that the next step may test
     saved: Mapping[str, Array]  # differences that `SAVE` saved, shape (3,), m
@@ -47,7 +47,7 @@ class State:
     text: str | None  # its statement, without the `STOP` or what else modifies it
     why: str  # why the run pauses, in words
     joints: Array
-    """Joint positions, shape (n,), rad, and m for joints that slide (joint 3 of the Stanford arm)."""
+    """Joint positions, shape (n,), rad, and m for prismatic joints (joint 3 of the Stanford arm)."""
     gap: float  # between the fingers, m
     hand: Pose
     """X_WT, shape (4, 4), m: midway between the finger tips, z along the approach, y along the finger line."""
@@ -68,7 +68,7 @@ class State:
 
 
 def state_of(runner: Runner, stage: str | None, why: str) -> State:
-    """The state of a run that pauses; raises InvalidInput if its system follows no plan of motions."""
+    """The state of a paused run; raises InvalidInput if its system has no plan of motions."""
     run, step = runner.context, runner.next
     drive = run.drive
     return State(
@@ -104,7 +104,7 @@ def _values(record: State | Memory) -> dict[str, object]:
 
 
 def _same(one: object, other: object) -> bool:
-    """Two values are equal, arrays in them number by number."""
+    """True if two values are equal, arrays number by number."""
     if isinstance(one, Mapping) and isinstance(other, Mapping):
         return one.keys() == other.keys() and all(_same(one[name], other[name]) for name in one)
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
@@ -123,7 +123,7 @@ class Answer(Reply, frozen=True, kw_only=True):
     """A reply of the stepper; `print` shows it as the stepper does."""
 
     def __str__(self) -> str:
-        """The answer for people, as lines of text."""
+        """The answer as lines of text."""
         return as_text(self)
 
 

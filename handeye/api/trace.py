@@ -1,9 +1,9 @@
-"""Traces as a caller from Python has them: opened, filmed, and shown in a notebook.
+"""Traces for Python programs: opened, filmed, and shown in a notebook.
 
 >>> trace = handeye.open("out")
 >>> trace.joints[trace.times > 100.0]    # positions by the sensors, later than 100 s; shape (n, 6)
->>> trace.forces(line=91).force[:, 2]    # N, upwards, while line 91 of the script was carried out
->>> trace.at(137.0).step.text    # what the arm was doing then
+>>> trace.forces(line=91).force[:, 2]    # N, upwards, during line 91 of the script
+>>> trace.at(137.0).step.text    # what the arm was doing at that time
 """
 
 import os
@@ -30,12 +30,12 @@ _WITHOUT: Final = "A notebook shows the report without photographs; trace.frame(
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trace(recorded.Trace):
-    """A trace that was read, and found sound. What is worked out from its messages is worked out once.
+    """A trace that was read and is valid. What is computed from its messages is computed once.
 
-    Times are seconds since the program began, as everywhere: in events, tables, pages and commands. What came before,
-    when the camera was calibrated, is not recorded; `head.prepared` says how long it took. There are n servo
-    periods, sixty a second, and m joints. Reading raises `InvalidInput` if a message is not what its channel
-    says. In a notebook it shows its report, in which one walks round the arm; `frame` gives a picture.
+    Times are seconds since the program began, as everywhere: in events, tables, pages and commands. The calibration of
+    the camera before that is not recorded; `head.prepared` is its duration. There are n servo periods, sixty a second,
+    and m joints. Reading raises `InvalidInput` if a message does not fit its channel. A notebook shows its report with
+    a 3D replay; `frame` returns a picture.
     """
 
     def video(
@@ -54,20 +54,20 @@ class Trace(recorded.Trace):
     ) -> "Video":
         """Make a video of the run: an animated WebP or a WebM, by the ending of its name.
 
-        The long waits for the camera's mechanism are cut out. Nothing is simulated. It takes OpenGL.
+        Long waits for the camera's mechanism are cut. Nothing is simulated. It needs OpenGL.
 
         Args:
-            camera: `orbit` sways round the cell, `follow` goes near to where the hand works; or one of the scene's.
-            seconds: its length, 14 by default; short stages are slowed down so that each can be seen.
-            speed: how many times as fast as the run all of it is, in the place of a length.
-            first: the stage to begin with: its number, its name, or a piece of its name.
-            last: the stage to end with.
-            captions: tell stage and clock, and stand still for each picture that the program takes.
-            overwrite: a video that is there may be replaced.
+            camera: `orbit` moves around the cell, `follow` moves close to the hand; or a camera of the scene.
+            seconds: its length, 14 by default; short stages play slower so that each can be seen.
+            speed: instead of a length: how many times faster than the run.
+            first: the first stage: its number, its name, or part of its name.
+            last: the last stage.
+            captions: show stage and clock, and pause at each picture that the program takes.
+            overwrite: replace an existing video.
 
         Raises:
-            InvalidInput: as `frame`; there is no such stage, or nothing was recorded there; there is no such length or
-                speed; or it cannot be written there.
+            InvalidInput: as `frame`; there is no such stage, or nothing was recorded there; the length or speed is not
+                possible; or it cannot be written there.
         """
         from handeye.core.arguments import given_file
         from handeye.video.making import make_video
@@ -97,7 +97,7 @@ def open(path: str | os.PathLike[str]) -> Trace:
     """Read the trace of a run that has ended: a `trace.mcap`, or the folder of the run.
 
     Raises:
-        InvalidInput: it cannot be read, or is not a sound trace.
+        InvalidInput: it cannot be read, or is not a valid trace.
 
     >>> run = handeye.assemble(script="OPEN 1\\n", camera="ray", out=folder)
     >>> handeye.open(folder).head.program
@@ -121,7 +121,7 @@ def _report(trace: Trace) -> bytes:
 def compare(
     a: str | os.PathLike[str] | recorded.Trace, b: str | os.PathLike[str] | recorded.Trace
 ) -> Comparison:
-    """Compare two recorded runs, step by step; printed, it is what `handeye compare` says.
+    """Compare two recorded runs, step by step; `print` shows what `handeye compare` prints.
 
     Args:
         a: the folder of a run that has ended, a `trace.mcap`, or an open trace.

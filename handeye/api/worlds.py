@@ -1,4 +1,4 @@
-"""Worlds as a caller from Python chooses them."""
+"""Worlds for Python programs."""
 
 import os
 from collections.abc import Iterable, Mapping
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 
 class World:
-    """A world: where things lie and every error, drawn from a seed. Equal worlds are the same to the last digit.
+    """A world: the places of all parts, and every error, generated from a seed. Equal worlds are the same to the last
+    digit.
 
     Its quantities, their names and their units are those that `handeye world` lists: `values`, `quantities`.
 
@@ -50,20 +51,20 @@ class World:
         """Choose a world.
 
         Args:
-            seed: draws it, a whole number from 0 to 2^53 - 1.
-            level: how large its errors are: `low` half as large as `nominal`, `high` twice as large.
-            without: quantities and groups (`arm`, `arm.offset`, `arm.offset.3`) that have their nominal values.
-            set: values of quantities, or of each of a group: a number in the unit of the quantity, or a text with a
-                unit, as `".3 in"`. The quantities of a group may differ in their units: a number for `arm.friction` is
-                N m at joints that turn, and N at the one that slides.
-            scale: factors on errors, over that of the level, by the names of quantities or groups, or `unsourced`: all
-                whose sizes have no source.
-            faults: what is broken, as `handeye faults --list` shows it: `NAME`, `NAME=VALUE`, or either with `@N`
-                behind it, where it sets in with stage N of the program.
-            task: name of the task whose cell it is.
+            seed: seed of the world, a whole number from 0 to 2^53 - 1.
+            level: size of its errors: `low` is half of `nominal`, `high` twice.
+            without: quantities and groups (`arm`, `arm.offset`, `arm.offset.3`) to leave at their nominal values.
+            set: values of quantities, or of all quantities of a group: a number in the unit of the quantity, or a text
+                with a unit, such as `".3 in"`. The quantities of a group may differ in their units: a number for
+                `arm.friction` is N m for revolute joints, and N for the prismatic one.
+            scale: factors on errors, in addition to the level, by the names of quantities or groups, or `unsourced`
+                for all whose sizes have no source.
+            faults: faults, as `handeye faults --list` shows them: `NAME` or `NAME=VALUE`, with `@N` after it to begin
+                at stage N of the program.
+            task: name of its task.
 
         Raises:
-            InvalidInput: there is no such seed, level, quantity, fault, unit or value; the message names the nearest.
+            InvalidInput: there is no such seed, level, quantity, fault, unit or value; the message suggests the nearest.
         """
         number = checked_seed(seed)
         if not isinstance(level, str) or level not in SPREADS:
@@ -118,7 +119,7 @@ class World:
         """The value of a quantity, in its unit.
 
         Raises:
-            InvalidInput: there is no such quantity; the message names the nearest.
+            InvalidInput: there is no such quantity; the message suggests the nearest.
         """
         return self.values[self._quantity(name)]
 
@@ -126,14 +127,14 @@ class World:
         """The unit of a quantity; empty for a plain number.
 
         Raises:
-            InvalidInput: there is no such quantity; the message names the nearest.
+            InvalidInput: there is no such quantity; the message suggests the nearest.
         """
         return self._table.quantities[self._quantity(name)].unit
 
     def export(
         self, path: str | os.PathLike[str], *, part: str | None = None, overwrite: bool = False
     ) -> "Export":
-        """Hand the cell of this world, before anything has happened in it, to other programs.
+        """Export the cell of this world, at its start, to other programs.
 
         Args:
             path: a folder, for a scene that plain MuJoCo opens; or a file that ends in .glb, for solids.
@@ -141,7 +142,7 @@ class World:
             overwrite: an export that is in the folder may be replaced.
 
         Returns:
-            what was written, and what was found out about it.
+            a record of the written files, with remarks.
 
         Raises:
             InvalidInput: it cannot be written there, or there is no such part.

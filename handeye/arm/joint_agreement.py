@@ -84,9 +84,9 @@ class JointAgreement:
     def step(self, q: Array, qd: Array) -> Disagreement | None:
         """Compare the readings of the next servo period: the joint that disagrees most, if any.
 
-        The mean of two rates is the rate between them for as long as it grows evenly. Where it does not, as where a
-        casting breaks loose and strikes the joint, nothing is known of how it went between them. What is not known in
-        one period has nothing to do with what is not in the next: squares add up.
+        The mean of two rates is the rate between them for as long as it grows evenly. Where it does not, such as when
+        a casting breaks loose and strikes the joint, the motion between them is unknown. What is not known in one
+        period has nothing to do with what is not in the next: squares add up.
         """
         period, step = self.arm.servo.period, rate_step(self.arm)
         gone, gain = (self.rate + qd) / 2 * period, qd - self.rate
@@ -113,7 +113,7 @@ def _unsteady(change: Array, step: Array) -> Array:
 
 
 def jumped(arm: ArmModel, by_pot: Array, before: Array, after: Array) -> Disagreement | None:
-    """The joint, if any, that has gone otherwise by its potentiometer than by its rates before and after a period.
+    """The joint, if any, whose potentiometer disagrees with its rates before and after a period.
 
     A reading that jumps shows so at once, whatever the arm does. All arrays have shape (n,).
     """

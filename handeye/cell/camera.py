@@ -150,7 +150,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         )
 
     def shown(self, points_W: Array) -> Array:
-        """True picture points, shape (n, 2), of points, shape (n, 3), m, but for the drift. For referee and tests."""
+        """True picture points, shape (n, 2), of points, shape (n, 3), m, without the drift. For referee and tests."""
         return self._raster.shown(self.true_view().project(points_W))
 
 

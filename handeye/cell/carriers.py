@@ -1,7 +1,7 @@
 """Carriers of tapped holes: bodies in the tapped one, the base, that stand for the screws in them.
 
-A carrier slides along its axis and turns about it, bound by the pitch. That axis is the tapped hole's, but for a
-screw that came in leaning: its carrier takes the screw's own axis, so that nothing jumps, and the thread draws it
+A carrier slides along its axis and turns about it, bound by the pitch. That axis is the tapped hole's, except for a
+screw that entered at an angle: its carrier takes the screw's own axis, so that nothing jumps, and the thread draws it
 straight as it is turned. A crossed one stays as it came. Head and shank of a carrier meet other parts only while a
 screw is in its hole, the shank the bores of gasket and top alone.
 """

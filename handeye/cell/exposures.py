@@ -64,7 +64,7 @@ class Lens:
     @classmethod
     def of(cls, scene: mujoco.MjvScene, size: tuple[int, int]) -> Self:
         """The lens of the camera that a scene was prepared for."""
-        left, right = scene.camera  # two, for two eyes; they stand beside the camera
+        left, right = scene.camera  # two, next to the camera
         high = (left.frustum_top - left.frustum_bottom) / 2 / left.frustum_near
         wide = left.frustum_width / left.frustum_near or high * size[0] / size[1]
         return cls(

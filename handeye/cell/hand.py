@@ -104,7 +104,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
     def _press(self, grip: float, start: float, rate: float) -> None:
         """Set force limit (N), stiffness in proportion, and set-point: `start` (m, as read), moving at `rate` (m/s).
 
-        The actuator goes by the true gap, which the servo does not know: its set-point is off as the reading is,
+        The actuator uses the true gap, which the servo does not know: its set-point is off as the reading is,
         and ahead by what the servo lags.
         """
         model, motor, stiffness = self._model, self._motor, grip / self._hand.grasp.give

@@ -11,8 +11,8 @@ MESH: Final = mujoco.mjtGeom.mjGEOM_MESH
 SPHERE: Final = mujoco.mjtGeom.mjGEOM_SPHERE
 
 SCENERY: Final = 1
-"""Group of the shapes that stand around for people, and that the television camera does not see."""
+"""Group of the decorative shapes, which the television camera does not see."""
 SEEN: Final = 2  # group of the shapes by which a body is seen
-PLAIN: Final = 5  # group of the shapes that the television camera sees, where people are shown finer ones
+PLAIN: Final = 5  # group of the shapes that the television camera sees, where photographs show finer ones
 LATENT: Final = 4
 """Group of shapes that an event will show: of screws, for one, that are not in their threads yet."""

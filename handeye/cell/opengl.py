@@ -27,7 +27,7 @@ PLATFORMS: Final = (
 )
 """Name, module, and alternatives for the libraries it needs."""
 SETTINGS: Final = ("EGL_", "GALLIUM_", "LIBGL_", "MESA_", "MUJOCO_EGL_", "PYOPENGL_", "__EGL_", "__GLX_")
-"""Beginnings of the environment variables by which people choose a device or a driver."""
+"""Prefixes of the environment variables with which a user chooses a device or a driver."""
 NEAR, FAR = 0.3, 10.0  # clipping planes, m
 MOST_GEOMS: Final = 10000
 
@@ -73,7 +73,7 @@ class OpenGlRenderer(SceneRenderer):
         self._aim(view)
         for light in self._scene.lights[
             : self._scene.nlight
-        ]:  # no gloss, and no light that is for people's viewers
+        ]:  # no gloss, and no light meant for interactive viewers
             light.specular[:] = 0
             if light.headlight:
                 light.diffuse[:] = 0

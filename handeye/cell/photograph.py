@@ -1,4 +1,4 @@
-"""Photographs of the cell for people, in colour, through the cameras of the scene. The program never sees them."""
+"""Colour photographs of the cell, through the cameras of the scene. The program never sees them."""
 
 from dataclasses import dataclass
 from typing import Final

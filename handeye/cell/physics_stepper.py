@@ -5,7 +5,7 @@ ones it has the same speeds, and is early by 1.6 ms, half of what a long step is
 of a joint are constraints, too: a joint that friction holds creeps at up to 9e-6 rad/s instead of 4e-6.
 
 MuJoCo puts a tree of bodies to sleep once it, and all that it touches, has hardly moved for ten steps, and wakes it
-when something awake touches it. It does not notice a new command to a motor: whoever drives one wakes its tree.
+when something awake touches it. It does not notice a new command to a motor: code that drives one must wake its tree.
 """
 
 from typing import Final

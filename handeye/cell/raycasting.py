@@ -28,7 +28,7 @@ class RayRenderer(SceneRenderer):
 
     def render(self, data: mujoco.MjData, view: View) -> Luminance:
         model = self._model
-        albedo, glow = _reflectance(model)  # anew: the lamp may have been switched on
+        albedo, glow = _reflectance(model)  # again: the lamp may have been switched on
         eye = view.X_WC[:3, 3]
         rays = view.rays(self._samples)
         rays /= np.linalg.norm(rays, axis=1, keepdims=True)
@@ -91,7 +91,7 @@ def cast(
 
 
 def ambient(model: mujoco.MjModel) -> float:
-    """Light everywhere. The rest of the head light is for people's viewers, and not in the picture."""
+    """Light everywhere. The rest of the head light is meant for interactive viewers and is not in the picture."""
     head = model.vis.headlight
     return float(LUMA @ head.ambient) if head.active else 0.0
 

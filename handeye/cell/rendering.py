@@ -23,7 +23,9 @@ from handeye.vision.camera_model import View
 FINE: Final = 2  # samples for a picture point, along the line and across it
 LUMA: Final = np.array([0.299, 0.587, 0.114])  # weights of red, green and blue in luminance, ITU-R BT.601
 SHOWN: Final = np.array([1, 0, 1, 0, 0, 1], dtype=np.uint8)
-"""Geom groups the camera sees: the ground and the parts, and 5, which people leave out; not 1, scenery for people."""
+"""Geom groups the camera sees: the ground and the parts, and 5, which photographs leave out; not 1, decorative
+scenery.
+"""
 
 
 class SceneRenderer(ABC):

@@ -322,7 +322,7 @@ class Threads(Mechanism[ThreadsState]):
         return min(RUNNING_TORQUE + self._figures.friction * THREAD_RADIUS * thread.clamp, CROSSED_TORQUE)
 
     def write(self, holes: tuple[Thread, ...], model: mujoco.MjModel) -> None:
-        """Write into a model of this scene, as it was drawn, what the threads in these states make of it."""
+        """Write the effect of the threads in these states into a model of this scene at its start."""
         for hole, thread in enumerate(holes):
             self._carriers.meet(hole, model, there=thread.screw is not None)
             if thread.screw is not None:

@@ -46,7 +46,7 @@ def main() -> NoReturn:
     try:
         code = _carried_out()
         if not sys.stdout.closed:  # as the language server does when its client says goodbye
-            sys.stdout.flush()  # here, where a full disk can still be told
+            sys.stdout.flush()  # here, where a full disk can still be reported
     except BrokenPipeError:  # the reader of our output has gone, which is not our trouble
         code = GONE
     except OSError as error:

@@ -26,7 +26,7 @@ State = Annotated[
     Path | None,
     Parameter(
         name="RUN",
-        help="The folder of a run, or a checkpoint; by default a world as it is drawn from --seed.",
+        help="The folder of a run, or a checkpoint; by default the world of --seed at its start.",
     ),
 ]
 

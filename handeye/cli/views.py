@@ -109,7 +109,7 @@ def _teach(file: Path, port: int, world: WorldOptions, fault: Faults, camera: Ca
     from handeye.view.teaching import teach as teach_there
 
     link = Link()
-    watch = Watch(link, Pace(factor=1.0))  # whoever jogs the arm wants to see it go
+    watch = Watch(link, Pace(factor=1.0))  # a user who jogs the arm wants to see it move
     with PanicButton() as panic, Server(link, port) as server:
         cell = CellOptions(world=world, fault=fault, camera=camera)
         teacher = teacher_of(file, lambda: panic() or link.panic(), cell, watch)

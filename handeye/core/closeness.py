@@ -1,4 +1,4 @@
-"""Equality but for the last places of computed numbers, which another kind of processor rounds otherwise."""
+"""Equality except for the last digits of computed numbers, which depend on the kind of processor."""
 
 from collections.abc import Mapping
 from typing import Any, Final
@@ -7,7 +7,7 @@ LAST_PLACES: Final = 1e-9  # of numbers above 1, as a share; SI
 
 
 def alike(a: Any, b: Any, places: float = LAST_PLACES) -> bool:
-    """True if values made of dictionaries, lists, texts and numbers are equal but for last places of fractions.
+    """True if values made of dictionaries, lists, texts and numbers are equal except for the last digits of fractions.
 
     `places` is how much those may differ.
     """

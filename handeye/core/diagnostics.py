@@ -77,7 +77,7 @@ def problem(
     meant: Meant | None = None,
     own: Severity | None = None,
 ) -> Diagnostic:
-    """A diagnostic at a span; `text` stands beside the mark."""
+    """A diagnostic at a span; `text` is shown next to the mark."""
     primary = Label(span=span, text=text)
     return Diagnostic(
         code=code, message=message, primary=primary, secondary=secondary, notes=notes, help=help, meant=meant,

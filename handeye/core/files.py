@@ -168,7 +168,9 @@ class LineFile:
     """Appends whole lines to a file; one writer at a time."""
 
     def __init__(self, path: Path, writer: str, *, again: bool = True) -> None:
-        """Continue a file, less a last line cut short, or begin anew; raises CannotWrite if a `writer` has it open."""
+        """Continue a file, without a last line that was cut short, or start a new one; raises CannotWrite if a
+        `writer` has it open.
+        """
         self.path = path
         self.unlocked = ""
         """Why others are not kept from writing to it, if they are not."""

@@ -1,4 +1,4 @@
-"""Text for people: printable characters, counted nouns, numbers."""
+"""Text output: printable characters, counted nouns, numbers."""
 
 import math
 import re

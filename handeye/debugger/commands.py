@@ -1,6 +1,6 @@
 """Commands of the stepper, as they act on a session; each is given what follows its word.
 
-What each does stands beside it in the table of commands.
+The table of commands describes each.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""The two faces of an answer: lines of text for people, one line of JSON for programs."""
+"""The two faces of an answer: lines of text, or one line of JSON for programs."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, Final
@@ -39,7 +39,7 @@ def as_json(reply: Reply) -> str:
 
 
 def as_text(reply: Reply, most: int | None = None) -> str:
-    """The answer for people, without the end of its last line; of a long way the last `most` steps."""
+    """The answer as text, without the end of its last line; of a long way the last `most` steps."""
     if reply.error is not None:
         return reply.error
     lines = [*summary_lines(reply.did, most), _standing(reply)]

@@ -1,4 +1,4 @@
-"""The program as people see it: its stages and steps, the source around a line, and places that they name."""
+"""The program as the user sees it: its stages and steps, the source around a line, and places that they name."""
 
 import re
 from bisect import bisect_left

@@ -129,7 +129,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
     errors.JOINT_LIMIT: Remedy(
         "The planner reports it for a planned place. During a run it happens when a part lies farther away than "
         "planned: take another path.",
-        "MOVE T\nSKIPE 1 ;T has come to lie too far off\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
+        "MOVE T\nSKIPE 1 ;T is too far away\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.NOTHING_HELD: Remedy(
         "Give CLOSE or CENTER a minimum gap. If there is nothing, open the hand and try elsewhere, or ask the "
@@ -139,7 +139,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
     errors.NO_SOLUTION: Remedy(
         "The planner reports it for a planned place. During a run it happens when the camera sees a part too far "
         "away: leave that part alone.",
-        "MOVE T\nSKIPE 3 ;T has come to lie out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
+        "MOVE T\nSKIPE 3 ;T is out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.SERVO_LAG: Remedy(
         "Something is where nothing was expected. Expect it with a STOP, which ends the motion, or ask the operator.",
@@ -213,7 +213,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
     errors.GAP_WRONG: Remedy(
         "If the fingers have room, the gap's potentiometer is broken: do not test for the error. If they may meet "
         "something as they open, open them less. A held part that slips or is pushed also changes the gap.",
-        "OPEN 1.8\nSKIPN 51 ;the fingers came to where they should\nOPEN 1.5\nMOVE P",
+        "OPEN 1.8\nSKIPN 51 ;the fingers reached their gap\nOPEN 1.5\nMOVE P",
     ),
     errors.FORCE_WRONG: Remedy(
         "The first guarded motion after a MOVE already finds a force: declare with LOAD what the hand carries, and "

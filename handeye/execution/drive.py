@@ -30,7 +30,7 @@ class ArmDrive(ServoLoop):
         self.brake(_STANDS)
 
     def float(self, seconds: float) -> None:
-        """Let go of the arm and let time pass: gravity and load are borne, and whoever pushes the hand moves it."""
+        """Let go of the arm and let time pass: gravity and load are balanced, and a push moves the hand."""
         self._pass(self.floating(seconds))
 
     def follow(

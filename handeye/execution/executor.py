@@ -34,7 +34,7 @@ from handeye.program.events import (
 from handeye.program.operation import Device, Operation
 from handeye.program.program import Program, Step
 
-_CALLED: Final[dict[Device, str]] = {"camera": "television camera"}  # names of devices for people
+_CALLED: Final[dict[Device, str]] = {"camera": "television camera"}  # names of devices in messages
 
 
 def check_devices(program: Program, cell: Workcell) -> None:

@@ -47,7 +47,7 @@ class Deadlock(HandeyeError):
 
 
 class Agenda(MutableRecord, Generic[Time], kw_only=True):
-    """Who goes on next, and when: a record, so that a system whose tasks are data can keep it in its state.
+    """Which task continues next, and when: a record, so that a system whose tasks are data can keep it in its state.
 
     The task that is due first goes on; of those due at once, the first in `due`, but none twice before the others.
     """

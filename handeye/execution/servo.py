@@ -59,7 +59,7 @@ class Servo:
     state: DriveState  # its state: set-points, load and felt wrench
     watch: Callable[[ServoPeriod], None] = lambda _: None  # called after every servo period
     halt: Callable[[], bool] = lambda: False  # the panic button, asked at every servo period
-    track: Track = field(default_factory=Track)  # notes what is put out and felt, for whoever undoes it
+    track: Track = field(default_factory=Track)  # records commands and felt forces, for a later undo
 
     @property
     def period(self) -> float:

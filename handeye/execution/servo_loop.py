@@ -1,7 +1,7 @@
 """The servo loop: motions of an arm along set-points, a servo period at a time, while guards watch.
 
 A motion does not let time pass. It is an iterator that has put out everything for a period when it yields, and reads
-the cell when it is asked to go on; whoever asks lets the clock advance in between. So any number of arms move under
+the cell when it is asked to go on; the caller lets the clock advance in between. So any number of arms move under
 one clock.
 """
 
@@ -257,8 +257,8 @@ class ServoLoop(Servo):
     def height(self) -> float:
         """Height in W (m) at which the hand has stopped, by its set-point.
 
-        A converter's steps are read as up to .05 in at the hand. A set-point has none; and an arm on its way goes by
-        many readings, whose steps even out, so that two motions that end on the same force end as high on average.
+        A converter's steps are read as up to .05 in at the hand. A set-point has none; and a moving arm passes many
+        readings, whose steps average out, so that two motions that end on the same force end as high on average.
         """
         met = self.state.met
         return float(forward(self.arm, self.state.q)[2, 3] if met is None else met[2])

@@ -1,6 +1,6 @@
 """The state of a working phase: one record for executor, actions, servo loop and world model.
 
-Plan, arm and cell are no part of it: they are given anew on resuming. A snapshot is a copy of the record
+Plan, arm and cell are no part of it: they are given again on resuming. A snapshot is a copy of the record
 (`handeye.core.mutable_records`).
 """
 

@@ -27,7 +27,7 @@ class ToolAxes(Axes):
     """Axes x, y, z (m, in W), O, A, T (rad) and the gap of the hand (m); what the hand exerts on the world is felt.
 
     The arm is driven a servo period for each goal that is put, towards it with at most the speed of each axis, and no
-    path is planned: whoever names goals does so every period, or the watchdog sets the brakes. Force is felt well
+    path is planned: the caller must name goals every period, or the watchdog sets the brakes. Force is felt well
     where the drive knows its joints' friction (`measure_joints`), and counts from where `tare` was called last. It is
     felt a period late: a descent on the table that is to stop at 6 N does so at 6.1 to 7.5 N with .01 m/s, but at 17 N
     with .025 and at 34 N with .05.

@@ -261,7 +261,7 @@ def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
 
 
 def _alike(one: Record, other: Record) -> bool:
-    """True if two records are the same but for last places of numbers."""
+    """True if two records are the same except for the last digits of numbers."""
     return alike(msgspec.to_builtins(one), msgspec.to_builtins(other))
 
 

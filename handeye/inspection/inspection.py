@@ -120,7 +120,7 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     positive: int | None = None
     """The step that follows while the counter is positive."""
     next: int | None
-    """The step that follows otherwise; None ends the program."""
+    """The step that follows in the other case; None ends the program."""
 
 
 class InspectedStage(Record, frozen=True, kw_only=True):

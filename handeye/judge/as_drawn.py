@@ -1,4 +1,4 @@
-"""Which parts of a scene are not as it was drawn, and in what; looks and sleep do not count."""
+"""Which parts of a scene differ from their drawing, and in what; looks and sleep do not count."""
 
 from collections.abc import Iterator, Mapping
 from typing import Final
@@ -31,7 +31,7 @@ _PHYSICS: Final = (
 
 
 def altered(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> dict[str, list[str]]:
-    """Which of some bodies are otherwise than drawn, each with the kinds of its figures that differ.
+    """Which of some bodies differ from their drawing, each with the kinds of figures that differ.
 
     `parts`, shape (nbody,), has the bodies that count. Figures count wherever they differ at all: a scene is made the
     same to the byte whenever it is made.
@@ -92,7 +92,7 @@ def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
 
 
 def _bonded(drawn: mujoco.MjModel) -> NDArray[np.int32]:
-    """The body of the first of two things that each equality binds; of what has none, the world."""
+    """The body of the first of two things that each equality binds; the world if it has none."""
     of_joint = drawn.eq_type == mujoco.mjtEq.mjEQ_JOINT
     of_body = drawn.eq_objtype == mujoco.mjtObj.mjOBJ_BODY
     first = np.where(of_joint | of_body, drawn.eq_obj1id, 0)

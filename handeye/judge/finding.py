@@ -26,11 +26,11 @@ class Finding:
 
     @property
     def refuses(self) -> bool:
-        """The work is not right for it."""
+        """True if it makes the work wrong."""
         return not self.ok and not self.caution
 
     def limited(self, limit: float) -> "Finding":
-        """The same measurement against another limit, in the same unit; beyond that one it refuses."""
+        """The same measurement with another limit, in the same unit; beyond it, the work is wrong."""
         ok = self.value <= limit if self.relation == "at most" else self.value >= limit
         return replace(self, limit=limit, ok=ok, caution=False)
 
@@ -44,7 +44,7 @@ Findings = Mapping[str, Finding]  # by the names of the points
 
 
 def at_most(value: float, limit: float, unit: str, subject: str, *, caution: bool = False) -> Finding:
-    """A finding that is right up to `limit`; beyond it, a `caution` warns and refuses nothing.
+    """A finding that is right up to `limit`; beyond it, a `caution` only warns.
 
     >>> handeye.at_most(0.1, 0.2, "mm", "gap under the head").ok
     True
@@ -62,7 +62,7 @@ def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
 
 
 def worse(one: Findings, other: Findings) -> Findings:
-    """The worse finding on each point of two looks."""
+    """The worse finding on each point of two inspections."""
     return {
         name: max(found, other[name], key=lambda finding: (not finding.ok, finding.beyond))
         for name, found in one.items()
@@ -70,7 +70,7 @@ def worse(one: Findings, other: Findings) -> Findings:
 
 
 def all_right(findings: Findings) -> bool:
-    """No point refuses the work; a referee that looked at nothing has found nothing right."""
+    """True if no finding makes the work wrong; without any finding, nothing is right."""
     return bool(findings) and not any(finding.refuses for finding in findings.values())
 
 

@@ -14,12 +14,12 @@ from handeye.judge.finding import Finding, at_most
 
 
 class SettledState:
-    """A copy of a cell's state: as it was left, or settled."""
+    """A copy of a cell's state: as at the end, or settled."""
 
     def __init__(self, truth: Truth, settle: float = 0.0) -> None:
-        """Copy the state, wake everything and let some time pass (s)."""
+        """Copy the state, wake all bodies and let some time pass (s)."""
         self.model, self.data = truth.copy()
-        self.drawn = truth.drawn  # the scene as it was drawn, to compare with
+        self.drawn = truth.drawn  # the scene at its start, to compare with
         self._start = mujoco.MjData(truth.drawn)
         mujoco.mj_kinematics(truth.drawn, self._start)
         mujoco.mj_step(self.model, self.data, round(settle / self.model.opt.timestep))

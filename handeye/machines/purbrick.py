@@ -1,6 +1,6 @@
 """The Purbrick arm as its machine's manual would describe it, and as the scene has it.
 
-The paper tells of six axes, of which the platter has two, of two fingers, and of a force sensor in one of them. It
+The paper describes six axes, two of them of the platter, two fingers, and a force sensor in one finger. It
 gives no figures: all of them are chosen or measured, and said to be in scenes/purbrick_arm/README.md.
 """
 

@@ -33,7 +33,7 @@ def faults(plan: Plan) -> Iterator[str]:
         yield f"its speed is {plan.speed:g}; it must be a share of the arm's limits, above 0 and at most 1"
     for key, position in program.positions.items():
         if position.of is not None and position.of not in program.parts:
-            yield f"position {key} is relative to part {position.of},= which is not in the plan"
+            yield f"position {key} is relative to part {position.of}, which is not in the plan"
         if not all(abs(value) <= 100 for value in position.at):
             yield f"position {key} is not on this table"
     for key, part in program.parts.items():
@@ -45,7 +45,7 @@ def faults(plan: Plan) -> Iterator[str]:
         yield from _boxes(f"fixture {key}", fixture.boxes)
     for key, held in program.held.items():
         yield from (
-            f"{key} is held at {at},= which is not in the plan"
+            f"{key} is held at {at}, which is not in the plan"
             for at in held.positions
             if at not in program.positions
         )
@@ -106,9 +106,9 @@ def _use(program: Program, use: Use) -> Iterator[str]:
     """Faults of a name that a step uses."""
     match use.kind:
         case "position" if use.name not in program.positions:
-            yield f"uses position {use.name},= which is not in the plan"
+            yield f"uses position {use.name}, which is not in the plan"
         case "part" if use.name not in program.parts:
-            yield f"uses part {use.name},= which is not in the plan"
+            yield f"uses part {use.name}, which is not in the plan"
         case "target" if use.name not in program.parts | program.positions:
             yield f"aims at {use.name}, which is neither a part nor a position of the plan"
         case "picture" if not _NAME.fullmatch(use.name):

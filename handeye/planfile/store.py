@@ -123,7 +123,7 @@ def _without_fractions(value: Any) -> Any:
 
 
 def alike(one: Plan, other: Plan) -> bool:
-    """True if two plans are the same but for last places of computed numbers."""
+    """True if two plans are the same except for the last digits of computed numbers."""
     return one is other or closeness.alike(
         *(msgspec.to_builtins(plan, str_keys=True) for plan in (one, other))
     )

@@ -27,7 +27,7 @@ Picture = NDArray[np.uint8]  # a digitised television picture: ROWS by COLUMNS o
 class Renderer(Record, frozen=True, kw_only=True):
     """Method by which pictures are made; two methods, or two platforms, need not give the same picture."""
 
-    method: Literal["opengl", "rays", "none", "replaced"]  # `replaced`: by code of whoever began the run
+    method: Literal["opengl", "rays", "none", "replaced"]  # `replaced`: by code of the calling program
     platform: str = ""
     """Library that draws for OpenGL: `EGL`, `OSMesa`, ...; name of the code that replaces it."""
 
@@ -35,8 +35,8 @@ class Renderer(Record, frozen=True, kw_only=True):
 class TvCamera(ABC):
     """The television camera on its pan/tilt mount with a two-lens turret.
 
-    `lens`, `aim` and `focus` start a slow mechanical action; they return the time it takes. The mechanism does
-    one thing after another, while the arm may move; the executor takes no picture before it is ready.
+    `lens`, `aim` and `focus` start a slow mechanical action; they return the time it takes. The mechanism makes one
+    movement after another, while the arm may move; the executor takes no picture before it is ready.
     """
 
     @abstractmethod

@@ -16,7 +16,7 @@ _DIGITS: Final = ".12g"  # digits of a period in a message, so that what is writ
 class Clock(ABC):
     """Time, which passes only when it is asked to.
 
-    Whatever the devices were told last is held while time passes; what they read is taken anew at its end.
+    The last commands of the devices hold while time passes; their readings are taken again at its end.
     """
 
     @property

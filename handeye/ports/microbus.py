@@ -106,7 +106,7 @@ class MicrobusPort(ABC):
 
     @abstractmethod
     def begin(self, command: Command, answer: int = 0) -> None:
-        """Begin a command, and expect so many bytes of answer; raises Refused unless the bus is free."""
+        """Begin a command, and expect this many bytes of answer; raises Refused unless the bus is free."""
 
     @abstractmethod
     def answer(self) -> bytes:
@@ -145,13 +145,13 @@ class MicrobusPort(ABC):
         self._finish()
 
     def ask(self, command: Command, count: int) -> bytes:
-        """Send a question, and wait for so many bytes of answer; raises NoAnswer or StrayAnswer."""
+        """Send a question, and wait for this many bytes of answer; raises NoAnswer or StrayAnswer."""
         self.begin(command, answer=count)
         self._finish()
         return self.answer()
 
     def wait_free(self, number: int, limit: int) -> Status:
-        """Wait until a microcomputer is not busy; its status then: BUSY only after so many microseconds."""
+        """Wait until a microcomputer is not busy; its status then: BUSY only after this time, in microseconds."""
         end = self.now + limit
         while (status := self.status(number)) is Status.BUSY and self.now < end:
             self.wait(end)

@@ -17,7 +17,7 @@ class ScrewdriverPort(ABC):
     """The motor of a screwdriver.
 
     The watchdog of the arm that carries it cuts it, too: it stands still until the program has set the brakes of the
-    arm and then a speed anew.
+    arm and then a new speed.
     """
 
     @abstractmethod
@@ -74,7 +74,7 @@ class ArmReading:
 class ArmPort(ABC):
     """Motors, brakes and sensors of an arm.
 
-    A watchdog guards it: an arm that is not driven anew before the clock has advanced by a servo period has its
+    A watchdog guards it: an arm that gets no new command before the clock has advanced by a servo period has its
     drives cut and its brakes set, and stays so until the program sets the brakes itself. Where the clock advances by
     more than that at once, they are cut from the beginning. The hand is not cut: it keeps hold of what it has.
     """

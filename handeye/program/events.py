@@ -96,7 +96,7 @@ class StepStarted(Event, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def place(self) -> str:
-        """Its line, as people see it: `12`, or `pins.al:12`."""
+        """Its line, as shown: `12`, or `pins.al:12`."""
         return line_name(self.line, self.file)
 
 

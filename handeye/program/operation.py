@@ -102,7 +102,7 @@ class Operation(
 
     @property
     def undoes(self) -> int:
-        """Maximum number of times that it reverses its stage and starts it anew."""
+        """Maximum number of times that it reverses and repeats its stage."""
         return 0
 
     @property

@@ -1,1 +1,1 @@
-"""Results of runs, for people and for programs."""
+"""Results of runs, as text and as JSON."""

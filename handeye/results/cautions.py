@@ -1,4 +1,4 @@
-"""Cautions for whoever takes up a run: why it may come out otherwise than it would have."""
+"""Cautions on resuming a run: why its result may differ."""
 
 from collections.abc import Iterator
 
@@ -11,7 +11,7 @@ from handeye.trace.sentences import renderer_name
 
 
 def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
-    """Tell in what a run goes on otherwise than it began, and what it could not keep, a sentence each."""
+    """Sentences on how a resumed run differs from its start, and on what it could not keep."""
     if runner.system.unkept is not None:
         yield f"the camera calibration was not kept for other runs: {runner.system.unkept}"
     begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
@@ -29,7 +29,7 @@ def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
 
 
 def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
-    """Sentences on what the folder of a run that goes on has lost of it, and on what it cannot guard."""
+    """Sentences on what the folder of a resumed run has lost, and on what it cannot protect."""
     if folder.unlocked:
         yield unguarded(folder.path, folder.unlocked)
     if folder.lost:

@@ -93,7 +93,7 @@ class ExportedSolids:
     solids: int
     open: tuple[str, ...]  # names of bodies whose surface is not closed
     weighed: tuple[WeighedBody, ...]
-    """Bodies of which the density is known."""
+    """Bodies of known density."""
 
 
 def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
@@ -127,7 +127,7 @@ def checks(exported: ExportedSolids) -> Iterator[str]:
 
 
 def agrees(body: WeighedBody) -> bool:
-    """See whether a body weighs in the model what its volume says."""
+    """Check the mass of a body in the model against its volume."""
     return abs(body.mass - body.mass_there) <= TOLERANCE * body.mass_there
 
 
@@ -136,7 +136,7 @@ def _names(bodies: Iterable[WeighedBody]) -> str:
 
 
 Shown = Callable[[], ExportedState]
-"""Makes what is exported; it takes a while, so it is asked for after the place has been looked at."""
+"""Makes the export; it takes a while, so it is called after the destination has been checked."""
 
 
 class Weight(Record, frozen=True, kw_only=True):
@@ -155,7 +155,7 @@ class Export(Record, frozen=True, kw_only=True):
     moment: MomentKind
     """`drawn` before the first step, `final` after the end of the program, `unfinished` in between."""
     shows: str
-    """Caption for people."""
+    """Caption."""
     world: WorldSpec
     solids: int | None = None
     """Number of solids; None if it is not a GLB file."""

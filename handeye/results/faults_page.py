@@ -1,4 +1,4 @@
-"""The faults of a task and what must happen with each, as a page for the terminal or as one JSON object."""
+"""The faults of a task and the expected outcome of each, as a page for the terminal or as one JSON object."""
 
 from collections.abc import Sequence
 from itertools import groupby
@@ -20,7 +20,7 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
     size: Size | None  # None: it has no value
     from_start: bool  # It can be there only from the beginning
     usual_stage: int | None
-    """Number of the stage at which it sets in by default; None: it is present from the start."""
+    """Number of the stage at which it begins by default; None: it is present from the start."""
     expected: ExpectedDetection
     must: str  # What must happen with it, a sentence
     matrix: bool
@@ -91,7 +91,7 @@ def _must(expected: ExpectedDetection) -> str:
 
 
 def _head(fault: FaultReport) -> Text:
-    """The name of a fault, and what values it can have."""
+    """The name of a fault, and its possible values."""
     row = Text(f"  {fault.name}")
     if fault.size is not None:
         low, high = fault.size.limits

@@ -18,7 +18,7 @@ from handeye.runs.runner import Runner
 def outcome(
     runner: Runner, pause: Pause, meter: Meter, *, judged: bool, referee: Referee | None = None
 ) -> Result:
-    """The result of a run as it pauses; `judged`: the referee, by default the task's, looks at one that has ended."""
+    """The result of a paused run; `judged`: if it has ended, the referee, by default the task's, judges it."""
     asked = judged and pause.kind != "break" and runner.system.cell is not None
     found = findings(runner, pause, referee) if asked else None
     built = runner.system.built() if asked and runner.undone else {}
@@ -41,7 +41,7 @@ def finished(
 ) -> Result:
     """Finish a run, unless it only pauses; its result, which is kept in its folder with the pictures.
 
-    The result is written last: where there is one, all else is there, too. Raises InvalidInput if it cannot be written.
+    The result is written last: if it exists, so does everything else. Raises InvalidInput if it cannot be written.
     """
     if pause.kind != "break":
         runner.finish()

@@ -1,4 +1,4 @@
-"""The referee is called to a run that is over."""
+"""Have the referee judge a finished run."""
 
 from collections.abc import Callable, Mapping
 from math import isfinite
@@ -17,7 +17,7 @@ Limits = Mapping[str, float]  # Limits of findings by their names, each in the u
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
     """Findings of a referee, by default the task's with the limits of the run; none before the program's end.
 
-    Where the arm has undone everything, whether all lies where it was found, and is remembered as it was taught.
+    After the arm has undone everything: whether all parts are back in place, and taught positions are as at first.
     """
     if pause.kind != "end":
         return {}
@@ -30,12 +30,12 @@ def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Fi
 
 
 def findings_so_far(runner: Runner) -> Findings:
-    """The referee's findings on the work as it stands, finished or not."""
+    """The referee's findings on the present work, finished or not."""
     return runner.task.judge(runner.cell.truth)
 
 
 def checked_findings(referee: str, findings: object) -> Findings:
-    """The findings of a caller's own referee; raises InvalidInput if they are none."""
+    """The findings of a caller's own referee; raises InvalidInput if they are not findings."""
     if not isinstance(findings, Mapping) or not all(
         isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
     ):
@@ -58,7 +58,7 @@ def checked_limits(limits: Limits) -> dict[str, float]:
 
 
 def check_limits(runner: Runner) -> None:
-    """Check before a run that each of its limits has a finding: at its end it would be late; raises InvalidInput."""
+    """Check that each limit has a finding, before the run and not at its end; raises InvalidInput."""
     if runner.setup.limits:
         limited(runner.task.judge(runner.cell.truth), runner.setup.limits)
 

@@ -33,7 +33,7 @@ from handeye.trace.eventlist import effective, read_events
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KeptRun:
-    """A run as its folder tells of it."""
+    """A run as recorded in its folder."""
 
     result: Result
     faults: tuple[str, ...] = ()
@@ -68,7 +68,7 @@ def _readable_events(path: Path) -> list[AnyEvent]:
 
 
 def _belongs(result: Result, events: Sequence[AnyEvent]) -> bool:
-    """A result may be that of the run of these events, by the program, the task and the world that both name."""
+    """True if a result can belong to the run of these events: program, task and world agree."""
     begun = next((event for event in events if isinstance(event, RunStarted)), None)
     return begun is None or (
         (result.program, result.task, result.world, result.seed)
@@ -86,7 +86,7 @@ def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
         return False
     try:
         result = read_result(path / RESULT)
-    except InvalidInput:  # it is made anew
+    except InvalidInput:  # it is made again
         return False
     own = _belongs(result, newest.events)
     told = result.assembled is not None or result.apart is not UNSET
@@ -94,7 +94,7 @@ def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
 
 
 def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> KeptRun:
-    """A run that has left no result, by its events; `faults` are known already."""
+    """A run without a result, from its events; `faults` are already known."""
     begun, last = events[0], events[-1]
     if not isinstance(begun, RunStarted):
         raise BadFile(f"{path / EVENTS} is an event list without the start of a run")

@@ -16,7 +16,7 @@ from handeye.tasks.interface import HistoricalTiming, Words
 TimingRow = tuple[str, float, float | None]
 """Name, seconds here, and seconds in the period; None: not reported."""
 _NEUTRAL = Words(done="The referee accepts the result.", product="the work")
-"""Words for a task that only the program that began the run knew."""
+"""Words for a task that is known only to the program that began the run."""
 _MARK = {
     "done": ("✓", "green"),
     "under way": ("▸", "yellow"),
@@ -70,7 +70,7 @@ def _short_rows(result: Result) -> Iterator[tuple[str, str]]:
 
 
 def _remarks(result: Result) -> Iterator[RenderableType]:
-    """Sentences on what was broken, set or doubtful, and on what people did."""
+    """Sentences on faults, settings and doubts, and on what the operator did."""
     for told in told_faults(result):
         yield Text(f"broken: {told}", "yellow")
     for name, limit in (result.limits or {}).items():
@@ -89,7 +89,7 @@ def told_faults(result: Result) -> Iterator[str]:
 
 
 def printable(result: Result) -> Result:
-    """A result whose words cannot steer a terminal, wherever they are from."""
+    """A result whose texts cannot control a terminal, whatever their origin."""
 
     def made(value: object) -> object:
         match value:
@@ -119,7 +119,7 @@ def stages(result: Result) -> Table:
 
 
 def timing(result: Result) -> Table:
-    """The timing table; beside that of its day, if the program is one that was timed then."""
+    """The timing table; next to that of 1973, if the program was timed then."""
     t, then = result.timing, period(result)
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("", "here", "" if then is None else str(then.year)):
@@ -134,7 +134,7 @@ def timing(result: Result) -> Table:
 
 
 def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
-    """Rows of the timing table: time on the computer, between times on the cell's clock."""
+    """Rows of the timing table: computing time, between rows of simulated time."""
     t = result.timing
     if t.planning_cpu_s:  # the plan may have been there already
         yield "planning phase (CPU)", t.planning_cpu_s, then.get("planning")
@@ -144,7 +144,7 @@ def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
 
 
 def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
-    """Name, seconds on the cell's clock, and seconds in the period, if known; the one sum is of both parts."""
+    """Name, simulated seconds, and seconds in 1973, if known; the sum is of both parts."""
     t, sees = result.timing, result.camera.used
     if t.friction_s:
         yield "joint friction", t.friction_s, None
@@ -160,7 +160,7 @@ def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]
 
 
 def period(result: Result) -> HistoricalTiming | None:
-    """The times of 1973, or of whenever it was, if they are those of this program; in its day nothing was undone."""
+    """The times of the period, if they belong to this program; at that time nothing was undone."""
     if result.apart is not UNSET:
         return None
     task = known(result.task)
@@ -169,7 +169,7 @@ def period(result: Result) -> HistoricalTiming | None:
 
 
 def camera(result: Result) -> Text:
-    """Line on the camera: how pictures were made, and how well it was calibrated."""
+    """Line on the camera: renderer, and accuracy of the calibration."""
     seen = result.camera
     if seen.residual_in is None:
         return Text(f"camera: {seen.renderer}; not used", "dim")
@@ -180,7 +180,7 @@ def camera(result: Result) -> Text:
 
 
 def clock(seconds: float) -> str:
-    """Minutes and seconds, or seconds with as many places as they deserve."""
+    """Minutes and seconds, or seconds with a sensible number of digits."""
     if seconds >= 60:
         whole = round(seconds)
         return f"{whole // 60}:{whole % 60:02d} min"

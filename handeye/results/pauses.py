@@ -20,7 +20,7 @@ def pause_sentence(pause: Pause) -> str:
 
 
 def stop_name(stop: AnyStop) -> str:
-    """Name a stop condition as people do: `line 58`, `label L1`, `AOJ`, `stage 4, ...`, `error 23`."""
+    """Name a stop condition as users do: `line 58`, `label L1`, `AOJ`, `stage 4, ...`, `error 23`."""
     match stop:
         case stops.AtLine():
             return f"line {line_name(stop.line, stop.file)}"

@@ -27,10 +27,10 @@ class Stage(Record, frozen=True, kw_only=True):
 
 
 class Timing(Record, frozen=True, kw_only=True):
-    """Times of a run, simulated and of the host; no field adds one to the other.
+    """Times of a run, simulated and computing; no field adds one to the other.
 
-    Equal runs have equal simulated seconds. What ends in `_cpu_s` (seconds of a processor) or `_wall_s` (seconds of a
-    clock) is the host's, is another each time, and is summed over all sessions of a run that was resumed.
+    Equal runs have equal simulated seconds. Fields that end in `_cpu_s` (CPU seconds) or `_wall_s` (wall-clock
+    seconds) are computing time, differ each time, and are summed over all sessions of a resumed run.
     """
 
     friction_s: float
@@ -38,23 +38,23 @@ class Timing(Record, frozen=True, kw_only=True):
     calibration_s: float
     """Simulated: the camera was calibrated, before the working phase."""
     manipulation_s: float
-    """Simulated: the working phase but for the time in which the arm waited for the camera."""
+    """Simulated: the working phase without the time in which the arm waited for the camera."""
     lens_s: float
     """Simulated: the arm waited for lens change, aim, focus and pictures."""
     overlapped_s: float
-    """Simulated: besides, the camera's mechanism was busy while the arm went on."""
+    """Simulated: in addition, the camera's mechanism was busy while the arm moved."""
     working_s: float
     """Simulated: the working phase, which is manipulation and lens."""
     planning_cpu_s: float
-    """0: the plan was there already."""
+    """0: the plan existed already."""
     vision_cpu_s: float
     run_cpu_s: float
     run_wall_s: float
-    """From when the command was loaded, or the call from Python, to the verdict; waiting for people included."""
+    """From when the command was loaded, or the call from Python, to the verdict; including waiting for the user."""
     real_time_factor: float
-    """Simulated seconds, those of setting up included, for one of `run_wall_s`: the host's, and another each time."""
+    """Simulated seconds, including set-up, per second of `run_wall_s`; differs each time."""
     host_from_step: int
-    """Steps done before the host's seconds were counted; 0: they are those of the whole run."""
+    """Steps done before computing time was counted; 0: it covers the whole run."""
 
 
 class Check(Record, frozen=True, kw_only=True):
@@ -70,11 +70,11 @@ class Check(Record, frozen=True, kw_only=True):
     sentence: str
     """The finding as a sentence, without the value."""
     caution: bool = False
-    """If not `ok`, only a warning: the work may still be right."""
+    """If not `ok`, this is only a warning: the work may still be right."""
 
     @classmethod
     def of(cls, found: Finding) -> "Check":
-        """A finding with the sentence that tells of it."""
+        """A finding with its sentence."""
         return cls(
             ok=found.ok,
             subject=found.subject,
@@ -88,7 +88,7 @@ class Check(Record, frozen=True, kw_only=True):
 
     @property
     def refuses(self) -> bool:
-        """The work is not right for it."""
+        """True if it makes the work wrong."""
         return not self.ok and not self.caution
 
     @property
@@ -97,7 +97,7 @@ class Check(Record, frozen=True, kw_only=True):
         return f"{self.sentence}: {self.value:.3g}"
 
     def limited(self, limit: float) -> "Check":
-        """The same measurement against another limit, in the same unit; beyond that one it refuses."""
+        """The same measurement with another limit, in the same unit; beyond it, the work is wrong."""
         facts = {name: getattr(self, name) for name in self.__struct_fields__ if name != "sentence"}
         return Check.of(Finding(**facts).limited(limit))
 
@@ -120,7 +120,7 @@ class CameraReport(Record, frozen=True, kw_only=True):
 class Result(Record, frozen=True, kw_only=True):
     """Result of a run.
 
-    Equal runs have equal `events`. Their results differ, for `timing` has seconds of the host too.
+    Equal runs have equal `events`. Their results differ, because `timing` includes computing time.
     """
 
     assembled: bool | None
@@ -128,7 +128,7 @@ class Result(Record, frozen=True, kw_only=True):
     completed: bool
     """The program ended, or the arm finished undoing what it was asked to."""
     paused: bool
-    """The run stands before its end: that was asked for, or it was interrupted, or is under way."""
+    """The run is before its end: paused on request, interrupted, or running."""
     stopped_at: str | None
     error: int | None
     message: str
@@ -153,8 +153,9 @@ class Result(Record, frozen=True, kw_only=True):
     without: tuple[str, ...] | UnsetType = UNSET
     """Senses that the program did without."""
     apart: bool | UnsetType | None = UNSET
-    """After a reversal: the referee's word whether everything lies where it was found; None: not asked, or not all of
-    it is undone."""
+    """After a reversal: the referee's verdict whether every part is back in place; None: not asked, or not everything
+    is undone.
+    """
     built: dict[str, Check] | UnsetType = UNSET
     """Findings on a job's work before the job undid it; `referee` has those after."""
 
@@ -176,7 +177,7 @@ class Result(Record, frozen=True, kw_only=True):
 
     @property
     def exit_code(self) -> int:
-        """0 assembled, 1 the operator was called, 3 the program said done and the referee disagrees."""
+        """0 assembled, 1 the program called the operator, 3 the program reported success and the referee disagrees."""
         if self.paused:
             return 0
         if not self.completed:
@@ -185,7 +186,7 @@ class Result(Record, frozen=True, kw_only=True):
 
 
 def to_json(result: Result, *, line: bool = False) -> bytes:
-    """The result as one JSON object, laid out for people or on one `line`, with a final newline."""
+    """The result as one JSON object, indented or on one `line`, with a final newline."""
     encoded = msgspec.json.encode(result)
     return (encoded if line else msgspec.json.format(encoded, indent=1)) + b"\n"
 
@@ -202,7 +203,7 @@ def read_result(path: Path) -> Result:
 
 
 def restore_figures(findings: Any) -> None:
-    """Set figures of findings to NaN where JSON has null, which stands for a value that is not finite."""
+    """Set figures of findings to NaN where JSON has null, which means a value that is not finite."""
     for check in findings.values() if isinstance(findings, dict) else ():
         for name in ("value", "limit"):
             if isinstance(check, dict) and name in check and check[name] is None:

@@ -37,7 +37,7 @@ from handeye.vision.calibration import Calibration
 def summary(
     runner: Runner, pause: Pause, *, findings: Findings | None, built: Findings, host: HostSeconds
 ) -> Result:
-    """Summarize a run; `built`: findings on what a job has built and taken back since."""
+    """Summarize a run; `built`: findings on what a job built before it undid it."""
     completed = pause.kind == "end"
     names = runner.listing.stages
     cell = runner.system.cell
@@ -89,7 +89,7 @@ def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
 
 
 def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:
-    """Tell what in a run may be other than it looks, a sentence each."""
+    """Reasons to doubt a run, a sentence each."""
     place = ""
     for event in events:
         if isinstance(event, RunStarted):
@@ -101,7 +101,7 @@ def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:
 
 
 def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
-    """Status and arm time of each stage: simulated seconds without those of the camera's mechanism."""
+    """Status and arm time of each stage: simulated seconds without the camera's mechanism."""
     seconds = dict.fromkeys(names, 0.0)
     status: dict[str, Status] = dict.fromkeys(names, "not reached")
     here, begun, busy, now = "", 0.0, 0.0, 0.0

@@ -15,7 +15,7 @@ from handeye.core.variation import Quantity, Variation, World, WorldSpec
 
 
 class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
-    """Value of a quantity in one world. Figures are in its unit, but for `si`."""
+    """Value of a quantity in one world. Figures are in its unit, except for `si`."""
 
     name: str
     value: float
@@ -95,7 +95,7 @@ def _spread(quantity: Quantity, factor: float) -> float | tuple[float, ...] | No
 
 
 def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
-    """A line of the page, or two if it has not the columns; names have `width` of them."""
+    """A line of the page, or two if it is too wide; names have `width` columns."""
     drawn = f"({how(quantity)})" if quantity.override else how(quantity)
     row = Text(f"  {quantity.name.ljust(width)} {quantity.value:10.4g} {quantity.unit:5}")
     told = (

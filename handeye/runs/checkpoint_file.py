@@ -1,4 +1,4 @@
-"""Checkpoints on disk: one line that says what it is, one of JSON for people, then the compressed state.
+"""Checkpoints on disk: one line with its format, one line of readable JSON, then the compressed state.
 
 The first line carries a digest of all that follows it, so that a file that is cut short, or in which any bit is
 wrong, is refused before anything in it is used.
@@ -35,7 +35,7 @@ LARGEST: Final = 1 << 28  # bytes of a state, decompressed: a hundred times what
 
 
 class Head(Record, frozen=True, kw_only=True):
-    """Summary of a checkpoint, for people and for finding the right one."""
+    """Summary of a checkpoint, to read, and to find the right one."""
 
     system: str = "program"  # the kind of system that carries the run out
     program: str

@@ -1,4 +1,4 @@
-"""The state of a work cell for other programs: a world as it is drawn, or as a run has left it."""
+"""The state of a work cell for other programs: a world at its start, or at the end of a run."""
 
 from dataclasses import dataclass
 from pathlib import Path

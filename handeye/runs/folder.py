@@ -97,7 +97,7 @@ class RunFolder(Observer):
 
     @property
     def journal_lost(self) -> bool:
-        """True if the event list of a resumed run was lost or another's, and was begun anew."""
+        """True if the event list of a resumed run was lost or belonged to another run, and was started again."""
         return self._journal is not None and self._journal.lost
 
     @property
@@ -133,13 +133,13 @@ class RunFolder(Observer):
         assert self._runner is not None
         return self._runner.system.just_found
 
-    # -- looking on -----------------------------------------------------------------------------------
+    # -- reading --------------------------------------------------------------------------------------
 
     def event(self, event: AnyEvent) -> None:
         assert self._journal is not None
         assert self._recorder is not None
         self.check_traced()
-        if not isinstance(event, RunFinished):  # which tells of nothing new where the run has not gone on
+        if not isinstance(event, RunFinished):  # which shows nothing new unless the run has continued
             self._goes_on()
         self._journal.append(event)
         self._recorder.event(event)

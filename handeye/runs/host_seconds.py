@@ -18,13 +18,13 @@ _LARGEST = 10_000  # bytes of the file
 
 
 class HostSeconds(Record, frozen=True, kw_only=True):
-    """Seconds of the host, summed over the sessions of a run: the processes that began and resumed it."""
+    """Computing time, summed over the sessions of a run: the processes that began and resumed it."""
 
     planning_cpu_s: float = 0.0  # 0: the plan was there already
     vision_cpu_s: float = 0.0  # with what was undone later
     run_cpu_s: float = 0.0
     run_wall_s: float = 0.0
-    """From when the command was loaded, or the call from Python, to the verdict; waiting for people included."""
+    """From when the command was loaded, or the call from Python, to the verdict; including waiting for the user."""
     from_step: int = 0  # steps done before the first session that is counted
     from_clock_s: float = 0.0  # the clock at that moment: below 0 if it prepared the cell
 

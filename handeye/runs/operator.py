@@ -85,7 +85,7 @@ class Retry:
 class UnwindOnce:
     """Has the arm undo its steps to the beginning of a stage given by its index, once for each stage that fails.
 
-    Like `Retry` it goes by the events of the run.
+    Like `Retry` it uses the events of the run.
     """
 
     stage: int | None = None  # None: that which has failed

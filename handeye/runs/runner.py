@@ -73,7 +73,7 @@ class Runner:
             halt: the panic button, asked every servo period; Halted is raised if it is hit during calibration.
             viewed: called for each view of a camera calibration with its number and their count.
             observers: makes the observers, once the cell is built and before anything happens in it.
-            calibrate: calibrate the camera anew, whatever is kept of an earlier run.
+            calibrate: calibrate the camera again, even if an earlier run kept its calibration.
         """
         parts.check(start.setup.replaced)
         self.setup = start.setup
@@ -249,7 +249,7 @@ class Runner:
         return self.system.finish() and self.trouble is None
 
     def repeat(self, events: Sequence[AnyEvent]) -> None:
-        """Go on until as many events as these have happened, repeating what people did in them."""
+        """Continue until as many events have happened, repeating what the operator did in them."""
         while len(self.events) < len(events):
             then = events[len(self.events)]
             if isinstance(then, OperatorAnswered) and (self.call is not None or self.undone):

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 
 class StepFacts(Protocol):
-    """A step as people see it."""
+    """A step as shown."""
 
     @property
     def stage(self) -> int:
@@ -145,7 +145,7 @@ class Settable:
     noun: str
     usage: str  # form of the words after its kind: `NAME x y z`
     names: tuple[str, ...]
-    units: tuple[float, ...]  # SI units in one of the units that people give each number in
+    units: tuple[float, ...]  # SI units in one of the displayed units number in
     fewest: int  # numbers that have to be given; the others stay as they are
     present: Callable[[str], tuple[float, ...]]  # the values of a name as they are, SI
 
@@ -169,7 +169,7 @@ class RunningSystem(Protocol):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Channels that its servo periods tell of, besides joints and hand."""
+        """Channels recorded in its servo periods, besides joints and hand."""
         return ()
 
     @property
@@ -267,7 +267,7 @@ class RunningSystem(Protocol):
         return {}
 
     def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        """Set something; SI; raises InvalidInput if there is no such thing, or the value does not fit it."""
+        """Set something; SI; raises InvalidInput if there is no such object, or the value does not fit it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -280,7 +280,7 @@ class RunCallbacks:
     viewed: Callable[[int, int], None] = lambda *_: None  # calibration views: number, count
     vision: Stopwatch = field(default_factory=Stopwatch)  # processor time of vision
     parts: Parts = OWN
-    calibrate: bool = False  # calibrate anew, whatever is kept
+    calibrate: bool = False  # calibrate again, whatever is kept
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -330,7 +330,7 @@ class System(ABC):
         return written_digest(data)
 
     def alike(self, one: Any, other: Any) -> bool:
-        """True if two plans are the same, but for last places of computed numbers."""
+        """True if two plans are the same, except for the last digits of computed numbers."""
         return self.encode(one) == self.encode(other)
 
     @abstractmethod
@@ -366,7 +366,7 @@ class System(ABC):
         """The calibration of the camera in a state, if it has one."""
         return None
 
-    # -- what people see ------------------------------------------------------------------------------
+    # -- what users see -------------------------------------------------------------------------------
 
     @property
     def topics(self) -> Topics:
@@ -384,7 +384,7 @@ class System(ABC):
     # -- the way of a run -----------------------------------------------------------------------------
 
     def carry_out(self, runner: Runner, go: Callable[[], Pause]) -> Pause:
-        """Carry out a run from where it stands; `go` lets it run until it pauses."""
+        """Continue a run from its present state; `go` lets it run until it pauses."""
         return go()
 
     def files(self, runner: Runner, pause: Pause, result: Any) -> Mapping[str, bytes]:

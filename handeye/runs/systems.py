@@ -41,7 +41,7 @@ def digest_of(setup: Setup) -> str:
 
 
 def same_plan(one: Setup, other: Setup) -> bool:
-    """True if two runs carry out the same plan, but for last places of its computed numbers."""
+    """True if two runs use the same plan, except for the last digits of its computed numbers."""
     return one.system == other.system and (
         one.plan is other.plan or system_of(one).alike(one.plan, other.plan)
     )

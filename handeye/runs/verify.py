@@ -51,7 +51,7 @@ def difference(trace: Trace, folder: Path) -> str | None:
 
 
 def repetition(trace: Trace, folder: Path) -> Repetition:
-    """Carry out a run again in `folder` and compare. Raises Refused if the trace is thinned."""
+    """Repeat a run in `folder` and compare the two. Raises Refused if the trace is thinned."""
     if trace.thinned:
         raise Refused(f"{trace.name} is thinned: verify the whole trace that it was made from")
     wanted = trace.events[: settled(trace.events)]

@@ -84,7 +84,7 @@ class AnyTask(ABC):
     words: Words
     camera: str = "studio"
     """The camera of the scene that shows all of it to people: pictures are taken by it where none is named."""
-    photographs: tuple[str, ...] = ()  # cameras of the scene whose view of the end is kept for people
+    photographs: tuple[str, ...] = ()  # cameras of the scene whose view of the end is kept as a photograph
 
     force_axes: str = "world axes"  # the axes along which forces of the hand are given
     measures: Measures = INCHES  # the units in which its runs are shown to people
@@ -181,7 +181,7 @@ class Task(AnyTask):
 
     @property
     def trials(self) -> Mapping[str, Trial[Any]]:
-        """Trials in many worlds without carrying out a program, by their names; none by default."""
+        """Trials in many worlds that run no program, by their names; none by default."""
         return {}
 
     def fixtures(self) -> Mapping[str, Fixture]:

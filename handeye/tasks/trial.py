@@ -1,4 +1,4 @@
-"""A trial: one thing tried in many worlds and counted, without carrying out a program."""
+"""A trial: one task repeated in many worlds and counted, without running a program."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence

@@ -28,7 +28,7 @@ class LineResult(Record, frozen=True, kw_only=True):
     show: RunViews | UnsetType = UNSET
     lines: tuple[str, ...] | UnsetType = UNSET  # lines that are collected, or listed
     file: str | UnsetType = UNSET  # file that was written
-    error: str | UnsetType = UNSET  # why the line was not carried out
+    error: str | UnsetType = UNSET  # why the line was refused
 
 
 NOTHING: Final = LineResult()
@@ -47,7 +47,7 @@ class Answer:
 
     @property
     def refused(self) -> bool:
-        """The line was not carried out."""
+        """The line was refused."""
         return self.said.error is not UNSET or has_errors(self.diagnostics)
 
     @property
@@ -68,7 +68,7 @@ def json_line(answer: Answer) -> str:
 
 
 def text(answer: Answer) -> str:
-    """The answer for people, without the end of its last line; empty if there is nothing to say."""
+    """The answer as text, without the end of its last line; empty if there is nothing to say."""
     said = answer.said
     lines = [render(diagnostic, answer.source) for diagnostic in answer.diagnostics]
     lines += [] if said.did is UNSET else summary_lines(said.did)
@@ -118,7 +118,7 @@ class Listener(Protocol):
         """True if it wants no more lines."""
 
     def hear(self, line: str) -> Answer:
-        """Carry out a line; one that is wrong changes nothing."""
+        """Execute a line; a wrong one changes nothing."""
 
 
 def converse(

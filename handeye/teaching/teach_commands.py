@@ -32,7 +32,7 @@ class TeachSession:
     warned: bool = False  # the user was warned of unsaved names
 
     def hear(self, line: str) -> Answer:
-        """Carry out a line; one that is wrong changes nothing."""
+        """Execute a line; a wrong one changes nothing."""
         try:
             given = self._given(line.split())
         except HandeyeError as error:

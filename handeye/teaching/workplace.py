@@ -53,7 +53,7 @@ class Workplace:
         halt: Callable[[], bool],
         observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> None:
-        """Build the cell of a world; `look`: with its camera set up, so that plans can; `calibrate`: anew.
+        """Build the cell of a world; `look`: with its camera set up, so that plans can; `calibrate`: again.
 
         `halt` is the panic button, asked at every servo period; `observers` makes those of each plan's runner. Raises
         InvalidInput if the camera cannot work as asked; Halted if the panic button was hit while it was set up.

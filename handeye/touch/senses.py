@@ -27,7 +27,7 @@ down, are felt as 6.1 N at most in 400 nominal worlds, at 15 places on the table
 base's weight beyond its declared load adds 2 N there.
 """
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE
-"""Force with which fingers press that have been centred, N: both switches tell of it.
+"""Force with which fingers press that have been centred, N: both switches report it.
 
 They fire at 2 ounces, and at 4.4 at most (three times twice their stated spread of .4). One finger may bear 3 ounces
 less than the other: the arm holds the difference, and the gap is known to a step of its converter.
@@ -90,7 +90,7 @@ SAME_HOLD: Final = 5e-4  # m that the gap may differ on the same hold
 SKEW: Final = 1e-3
 """m that the gap may differ on an object that has turned between the fingers: 2 degrees on an inch are .9.
 
-Grasped anew it lies straighter, and CENTER holds lightly; pushed on its blocks since, it lies more skew. Measured:
+Grasped again it is straighter, and CENTER holds lightly; pushed on its blocks since, it lies more skew. Measured:
 pins closer by .5; the pump's base by .8, and wider by .44 in seeds 1 to 6, by more than .5 in seed 1001.
 """
 OFF_MIDDLE: Final = 3e-3

@@ -52,12 +52,12 @@ class Journal:
     def __init__(self, path: Path, events: Sequence[AnyEvent], *, again: bool) -> None:
         """Begin a journal with these events, or resume one.
 
-        A last line that was cut short is dropped; a journal that has lost some of the events is begun anew.
+        A last line that was cut short is dropped; a journal that has lost some of the events is started again.
         """
         self._owed: WentBack | None = None  # there was no room for it
         self._file = LineFile(path, "another run", again=again)
         lacking = effective(read_events(path))[: len(events)] != list(events)
-        self.lost = again and lacking  # begun anew, as events were missing
+        self.lost = again and lacking  # started again, as events were missing
         if lacking:
             self._file.clear()
             for event in events:

@@ -24,7 +24,7 @@ def looks(truth: Truth, body: int) -> list[int]:
 
 
 def scene(truth: Truth, time: int) -> bytes:
-    """All bodies that can be seen, each in its own frame, as they were drawn; `time` in ns."""
+    """All visible bodies at the start, each in its own frame; `time` in ns."""
     entities = []
     for body in range(truth.model.nbody):
         name = truth.model.body(body).name if body else WORLD

@@ -89,7 +89,7 @@ def picture(time: int, levels: Picture) -> bytes:
 
 
 def log(time: int, level: Log.Level.ValueType, sentence: str, *, name: str, file: str, line: int) -> bytes:
-    """A sentence for people. `name` is the program's; `file` and `line`: where it happened (0: on no line)."""
+    """A sentence. `name` is the program's; `file` and `line`: where it happened (0: on no line)."""
     message = Log(timestamp=stamp(time), level=level, message=sentence, name=name, file=file, line=line)
     return message.SerializeToString()
 

@@ -61,7 +61,7 @@ def differing(
 
 
 def has_quantities(message: RawMessage) -> bool:
-    """True if the values of a message go by name."""
+    """True if the values of a message have names."""
     return message.topic in _TELLERS
 
 
@@ -273,7 +273,7 @@ def _is_number(value: Value) -> bool:
 
 
 def _numbers(values: list[Value], unit: str, measures: Measures) -> list[str]:
-    """Numbers in the unit that people see; in SI, to the last bit, if they look the same otherwise."""
+    """Numbers in the displayed unit; in SI, to the last bit, if they would look the same."""
     numbers = [float(value) for value in values if isinstance(value, int | float)]
     if all(isinstance(value, int) for value in values):
         return [f"{value}" for value in values]

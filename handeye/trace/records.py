@@ -37,7 +37,7 @@ class DamagedTrace(Exception):
 
 @dataclass(frozen=True, slots=True)
 class RawMessage:
-    """A message as it stands in the file; `time` in ns."""
+    """A message as stored in the file; `time` in ns."""
 
     topic: str
     time: int
@@ -155,7 +155,7 @@ def _parsed(kind: type[Kind], body: bytes) -> Kind:
 
 
 def event_data(event: Event) -> bytes:
-    """An event as it stands in a trace."""
+    """An event as stored in a trace."""
     return to_line(event)[:-1]
 
 

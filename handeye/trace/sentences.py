@@ -70,7 +70,7 @@ _PLACES: Final = ("saved", "position")  # kinds of experiments whose values are 
 
 
 def measures_of(task: str) -> Measures:
-    """The units in which people see runs of a task, by its name; those of the arm language if it is not known here."""
+    """The displayed units of runs of a task, by its name; those of the arm language if it is not known here."""
     found = known_any(task)
     return INCHES if found is None else found.measures
 

@@ -103,7 +103,7 @@ class Trace:
     def poses(self) -> dict[str, Poses]:
         """Poses of each body by name, shape (n, 7): place in W (m), then a unit quaternion w, x, y, z.
 
-        NaN where a body was not there, as a screw in its thread is not before it is driven.
+        NaN while a body did not exist, like the carrier of a screw before it is driven.
         """
         return Named(zip(self._replay.names, self._replay.poses.swapaxes(0, 1), strict=True))
 
@@ -113,14 +113,14 @@ class Trace:
         return self._read(lambda messages: read_motion(m for m in messages if m.topic == JOINTS))
 
     def forces(self, line: int | str | None = None) -> Forces:
-        """Force of the hand on the world, in the whole run or while a line of the script was carried out.
+        """Force of the hand on its surroundings, in the whole run or during a line of the script.
 
         Args:
             line: its number in the script, or `"pins.al:12"` in a file that the script requires; each time it was
-                carried out counts. A motion goes by its own line, not by that of its `STOP`.
+                carried out counts. A motion counts by its own line, not by that of its `STOP`.
 
         Raises:
-            InvalidInput: no such line was carried out.
+            InvalidInput: no such line ran.
         """
         if line is None:
             return self._forces
@@ -193,7 +193,7 @@ class Trace:
 
     @cached_property
     def scene(self) -> Any:
-        """Model of the scene of its world as it is drawn, before anything has happened in it.
+        """Model of the scene of its world at the start.
 
         Raises:
             InvalidInput: what it was drawn by is not known here.
@@ -253,7 +253,7 @@ class Trace:
 
     @property
     def begins(self) -> float:
-        """When its motions begin to be recorded, s: 0, but for a run taken up from a checkpoint."""
+        """When its motions begin to be recorded, s: 0, except for a run resumed from a checkpoint."""
         return self.events[max(self.unseen - 1, 0)].time
 
     @property

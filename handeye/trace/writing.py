@@ -65,7 +65,7 @@ class TraceWriter:
         self.file.begin(head, self._plan)
 
     def event(self, event: Event) -> None:
-        """Write an event, and before it the sentence that tells of it."""
+        """Write an event, and before it its sentence."""
         time = nanoseconds(event.time)
         if isinstance(event, RunStarted) and self.head is None:
             self.begin(event)
@@ -90,7 +90,7 @@ class TraceWriter:
         )  # else those of the picture before would stay on it
 
     def found(self, time: float, picture: str, marks: Sequence[Mark]) -> None:
-        """Write the marks of what was found in a picture; the event that tells of it follows."""
+        """Write the marks of what was found in a picture; its event follows."""
         self.file.write(ANNOTATIONS, nanoseconds(time), annotations(self._taken[picture], marks))
 
     def period(self, period: ServoPeriod) -> None:
@@ -104,8 +104,8 @@ class TraceWriter:
     def frames(self, time: float, poses: Poses, there: Mask, *, anew: bool = False) -> None:
         """Write the frames that moved since they were last written, and those that appeared; `anew`: all there are.
 
-        Bodies that are put away are written anew only: their place does not matter. A body that is no longer there, as
-        a screw in its thread when it has been driven out, is put away in the trace.
+        Bodies that are put away are written only with all: their place does not matter. A body that is no longer
+        there, as a screw in its thread when it has been driven out, is put away in the trace.
         """
         sent = self._sent
         gone = ~there & ~np.isnan(sent[:, 0])

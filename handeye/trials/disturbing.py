@@ -73,7 +73,7 @@ class DisturbanceWork:
     """Has what a plan builds disturbed and undone, once for each case."""
 
     plan: Plan
-    world: WorldSpec  # World of every case, but for its seed
+    world: WorldSpec  # World of every case, without its seed
     camera: str
 
     def __call__(self, case: Case) -> list[DisturbanceRow]:

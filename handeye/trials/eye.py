@@ -68,7 +68,7 @@ class EyeWork:
 
     task: str
     trial: str
-    world: WorldSpec  # World of every case, but for its seed
+    world: WorldSpec  # World of every case, without its seed
     camera: str
     known: Known
 

@@ -126,14 +126,14 @@ class FaultWork:
     """Carries a plan out once with each of some faults; the condition of a case is the fault, as it would be typed."""
 
     plan: Plan
-    world: WorldSpec  # World of every case, but for its seed and fault
+    world: WorldSpec  # World of every case, without its seed and fault
     faults: Mapping[str, Fault]
     camera: str
     sound: Path | None = None
     """Folder of the sound runs in which faults that set in with a stage begin; None: each run is a whole one."""
 
     def __call__(self, case: Case) -> list[FaultRow]:
-        """Carry out one run with its fault, or with the panic button hit in it."""
+        """Run once with the fault, or with the panic button pressed."""
         fault = self.faults[case.condition]
         world = msgspec.structs.replace(self.world, seed=case.seed)
         catalogue = with_panic(task(self.plan.task).faults(world))

@@ -102,7 +102,7 @@ class Cause(Record, frozen=True, kw_only=True):
 
 
 class Figures(Record, frozen=True, kw_only=True):
-    """Figures of a sweep. But for host seconds, equal sweeps have equal figures."""
+    """Figures of a sweep. Equal sweeps have equal figures, except for computing time."""
 
     kind: str
     n: int  # Trials that count

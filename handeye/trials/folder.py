@@ -71,7 +71,7 @@ class Head(Record, frozen=True, kw_only=True):
     on_stop: str = "abort"  # How calls of the operator are answered
     simulated_limit_s: float | None = None
     settings: dict[str, str] = msgspec.field(default_factory=dict)
-    """Further settings that decide the trials, by their names for people."""
+    """Further settings that decide the trials, by their displayed names."""
     versions: dict[str, str]
     code: str  # Digest of handeye and its scenes
 
@@ -117,7 +117,7 @@ class BatchFolder(Generic[R]):
             raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
         self._file = LineFile(path / TRIALS, "another command", again=not anew)
         self.rows: dict[tuple[str, int], R] = {}
-        """Trials that have ended, by condition and number, but for those that are to be tried again."""
+        """Trials that have ended, by condition and number, except for those to be repeated."""
         try:
             self._begin(head, plan)
         except BaseException:

@@ -62,7 +62,7 @@ class Condition(Record, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """Its name for people."""
+        """Its displayed name."""
         search = "" if self.search == "gentle" else f", {self.search}"
         return f"{self.clearance:g} mm, chamfer {self.chamfer:g}, sd {self.sd:g}{search}"
 
@@ -84,7 +84,7 @@ class Condition(Record, frozen=True, kw_only=True):
 
 
 def grid(search: Search) -> list[Condition]:
-    """Conditions around Factory's setting, which comes first, one thing changed at a time."""
+    """Conditions around Factory's setting, which is first, with one value changed at a time."""
     return [
         Condition(search=search),
         *(Condition(search=search, clearance=clearance) for clearance in (0.05, 0.3, 1.0)),
@@ -158,7 +158,7 @@ class InsertionWork:
     conditions: Mapping[str, Condition]
 
     def __call__(self, case: Case) -> list[InsertionRow]:
-        """Fetch the pin once, and carry out the trials of the case from there."""
+        """Fetch the pin once, and run the trials of the case from there."""
         condition = self.conditions[case.condition]
         last = InsertionTrial(seed=case.seed, number=len(case.trials) - 1)
         found = zip(case.trials, trials_in_world(condition, last), strict=True)

@@ -93,7 +93,7 @@ def assemble_each(
     referee: Referee | Limits | None = None,
     jobs: int = 1,
 ) -> Results:
-    """Carry out a script in each of some worlds, and have each result judged.
+    """Run a script in each of some worlds, and have each result judged.
 
     Args:
         worlds: seeds, or worlds.

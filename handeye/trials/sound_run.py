@@ -24,7 +24,7 @@ from handeye.trials.workers import in_processes
 
 EVERY: Final = 3  # Steps from one checkpoint to the next
 NEAR_END: Final = 36  # Steps before the end of a program of one stage where no schedule begins any more
-_WHOLE: Final = "whole"  # A file that says that the run was carried out to its end
+_WHOLE: Final = "whole"  # A file that says that the run reached its end
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,7 +83,7 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
 def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int, int]]:
     """Steps done where a schedule can begin, and the number of the stage.
 
-    In a program of one stage none begins near the end: whoever resumes it may have it reversed, where that is its job.
+    In a program of one stage none begins near the end: a resumed run may be reversed, if that is its job.
     """
     heads = [head for _, head in store.heads()]
     last = max(head.position for head in heads) - (NEAR_END if len(stages) < 2 else 0)

@@ -34,7 +34,7 @@ GRACE: Final = 1.1
 """Multiple of the limit of processor time at which a process ends: it hangs where nothing looks at the limit."""
 _CAME_TO_AN_END: Final = ("ended", "not built")
 _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
-"""Ends that a trial need not come to again: they are this computer's, not the program's."""
+"""Ends that need not happen again: they are this computer's, not the program's."""
 _BROKEN_OFF: Final[Mapping[str, str]] = {
     "killed": "its process was killed twice",
     "simulated limit": "reached the limit of simulated time",
@@ -56,7 +56,7 @@ class Case(Record, frozen=True, kw_only=True):
 
 
 class TrialRow(Record, frozen=True, kw_only=True):
-    """Record of one trial. Equal trials have equal rows, but for host seconds and killed processes."""
+    """Record of one trial. Equal trials have equal rows, except for computing time and killed processes."""
 
     trial: Annotated[int, msgspec.Meta(ge=0)]
     seed: Seed
@@ -119,7 +119,7 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def facts(self) -> Mapping[str, float]:
-        """Values that stand in the table of trials only, likewise."""
+        """Values that only the table of trials shows, in the same form."""
         return {}
 
 
@@ -139,7 +139,7 @@ class Details:
     """Fields that are drawn as a bar with a dot in it: its low end, the dot, its high end."""
 
     def cells(self) -> list[tuple[str, ...]]:
-        """The rows as people read them."""
+        """The rows as shown."""
         names = self.rows[0].__struct_fields__ if self.rows else ()
         return [tuple(told(name, getattr(row, name)) for name in names) for row in self.rows]
 
@@ -150,7 +150,7 @@ class Details:
 
 
 def told(name: str, value: object) -> str:
-    """A value of a field as people read it."""
+    """A value of a field as shown."""
     if value is None:
         return ""
     if isinstance(value, float):
@@ -186,7 +186,7 @@ class Sweep(Generic[R]):
     """Further entries of the JSON."""
     details: Callable[[Sequence[R]], Sequence[Details]] = field(default=lambda _: ())
     work: "Callable[[Case], Sequence[R]] | None" = None
-    """Carries out the trials of a case, where that takes no options: such a kind has a command for nothing."""
+    """Runs the trials of a case, if it takes no options: such a kind has a command for nothing."""
     shared_worlds: bool = False
     """Several trials share a world: a seed is not that of trial 0 and the number of the trial."""
 
@@ -196,7 +196,7 @@ class Sweep(Generic[R]):
 
 
 Work = Callable[[Case], Sequence[R]]
-"""Carries out the trials of a case. It is sent to other processes; what it raises is kept as how the trials ended."""
+"""Runs the trials of a case. It is sent to other processes; what it raises is kept as how the trials ended."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,7 +207,7 @@ class GuardedWork(Generic[R]):
     row: type[R]
 
     def __call__(self, case: Case) -> list[R]:
-        """Carry out the trials of a case."""
+        """Run the trials of a case."""
         timer = HostTimer()
         try:
             rows = list(self.work(case))

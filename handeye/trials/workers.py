@@ -47,7 +47,7 @@ class Answer(Generic[Item, T]):
 
 
 class Worker:
-    """A process that carries out one trial after the other."""
+    """A process that runs one trial after the other."""
 
     def __init__(self, trial: Callable[[Any], Any], limit_s: float | None = None) -> None:
         """Begin the process. Ctrl-C at the terminal is for us: it does not hear it."""
@@ -59,10 +59,10 @@ class Worker:
         self.given: _Assignment[Any] | None = None
         self._send(
             trial
-        )  # not with the process: whoever starts one writes for ever if it is killed meanwhile
+        )  # not with the process: the starter of one writes for ever if it is killed meanwhile
 
     def give(self, given: "_Assignment[Any]") -> None:
-        """Let it carry out a trial."""
+        """Let it run a trial."""
         self.given, given.timer = given, HostTimer()
         self._send(given.item)
 
@@ -73,7 +73,7 @@ class Worker:
         self.process.join()
 
     def _send(self, what: Any) -> None:
-        with suppress(OSError):  # it is gone, which whoever waits for its answer will be told
+        with suppress(OSError):  # it is gone, as the reader of its answer will see
             self.here.send(what)
 
 
@@ -89,7 +89,7 @@ class _Assignment(Generic[Item]):
 def answers(
     trial: Callable[[Item], T], items: Sequence[Item], count: int, *, limit_s: float | None = None
 ) -> Generator[Answer[Item, T], None, None]:
-    """Answers for each item, in the order they end, from processes, which end with whoever asks.
+    """Answers for each item, in the order they end, from processes, which end with the caller.
 
     A trial whose process is killed is begun once more in a new one; one that takes `limit_s` seconds of the processor
     is ended. Time in which the process is paused, or another has the processor, is not counted.
@@ -213,7 +213,7 @@ def _limited(limit_s: float | None) -> Iterator[None]:
 def _tried(trial: Callable[[Any], Any], item: Any) -> tuple[Any, BaseException | None]:
     try:
         return trial(item), None
-    except Exception as error:  # it is for whoever asked
+    except Exception as error:  # it is for the caller
         return None, error
 
 

@@ -99,7 +99,7 @@ class Failure:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GeneralLocation:
-    """Rough position of a part, within an inch or two: its reference point (m in W), if planned but for x, y."""
+    """Rough position of a part, within an inch or two: its reference point (m in W), as planned except for x and y."""
 
     box: BoundingBox  # around it in the picture
     x: float

@@ -30,7 +30,7 @@ UNLIKE: Final = 0.02
 BESIDE: Final = 12
 """Points beside the part that count neither to it nor to its surroundings.
 
-The mount stands beside what its potentiometers tell, and a part throws a shadow.
+The mount is not quite where its potentiometers say, and a part casts a shadow.
 """
 
 

@@ -73,7 +73,7 @@ def _intensities(picture: object) -> NDArray[np.float32]:
 
 
 class Scan:
-    """A picture that beams go through, within a window; it counts beams and points, for times and for people."""
+    """A picture that beams go through, within a window; it counts beams and pixels, for timing and display."""
 
     def __init__(self, picture: NDArray[np.generic]) -> None:
         """`picture`: intensities, shape (rows, columns); raises BadArgument if it is none."""

@@ -218,4 +218,4 @@ def test_angles_that_are_merely_wrong_are_not_taken_for_radians() -> None:
 
 def test_of_a_position_out_of_reach_it_is_said_what_it_is_counted_from() -> None:
     (help,) = planned("TRANS RIM [44.5 29.5 3.75 90 90 0] OF BASE\nMOVE RIM")
-    assert (help or "").endswith("nearer to the arm; it is relative to `BASE`")
+    assert (help or "").endswith("closer to the arm; it is relative to `BASE`")

@@ -56,7 +56,7 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[positions.A]\nat = [1, 2]", r":1: positions\.A: at: 2 entries, and needs 6"),
+        ("[positions.A]\nat = [1, 2]", r":1: positions\.A: at: 2 entries, but needs 6"),
         (
             "[positions.A]\nat = [1, 2, 3, 0, 0, 0]\nto = 1",
             r":1: positions\.A: `to` is not a known key",

@@ -40,7 +40,7 @@ def test_one_who_has_left_can_go_on() -> None:
 def test_what_cannot_be_had_is_refused_in_a_sentence() -> None:
     with pytest.raises(handeye.InvalidInput, match="there is no arm `kuka`"):
         handeye.TrigSession("kuka")
-    with pytest.raises(handeye.InvalidInput, match="nobody can see an arm that is imagined"):
+    with pytest.raises(handeye.InvalidInput, match="an arm without physics cannot be shown"):
         handeye.TrigSession().photograph()
-    with pytest.raises(handeye.InvalidInput, match="a picture of 0 x 480 cannot be made"):
+    with pytest.raises(handeye.InvalidInput, match="a picture of 0 x 480 is not possible"):
         handeye.TrigSession("purbrick").photograph(width=0)

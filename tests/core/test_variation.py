@@ -150,9 +150,7 @@ def test_a_specification_survives_the_disk(seed: int, level: Level, name: str) -
 
 
 def test_a_world_drawn_in_another_way_is_refused() -> None:
-    sentence = (
-        "the world of seed 3 was drawn by another handeye; this one draws another world from that seed, so"
-    )
+    sentence = "the world of seed 3 comes from another version of handeye; this version gives another world for that seed"
     with pytest.raises(InvalidInput, match=sentence):
         TABLE.draw(WorldSpec(seed=3, drawing=DRAWING + 1))
 
@@ -232,7 +230,7 @@ def test_a_scale_of_two_is_the_high_level_of_what_it_names(seed: int) -> None:
 def test_a_factor_that_errors_cannot_have_is_refused(factor: float) -> None:
     with pytest.raises(InvalidInput, match=r"^`slip` cannot be scaled by "):
         scaled(1, slip=factor)
-    with pytest.raises(InvalidInput, match=r"at the level high, by 0 to 2$"):
+    with pytest.raises(InvalidInput, match=r"at the level high, factors are 0 to 2$"):
         scaled(1, "high", slip=2.5)
 
 

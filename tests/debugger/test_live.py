@@ -95,7 +95,7 @@ def test_what_is_said_while_the_run_goes_is_refused_at_once_and_never_carried_ou
     replies = heard(stepper, {3: ["back", "stpe", "pace 0x"]})
     assert stepper.do("step 5").position == 5
     assert [reply.error for reply in replies] == [
-        f"`back` was not carried out: {GOING}",
+        f"`back` was ignored: {GOING}",
         "there is no command `stpe`; did you mean `step`?",
         "pace takes `1x`, `4x`, another number from 0.25x to 100x, or `free`, not `0x`",
     ]
@@ -105,7 +105,7 @@ def test_what_is_said_while_the_run_goes_is_refused_at_once_and_never_carried_ou
 def test_the_pace_can_be_set_while_the_run_goes(stepper: Stepper) -> None:
     replies = heard(stepper, {3: ["pace 4x"], 4: ["pace"]})
     stepper.do("step 5")
-    assert [reply.said for reply in replies] == ["the run goes 4 times real time"] * 2
+    assert [reply.said for reply in replies] == ["pace: 4 times real time"] * 2
     assert stepper.session.pace.factor == 4
 
 
@@ -156,7 +156,7 @@ def test_a_way_that_was_told_live_reads_as_one_that_was_told_at_its_end() -> Non
 
 def test_a_line_that_is_said_meanwhile_ends_the_line_under_way(stepper: Stepper) -> None:
     rows = told(stepper, "step 2", said={2: ["back"]}).splitlines()
-    assert rows[7:10] == ["    2 ADD B 1", f"`back` was not carried out: {GOING}", "    2 ADD B 1"]
+    assert rows[7:10] == ["    2 ADD B 1", f"`back` was ignored: {GOING}", "    2 ADD B 1"]
 
 
 def test_as_json_each_step_is_told_as_it_begins_and_every_line_has_an_answer(stepper: Stepper) -> None:
@@ -172,7 +172,7 @@ def test_as_json_each_step_is_told_as_it_begins_and_every_line_has_an_answer(ste
         "text": "ADD B 1", "script": "",
     }  # fmt: skip
     assert (out[2]["error"], out[4]["pause"]["met"]) == (
-        f"`step` was not carried out: {GOING}",
+        f"`step` was ignored: {GOING}",
         {"stop": "Asked"},
     )
     assert len(out[4]["did"]) == 3

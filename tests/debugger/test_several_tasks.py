@@ -34,7 +34,7 @@ def test_the_arrow_stands_before_the_task_that_is_next_and_a_dot_before_the_othe
 def test_they_are_shown_with_what_they_wait_for(stepper: Stepper) -> None:
     assert [line.strip() for line in as_text(stepper.do("show tasks")).splitlines()[1:]] == [
         "tasks     LEFT       1  ADD A 5",
-        "RIGHT      4  JUMP A 1, waits for flag 2",
+        "RIGHT      4  JUMP A 1, waiting for flag 2",
     ]
 
 

@@ -211,9 +211,9 @@ def test_rename_changes_the_script_and_what_is_taught() -> None:
     [
         ("L: JUMP |L", "1L", "names consist of letters"),
         ("L: JUMP |L", "OPEN", "a word of the language"),
-        ("MOVE |T", "P", "there is a position `P` already"),
-        ("MOVE |T", "BASE", "there is a position `BASE` already"),
-        ("M: L: JUMP |L", "M", "there is a label `M` already"),
+        ("MOVE |T", "P", "there is already a position `P`"),
+        ("MOVE |T", "BASE", "there is already a position `BASE`"),
+        ("M: L: JUMP |L", "M", "there is already a label `M`"),
         ("|PARK", "HOME", "`PARK` is a word of the language"),
         ("MOVE |PARK", "HOME", "`PARK` is a word of the language"),
         ("MOVE |LOW", "HIGH", "the definition of position `LOW` is not found in the taught file"),

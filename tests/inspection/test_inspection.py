@@ -73,8 +73,8 @@ def depends(pump: Plan, text: str) -> list[str]:
         ("FREE [1 1 0]\nCHANGE [0 0 -1] .6", "yields along x and y"),
         ("VIA T T\nMOVE T", "via T, T"),
         ("CLOSE 2 2.4", "holds 2 in or more, else error 2; 2.4 in or less, else error 7"),
-        ("TRAVEL 1.6 2.2", "went 1.6 in to 2.2 in, else error 8"),
-        ("HEIGHT B .04 .08", "stands 0.04 in to 0.08 in over B, else error 9"),
+        ("TRAVEL 1.6 2.2", "moved 1.6 in to 2.2 in, else error 8"),
+        ("HEIGHT B .04 .08", "is 0.04 in to 0.08 in above B, else error 9"),
     ],
 )
 def test_guards_are_told_in_the_units_of_the_script(statements: str, said: str) -> None:

@@ -147,14 +147,14 @@ GUARD = f"{CHANGE}.guards.0"
         (
             "program.steps.1.span",
             [8, 80],
-            "step 1 (line 4) is at characters 8 to 80 of line 4, which has 27",
+            "step 1 (line 4) is at characters 8 to 80 of line 4, which has only 27",
         ),
         ("program.steps.1.modifiers.0.line", 9, "step 1 (line 4) is at characters 8 to 25 of line 9"),
         ("program.steps.0.operation.via", ["X"], "step 0 (line 2) uses position X"),
         (
             "program.steps.0.operation.via",
             ["T"],
-            "step 0 (line 2) has 4 knots and 3 times; 5 and 4 are right",
+            "step 0 (line 2) has 4 knots and 3 times instead of 5 and 4",
         ),
         (
             "motions.0.times",
@@ -162,7 +162,7 @@ GUARD = f"{CHANGE}.guards.0"
             "step 0 (line 2) has a planned motion with impossible times or joints",
         ),
         ("motions.0.knots.1", [0.0] * 5, "its motions are of arms with 5 and 6 joints"),
-        ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 time; 4 and 3 are right"),
+        ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 time instead of 4 and 3"),
         (
             "motions.0.times",
             [1.0, -1.0, 1.0],

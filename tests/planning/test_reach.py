@@ -16,13 +16,13 @@ def test_a_goal_beyond_the_boom_says_how_far() -> None:
     (problem,) = said("TRANS FAR [25 60 4 90 90 0]\nMOVE FAR")
     assert problem.message == "FAR is 0.56 in beyond the reach of the Stanford arm"
     assert problem.notes == ("joint 3 (boom) would have to be 50.6 in; it ends at 50.0 in",)
-    assert problem.help == "move it at least 0.56 in nearer to the arm"
+    assert problem.help == "move it at least 0.56 in closer to the arm"
 
 
 def test_a_goal_too_near_to_the_column_says_how_near() -> None:
     (problem,) = said("TRANS NEAR [20 15 5 90 90 0]\nMOVE NEAR")
     assert problem.message == "NEAR is 1.06 in too close to the column of the Stanford arm"
-    assert problem.help == "move it at least 1.07 in farther from the arm"
+    assert problem.help == "move it at least 1.07 in away from the arm"
 
 
 @pytest.mark.parametrize("inches", [0.0035, 0.0081, 0.02, 0.7])
@@ -77,7 +77,9 @@ def test_a_straight_motion_through_the_singularity_is_found() -> None:
 def test_a_straight_motion_that_is_too_fast_for_a_joint_is_found() -> None:
     (problem,) = said("TRANS NEAR [20 28 8 90 90 0]\nMOVE NEAR\nCHANGE [1 0 0] 10 70")
     assert problem.code == "joint-too-fast"
-    assert problem.notes == ("joint 1 (column) would have to move at 192 degrees/s; it can do 172 degrees/s",)
+    assert problem.notes == (
+        "joint 1 (column) would have to move at 192 degrees/s; its limit is 172 degrees/s",
+    )
 
 
 @pytest.mark.parametrize("first", ["MOVE FAR", "TRANS LOW [25 38 -1 90 90 0]\nMOVE LOW"])

@@ -42,7 +42,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.HeightOutside(name="BARE", height=0.12 * INCH, minimum=0.04 * INCH, maximum=0.08 * INCH),
-        "it stands 0.120 in over BARE; allowed: 0.040 to 0.080 in",
+        "it is 0.120 in above BARE; allowed: 0.040 to 0.080 in",
     ),
     (c.HeightUnknown(name="BARE"), "BARE was not saved"),
     (c.GapTooSmall(gap=0.02 * INCH, minimum=0.1 * INCH), "the gap is 0.02 in, the minimum 0.10 in"),
@@ -157,7 +157,7 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.GasketWrong(
             faults=(c.GasketHoleOff(hole="largest", off=0.3 * INCH), c.GasketHoleUnseen(hole="second"))
         ),
-        "the largest hole of the gasket is displaced by about 0.30 in; the second hole of the gasket is not found",
+        "the largest hole of the gasket is displaced by about 0.30 in; the second hole of the gasket was not found",
     ),
     (
         c.GasketWrong(faults=(c.BaseHoleUnseen(hole="second"),)),

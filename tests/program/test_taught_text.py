@@ -74,7 +74,7 @@ def test_comments_and_layout_stay(before: str, after: str) -> None:
 )
 def test_what_cannot_be_edited_alone_is_refused_with_the_line_to_be_put_in(text: str) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^A cannot be added without .*; add this line yourself: A = \{ at = "
+        InvalidInput, match=r"^A cannot be added automatically; add this line yourself: A = \{ at = "
     ):
         with_position(text, "A", at(1, 2, 3))
 

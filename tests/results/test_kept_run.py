@@ -110,7 +110,7 @@ def test_the_result_of_another_run_is_left_out_and_told_of(ended: Path, name: st
     other = msgspec.structs.replace(kept_run(ended).result, **{name: OTHERS[name]})
     (ended / RESULT).write_bytes(to_json(other))
     kept = kept_run(ended)
-    assert [fault.partition(": ")[0] for fault in kept.faults] == [f"{ended / RESULT} is of another run"]
+    assert [fault.partition(": ")[0] for fault in kept.faults] == [f"{ended / RESULT} belongs to another run"]
     assert (getattr(kept.result, name) != OTHERS[name], kept.left) == (True, False)
     assert not has_ended(ended, open_again(ended)[1], judged=False)
 
@@ -142,7 +142,7 @@ def test_a_line_that_is_just_being_written_is_left_out(broken: Path) -> None:
 def test_seconds_that_cannot_be_read_are_left_out_by_name(broken: Path) -> None:
     (broken / HOST).write_bytes(b"{")
     kept = kept_run(broken)
-    assert [fault.partition(":")[0] for fault in kept.faults] == [f"{broken / HOST} is no record of seconds"]
+    assert [fault.partition(":")[0] for fault in kept.faults] == [f"{broken / HOST} is not a timing record"]
     assert kept.result.timing.run_wall_s == HostSeconds().run_wall_s
 
 

@@ -103,7 +103,7 @@ def test_a_state_of_another_system_is_refused() -> None:
     toy, program = Runner(begin_toy()), Runner(begin())
     with pytest.raises(InvalidInput, match="does not fit this plan"):
         toy.system.restore(program.system.state)
-    with pytest.raises(InvalidInput, match="is not of the executor of programs"):
+    with pytest.raises(InvalidInput, match="belongs to another system"):
         program.system.restore(toy.system.state)
 
 

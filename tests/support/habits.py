@@ -15,7 +15,8 @@ HABITS = {
     "tells of": r"tells? of\b",
     "comes to": r"(?:come|comes|came|coming) to (?!rest\b)",
     "comes along": r"(?:come|comes|came|coming) along\b",
-    "otherwise, for differently": r"(?<![.;:,(] )(?<!\band )(?<!\bor )(?<!\bunless )(?<!\bwould )(?-i:otherwise)\b",
+    "otherwise, for differently": r"(?<![.;:,(] )(?<!\band )(?<!\bor )(?<!\bunless )(?<!\bwould )"
+    r"(?<!\bNone )(?<!Input )(?-i:otherwise)\b",
     "a thing": r"(?<!same )thing\b",
     "ways part": r"ways part\b",
     "looks on": r"look(?:s|ed|ing)? on\b(?! (?:the|a|an)\b)",
@@ -27,7 +28,7 @@ HABITS = {
     r"|st(?:and|ands|ood) in (?:a|an|the|this|its|one) (?:text|file|table|list|page|script|trace)\b",
     "is known of": r"(?:is|are|was|were) known of\b",
     "at that, after a comma": r"at that(?=[.,;:)])",
-    "anew": r"anew\b",
+    "anew": r"anew\b(?!:)",
     "but for": r"but for\b",
     "whoever": r"whoever\b",
     "Who presses it": r"(?<!\w )(?-i:Who [a-z]+s)\b(?![^.]*\?)",

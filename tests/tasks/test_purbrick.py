@@ -103,7 +103,7 @@ def test_what_lies_on_the_platter_stays_there_when_more_is_put_there() -> None:
     after = table.poses
     assert all(after[name] == pytest.approx(at, abs=1e-6) for name, at in before.items())
     assert table.count == 3
-    with pytest.raises(InvalidInput, match=r"^there is a bucket already"):
+    with pytest.raises(InvalidInput, match=r"^there is already a bucket"):
         table.bucket(0.1, -0.1)
     table.clear()
     assert (table.count, table.bench.now) == (0, 0.2)

@@ -171,7 +171,7 @@ def test_nobody_quits_unsaved_without_being_told(pupil: TeachSession) -> None:
     [
         ("fly", "there is no command `fly`; `help` lists them"),
         ("tabel x 1", "there is no command `tabel`; did you mean `table`?"),
-        ("table x", "write it like `table x +.5` or `table turn z 10`"),
+        ("table x", "write it as in `table x +.5` or `table turn z 10`"),
         ("table w 1", "`w` is not an axis; there are x, y and z"),
         ("table x inf", "`inf` is not a number"),
         ("here 1A", "`1A` is not a name: letters, digits and _, no digit first"),

@@ -74,7 +74,7 @@ def test_a_servo_period_that_differs_is_named_with_what_happened_before(tmp_path
 
 def test_a_trace_that_ends_before_the_other_is_named(tmp_path: Path, whole: Trace) -> None:
     other = _changed(tmp_path / "b.mcap", last=5)
-    said = f"{other.name} ends and {whole.name} goes on after event 5 (the hand is at (3.94, 7.87, 11.81) in, open"
+    said = f"{other.name} ends and {whole.name} continues after event 5 (the hand is at (3.94, 7.87, 11.81) in, open"
     assert str(first_difference(whole, other)).startswith(said)
     assert str(first_difference(other, whole)).startswith(said)
 

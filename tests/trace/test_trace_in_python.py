@@ -123,7 +123,7 @@ def test_a_line_that_was_not_carried_out_is_refused(trace: Trace, line: int, bel
 def test_the_manual_names_nothing_that_a_trace_does_not_have() -> None:
     manual = (Path(__file__).parents[2] / "docs" / "stepping.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"```python\n(.*?)```", manual, re.DOTALL)
-    named = set(re.findall(r"\b(?:trace|felt)\.(\w+)", manual.partition("### From Python")[2]))
+    named = set(re.findall(r"\b(?:trace|felt)\.(\w+)", manual.partition("### In Python")[2]))
     assert {"forces", "at", "frame"} <= set(re.findall(r"trace\.(\w+)", block)) <= named
     assert named <= {name for kind in (Trace, Forces) for name in (*dir(kind), *kind.__dataclass_fields__)}
 

@@ -1,6 +1,6 @@
 """The program's memory, stored with each step as far as the step changed it.
 
-Pictures stay: a program that goes on takes them anew before it examines them. So do the camera's lens and aim, as
+Pictures stay: a program that continues takes them again before it examines them. So do the camera's lens and aim, as
 reversal moves only the arm.
 """
 
@@ -53,7 +53,7 @@ def remember(state: ExecutionState, found: Memory) -> None:
     for name, value in found.items():
         here = getattr(state, name)
         if isinstance(here, MutableRecord) and type(here) is type(value):
-            put_back(here, value)  # whoever holds it sees this
+            put_back(here, value)  # every holder of the record sees this
         else:
             setattr(state, name, value)
 

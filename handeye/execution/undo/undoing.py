@@ -110,7 +110,7 @@ def _first_of_lift(run: ExecutionContext) -> int:
     last = len(state.done) - 1
     try:
         rounds = loop_entry(state.done, lambda index: _hand_behind(run, index), grasping=state.grasping)
-    except ValueError:  # a way that cannot be used tells of no round
+    except ValueError:  # a path that cannot be used records no round
         return last
     entry = touch_entry(state.done, grasping=state.grasping) if rounds is None else rounds
     return last if entry is None or entry + 1 < state.undoing.left else entry + 1

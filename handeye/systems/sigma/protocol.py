@@ -44,7 +44,9 @@ class Timing(Record, frozen=True, kw_only=True):
     prepare: int = 20  # from a question until its first byte
     answer: int = 100  # from byte to byte of an answer
     answer_low: int = 50  # /ANSWER READY and data, from the beginning of each
-    guard: int = 20  # the bus is watched so much longer than the last byte for one that was not asked for
+    guard: int = (
+        20  # the bus is watched longer than the last byte by this time for one that was not asked for
+    )
     time_limit: int = 5_000  # until each byte of an answer
     settle: int = 0  # until a data line that has changed reads so
     scan: int = 1_000  # of a force microcomputer, all its channels

@@ -22,9 +22,9 @@ def cache(
     """List the kept camera calibrations, or remove them.
 
     What the arm measures of itself and of the camera before the first instruction is kept for other runs in the same
-    world, with the same pictures and versions: they give the same bytes and need not wait. `--calibrate`
-    measures anew. All of them take at most 16 MB, some 6 kB each; the oldest go. The environment variable HANDEYE_CACHE
-    names another folder than that of the platform; if it is empty, nothing is kept.
+    world, with the same pictures and versions: they give the same bytes and need not wait. `--calibrate` measures
+    again. All of them take at most 16 MB, some 6 kB each; the oldest go. The environment variable HANDEYE_CACHE names
+    another folder than that of the platform; if it is empty, nothing is kept.
     """
     from handeye.systems.stanford.kept_calibrations import KeptCalibrations
 

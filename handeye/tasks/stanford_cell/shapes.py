@@ -119,7 +119,8 @@ class Shaper:
         at: Vector = (0.0, 0.0, 0.0), style: str = "look",
     ) -> mujoco.MjsGeom:  # fmt: skip
         """A surface without collisions: vertices, shape (n, 3), and triangles, shape (m, 3); style `scenery` is for
-        people alone."""
+        photographs only.
+        """
         if self.spec.mesh(name) is None:
             self.spec.add_mesh(
                 name=name,

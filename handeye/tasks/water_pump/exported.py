@@ -1,4 +1,4 @@
-"""The pump's cell for other programs: parts by people's names, screws where they are, no mechanisms.
+"""The pump's cell for other programs: parts with readable names, screws in place, no mechanisms.
 
 In the cell a screw in its thread is a carrier, and the screw itself lies on a tray below the floor
 (`cell/threads.py`). Here it is the screw that is in its hole: it is where the carrier is, welded to the

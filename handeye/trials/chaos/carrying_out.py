@@ -38,7 +38,7 @@ class ReachedPosition(StopCondition, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class Answers:
-    """An operator who answers one thing after the other, and aborts then."""
+    """An operator who gives one answer after the other and then aborts."""
 
     answers: Sequence[Answer]
     before: int  # Answers that were given before the schedule began

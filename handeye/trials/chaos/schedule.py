@@ -62,7 +62,7 @@ class Schedule(Record, frozen=True, kw_only=True):
         return " ".join(f"{name}={value}" for name, value in words.items() if value)
 
     def without(self) -> Iterator["Schedule"]:
-        """Schedules that lack one thing of this one."""
+        """Schedules like this one with one element removed."""
         for name in ("faults", "breaks", "answers"):
             things = getattr(self, name)
             for number in range(len(things)):

@@ -221,7 +221,7 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 class ChaosWork:
     """Tries schedules on the sound runs of a folder."""
 
-    setup: Setup  # What the runs are but for their worlds
+    setup: Setup  # The setup of the runs without their worlds
     folder: Path
 
     def __call__(self, case: Case) -> list[ChaosRow]:

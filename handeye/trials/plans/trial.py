@@ -34,10 +34,10 @@ CPU_LIMIT_S: Final = 1800.0  # Of a processor: thirty times what a whole pump ta
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trial:
-    """Carries out trials of one plan."""
+    """Runs trials of one plan."""
 
     plan: Plan
-    world: WorldSpec  # What the worlds are but for their seeds
+    world: WorldSpec  # The worlds without their seeds
     camera: str = "auto"
     without: tuple[str, ...] = ()
     on_stop: str = "abort"

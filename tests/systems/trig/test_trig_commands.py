@@ -122,7 +122,7 @@ def test_the_way_between_two_places_becomes_a_relative_position() -> None:
     typist = Typist("CALPOS\nFREE\nX BY 30 RECORD\nENDCAL V")
     position = typist.session.program.positions["V"]
     assert (position.relative, position.data.measures()) == (True, (30, 0, 0, 0, 0, 0))
-    assert "CALPOS comes first" in refused(typist, "ENDCAL W")
+    assert "type CALPOS first" in refused(typist, "ENDCAL W")
 
 
 @pytest.mark.trig_row(35)

@@ -93,5 +93,5 @@ def test_without_the_entry_nothing_is_in_the_way() -> None:
 def test_boxes_that_are_none_are_refused(value: str, monkeypatch: pytest.MonkeyPatch) -> None:
     entry = f'[stations.tray]\nboxes = {{ value = {value}, unit = "in", source = "none" }}\n'
     monkeypatch.setattr(stations, "dimensions", lambda: drawn(entry))
-    with pytest.raises(InvalidInput, match=r"^the dimension `stations.tray.boxes` must be a list of boxes "):
+    with pytest.raises(InvalidInput, match=r"^the dimension `stations.tray.boxes` must be a list of boxes, "):
         stations.stations()

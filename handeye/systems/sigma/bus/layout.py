@@ -1,4 +1,4 @@
-"""Who hangs on the bus: segments of ten, the regenerators between them, and pages of status lines."""
+"""What is connected to the bus: segments of ten, the regenerators between them, and pages of status lines."""
 
 from typing import Final, Literal
 

@@ -173,7 +173,7 @@ class Microcomputer:
         )
 
     def elapse(self, at: int) -> None:
-        """Do what is due, but for receiving."""
+        """Do what is due, except receiving."""
         memory = self.memory
         if self.device.due == at:
             self.device.elapse(at)

@@ -19,9 +19,7 @@ class Crystal:
     """The clock of a microcomputer."""
 
     def __init__(self, ppm: int = 0) -> None:
-        self.ppm = (
-            ppm  # so much longer than they should be its intervals are; a fast clock has a negative one
-        )
+        self.ppm = ppm  # by how much its intervals are too long; a fast clock has a negative one
 
     def micros(self, micros: int) -> int:
         """Picoseconds that an interval of its own microseconds takes."""

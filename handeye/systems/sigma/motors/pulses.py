@@ -165,7 +165,7 @@ def _profile_times(train: Train) -> NDArray[np.float64]:
 
 
 def _ramp_times(steps: NDArray[np.float64], start: float, peak: float, ramp: float) -> NDArray[np.float64]:
-    """When so many steps of a ramp from `start` to `peak` are made that takes `ramp` s."""
+    """Time of a number of steps of a ramp from `start` to `peak` that takes `ramp` s."""
 
     def made(time: NDArray[np.float64]) -> NDArray[np.float64]:
         turned = ramp / math.pi * np.sin(math.pi * time / ramp)

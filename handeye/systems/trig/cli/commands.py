@@ -122,7 +122,7 @@ def at_terminal() -> bool:
 
 
 def _piped(session: "Session", halted: Callable[[], bool]) -> int:
-    """Carry out lines of standard input; a refused one is reported, and the next is read."""
+    """Execute lines of standard input; a refused one is reported, and the next is read."""
     from handeye.systems.trig.language.command_input import Script, hear
 
     code = 0

@@ -65,7 +65,7 @@ class LineDesk(Desk):
 
 
 def converse(session: Session, panic: PanicButton) -> None:
-    """Carry out lines until the user leaves, showing both displays after each change."""
+    """Execute lines until the user leaves, showing both displays after each change."""
     session.desk = desk = LineDesk(panic)
     desk.words = lambda: (*COMMANDS, *_names(session))
     shown = ""

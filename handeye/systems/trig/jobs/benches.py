@@ -32,7 +32,7 @@ class SeenTable(Tabletop):
 
     @abstractmethod
     def photograph(self, width: int, height: int) -> "Photograph":
-        """A photograph of arm and table for people; the program never sees it."""
+        """A photograph of arm and table; the program never sees it."""
 
 
 def open_bench(name: Literal["purbrick"]) -> "tuple[TrigArm, SeenTable]":

@@ -30,7 +30,7 @@ TABLE_HELP: Final = (
 
 
 def hear(session: Session, line: str) -> None:
-    """Carry out a line; a wrong or cancelled one leaves the program unchanged."""
+    """Execute a line; a wrong or cancelled one leaves the program unchanged."""
     word, _, rest = stripped(line).partition(" ")
     if not word:
         return
@@ -144,7 +144,7 @@ class LineRefused(BadFile):
 
 
 def type_script(session: Session, script: Script, name: str) -> int:
-    """Carry out the lines of a script until it leaves; returns the number of commands. `name` is for messages."""
+    """Execute the lines of a script until it leaves; returns the number of commands. `name` is for messages."""
     count = 0
     while not session.over and (line := script.next_line()) is not None:
         try:

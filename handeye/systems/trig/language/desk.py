@@ -140,7 +140,7 @@ class Tabletop(ABC):
 
 
 def arrange(table: Tabletop, line: str) -> str:
-    """Carry out a line about the table; returns its content in words. Raises BadArgument."""
+    """Execute a line about the table; returns its content in words. Raises BadArgument."""
     words = line.removeprefix(MARK).upper().split()
     match words:
         case ["STACK", count, "X", x, "Y", y] if count.isdecimal() and 0 < int(count[:9]) <= MAX_STACK:

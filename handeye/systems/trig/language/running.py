@@ -105,7 +105,7 @@ class RunResult:
 
 @dataclass(slots=True, kw_only=True)
 class Interpreter:
-    """Carries out a program with an arm."""
+    """Runs a program with an arm."""
 
     program: TrigProgram
     arm: TrigArm

@@ -177,7 +177,7 @@ def job_files(done: JobReport, program: TrigProgram) -> dict[str, bytes]:
 
 
 def kept_job_page(path: Path) -> bytes | None:
-    """The report of a folder's job, made anew; None if it holds no finished one."""
+    """The report of a folder's job, made again; None if it holds no finished one."""
     if not (path / JOB).is_file():
         return None
     return job_page(_read_account(path / JOB), read_program(path / TAUGHT))

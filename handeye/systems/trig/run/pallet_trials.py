@@ -54,7 +54,7 @@ class PalletWork:
     world: WorldSpec
 
     def __call__(self, case: Case) -> list[PalletRow]:
-        """Carry out one trial."""
+        """Run one trial."""
         report = tried(self.blocks, self.interrupt, case.seed, self.world)
         return [PalletRow(trial=case.trials[0], seed=case.seed, report=report)]
 

@@ -101,7 +101,7 @@ def typed(text: str, name: str) -> TrigProgram:
         return False
 
     script = Script(text.splitlines(), halted=ask)
-    session.desk, session.files = script, False  # a plan comes with checkpoints and traces, whoever made them
+    session.desk, session.files = script, False  # checkpoints and traces of any origin contain a plan
     type_script(session, script, name)
     return session.program
 

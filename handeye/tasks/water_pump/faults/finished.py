@@ -73,7 +73,7 @@ def _stop(angle: float) -> Mishap:
 
 
 def _turn(angle: float) -> Mishap:
-    """Somebody turns the rotor by an angle (rad)."""
+    """A person turns the rotor by an angle (rad)."""
 
     def act(scene: Scene, _: MishapState) -> bool:
         joint, dof = _rotor(scene)

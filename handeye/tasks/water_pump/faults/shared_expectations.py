@@ -67,7 +67,9 @@ ONCE: Final = {
     NOTHING_HELD: (NOT_WHERE_SEEN, NOT_LIFTED, NO_DRIVER, NO_TOP),
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
-"""Errors by which a program that does each thing once, as that of 1973, tells what the careful one calls: one name."""
+"""Errors with which a program that tries every step once, like that of 1973, reports what the careful one names: one
+name.
+"""
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN"
 CRANK_ASTRAY: Final = "THE CRANK IS NOT WHERE IT WAS LEFT"

@@ -33,7 +33,7 @@ SCREW_LEAN: Final = 1.0  # deg: a head 11 mm wide that leans farther gapes by SC
 SCARS: Final = 0
 """Threads; a caution. What a scar does to a pump is judged by itself: a screw that was backed out and driven straight
 holds as any other if it clamps (SCREW_CLAMP), stands straight (SCREW_LEAN) and has its length of thread (SCREW_THREAD).
-But whoever takes the pump apart has to know: a thread that was cut twice strips sooner."""
+But anyone who takes the pump apart has to know: a thread that was cut twice strips sooner."""
 SOFT: Final = 0.03
 """mm over the clearance of a shank or pin in its hole. Contacts are soft: a shank that was pressed on a bore with 4 to
 32 N went .02 mm into it, with 64 N .033. One that cuts metal goes farther."""

@@ -56,7 +56,7 @@ def build(world: PumpWorld) -> mujoco.MjModel:
 
 
 def dressed(world: PumpWorld) -> mujoco.MjModel:
-    """The scene as people see it, compiled: it has shapes that no working cell needs. It is never simulated."""
+    """The scene as photographs show it, compiled: it has shapes that no working cell needs. It is never simulated."""
     spec = specification(world)
     dress(Shaper(spec=spec))
     return spec.compile()

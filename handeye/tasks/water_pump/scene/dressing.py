@@ -1,4 +1,4 @@
-"""Furniture for people's pictures: tape reels, teletype, clock, boom cables and bevels; no working cell has it.
+"""Furniture for photographs: tape reels, teletype, clock, boom cables and bevels; no working cell has it.
 
 It touches nothing, weighs nothing, and lies in a group that the television camera leaves out.
 """
@@ -29,7 +29,7 @@ _MATERIALS: Final = {
 
 
 def dress(shaper: Shaper) -> None:
-    """Add the furniture for people to a scene."""
+    """Add the furniture for photographs to a scene."""
     for name, (*rgb, gloss) in _MATERIALS.items():
         shaper.spec.add_material(name=name, rgba=[*rgb, 1.0], specular=gloss, shininess=gloss)
     add_textures(shaper.spec)
@@ -43,7 +43,7 @@ def dress(shaper: Shaper) -> None:
 _REEL_RADIUS_M: Final = 0.100
 _TELETYPE_PLACE_M: Final = (-1.70, -0.55)
 _TURN: Final = [math.cos(math.radians(-5)), 0.0, 0.0, math.sin(math.radians(-5))]
-"""Quaternion that turns it to people's lamp: faces nearly in line with the light are full of specks."""
+"""Quaternion that turns it to the lamp of photographs: faces nearly in line with the light are full of specks."""
 
 
 def add_reels(shaper: Shaper) -> None:

@@ -18,7 +18,7 @@ EXACT: Final = Placing()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fixture:
-    """A fixed body in whose frame a thing stands where the *nominal* table frame says."""
+    """A fixed body in whose frame a part has its *nominal* table coordinates."""
 
     body: mujoco.MjsBody
     X_WF: Pose  # nearly the identity: the error of place, about the fixture's middle
@@ -33,7 +33,7 @@ class Fixture:
         turn: float = 0.0,
         error: Placing = EXACT,
     ) -> mujoco.MjsBody:
-        """A free body that starts on this fixture, but for an error at a nominal place and yaw `turn` (m, rad)."""
+        """A free body that starts on this fixture, at a nominal place and yaw `turn` (m, rad) plus an error."""
         X = self.X_WF @ error.about(x, y, z) @ planar(x, y, z, turn)
         body = _body(shaper, name, X)
         body.add_freejoint(name=name)

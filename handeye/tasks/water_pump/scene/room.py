@@ -144,7 +144,7 @@ def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
 
 
 def _add_cameras(spec: mujoco.MjSpec) -> None:
-    """The television camera `tv` looks at the standard position; the cell turns it. Others are for people."""
+    """The television camera `tv` looks at the standard position; the cell turns it. The others are for photographs."""
     d = dimensions()
     focal = d.all("camera.focal_length")[0]
     tv = add_camera(spec, "tv", np.array(d.all("camera.mount")), np.array([*d.all("standard.place"), 0.04]))

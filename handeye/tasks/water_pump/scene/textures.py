@@ -1,4 +1,4 @@
-"""Grain of wood, cast iron, belt and floor, made by arithmetic: for people's pictures.
+"""Grain of wood, cast iron, belt and floor, made by arithmetic: for photographs.
 
 The television camera sees the materials' plain intensities, so a texture changes nothing that is measured.
 """
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from handeye.core.pose import Array
 
 _SIZE: Final = 512
-_BENCH: Final = 1024  # px: people see more of the bench than of anything else
+_BENCH: Final = 1024  # px: photographs show more of the bench than of anything else
 _BOARDS: Final = 33
 Grain = Callable[[np.random.Generator], Array]
 """Draws a square picture of relative intensities, shape (n, n, 3)."""

@@ -1,1 +1,1 @@
-"""Trials of the eye in many worlds of the pump, without carrying out a program."""
+"""Trials of vision in many worlds of the pump, without running a program."""

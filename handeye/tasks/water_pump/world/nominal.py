@@ -29,9 +29,9 @@ def _looks(
 ) -> Iterator[CalibrationLook]:
     """A look at each of some places of a grid about (x, y), with the lamp shown left and right, high and low; inches.
 
-    The camera is aimed anew for each look, because the reading of its pan and tilt has an error of its own
-    each time; two places of one look tell how the camera is rolled. The heights are mixed, because places of one height
-    would not tell height from depth.
+    The camera is aimed again for each look, because each reading of its pan and tilt has a different error; two places
+    of one look tell how the camera is rolled. The heights are mixed, because places of one height would not tell
+    height from depth.
     """
     for k in chosen:
         cx, cy = x + dx * (k % 3 - 1), y + dy * (k // 3 - 0.5)
