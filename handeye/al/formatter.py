@@ -47,7 +47,7 @@ def _operands(tokens: Sequence[Token]) -> str:
 
 
 def _is_tight(tokens: Sequence[Token]) -> bool:
-    """True if the last token touches the one before: after a bracket, or a comma without blanks.
+    """True if the last token touches the previous one: after a bracket, or a comma without blanks.
 
     A blank after a comma is kept: `0, 5` are two numbers, `0,5` is one written wrongly. So is `O.5`.
     """

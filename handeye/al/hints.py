@@ -61,7 +61,7 @@ def with_digits(text: str) -> str | None:
 
 
 def letters_for_digits(text: str) -> str | None:
-    """Help for a text with letters in the place of digits; None if it has none."""
+    """Help for a text with letters instead of digits; None if it has none."""
     right = with_digits(text)
     return None if right is None else f"write a digit, not a letter that looks like it: `{right}`"
 

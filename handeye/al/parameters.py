@@ -1,4 +1,4 @@
-"""Lines of a macro with a call's operands in the place of parameters.
+"""Lines of a macro with a call's operands instead of parameters.
 
 An operand is read where its parameter stands; a mistake in it alone is reported where it is written.
 """
@@ -30,7 +30,7 @@ class Argument(Located, frozen=True, gc=False):
 
 
 class _Piece(Located, frozen=True, gc=False):
-    """A token of the line, or the argument in the place of a parameter."""
+    """A token of the line, or the argument instead of a parameter."""
 
     tokens: tuple[Token, ...]
     text: str
@@ -58,7 +58,7 @@ class FilledLine:
 
     @property
     def text(self) -> str:
-        """The line as carried out."""
+        """The line as executed."""
         return " ".join([self.head.text, *filter(None, [_text(self.pieces)])])
 
     @property
@@ -94,7 +94,7 @@ class FilledLine:
 
 
 def filled(statement: Statement, given: Mapping[str, Argument]) -> FilledLine:
-    """A line of a macro, or a call, with arguments in the place of parameters."""
+    """A line of a macro, or a call, with arguments instead of parameters."""
     assert statement.word is not None
     words = statement.word.text in FREE_TEXT
     uses = {t.span: given[t.text] for t in parameters_in(statement) if t.text in given}

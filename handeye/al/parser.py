@@ -28,7 +28,7 @@ from handeye.core.diagnostics import (
 from handeye.core.source import Source, Span
 
 _DEFINE: Final = "DEFINE"
-_CONSOLE_WORDS: Final = ("DO", "GO")  # console commands that carry out an instruction or the program
+_CONSOLE_WORDS: Final = ("DO", "GO")  # console commands that execute an instruction or the program
 
 
 def parse(text: str) -> tuple[Script, list[Diagnostic]]:

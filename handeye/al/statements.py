@@ -73,7 +73,7 @@ def named_vectors(words: ByWord) -> Vectors:
 
 
 def with_vectors(statement: Statement, known: Vectors) -> Statement:
-    """A statement with vectors in the place of their names."""
+    """A statement with vectors instead of their names."""
     named = statement.word is not None and statement.word.text in _TAKE_NAMES
     if not named or statement.broken or not any(isinstance(value, Name) for value in statement.operands):
         return statement

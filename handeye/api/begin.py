@@ -69,11 +69,11 @@ def begin(
         judge: have the referee judge the end; by default if one is given, or if the run began so.
         taught: as for `handeye.plan`.
         task: name of the task; by default that of the plan, program, run or world, else the water pump.
-        out: folder for plan, events, trace, checkpoints, pictures and result; nothing else is written to. To go on in
+        out: folder for plan, events, trace, checkpoints, pictures and result; nothing else is written. To continue in
             the folder of a run, give it here as well.
         overwrite: a run that is in that folder may be lost.
 
-    Limits are kept with the run. Code in the place of a part cannot be: checkpoints, trace and result name it,
+    Limits are kept with the run. Code that replaces a part cannot be kept: checkpoints, trace and result name it,
     `handeye resume` and `handeye trace verify` refuse such a run, and it is taken up here with a part of the same name.
 
     Raises:

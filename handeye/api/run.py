@@ -82,7 +82,7 @@ class Run:
         self._outcome: tuple[int, Result] | None = None
         self._broken: DriverFailure | None = None
 
-    # -- going on -------------------------------------------------------------------------------------
+    # -- running --------------------------------------------------------------------------------------
 
     def step(self, n: int = 1) -> State:
         """Do the next `n` steps, or fewer if something stops the run.
@@ -369,7 +369,7 @@ class Run:
         return exported(path, lambda: present_state(self._runner), part, overwrite=overwrite)
 
     def close(self) -> None:
-        """End the run, and complete its folder: trace, pictures, result, and a checkpoint if it can go on."""
+        """End the run, and complete its folder: trace, pictures, result, and a checkpoint if it can continue."""
         if self._closed is not None:
             return
         folder = self._keeping.folder

@@ -47,7 +47,7 @@ class RunRequest:
 
     @property
     def spec(self) -> WorldSpec | None:
-        """The requested world, if any; raises InvalidInput if there is none such, or seed and world are both given."""
+        """The requested world, if any; raises InvalidInput if there is none, or seed and world are both given."""
         if self.world is None:
             return None if self.seed is None else WorldSpec(seed=checked_seed(self.seed))
         if self.seed is not None:

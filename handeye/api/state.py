@@ -41,7 +41,7 @@ class State:
     position: int  # steps done since the run began
     time: float  # simulated seconds since the program began
     stage: str | None  # the stage under way, or the one about to begin; None after the last
-    step: int | None  # number of the step that comes next; None if the run cannot go on by itself
+    step: int | None  # number of the step that comes next; None if the run cannot continue alone
     file: str  # the required file that its line is in; empty: the script itself
     line: int | None
     text: str | None  # its statement, without the `STOP` or what else modifies it

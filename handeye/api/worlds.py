@@ -64,7 +64,8 @@ class World:
             task: name of its task.
 
         Raises:
-            InvalidInput: there is no such seed, level, quantity, fault, unit or value; the message suggests the nearest.
+            InvalidInput: there is no such seed, level, quantity, fault, unit or value; the message suggests the
+                nearest.
         """
         number = checked_seed(seed)
         if not isinstance(level, str) or level not in SPREADS:

@@ -5,7 +5,7 @@ measured. What is left shows masses, mass centres and drives that are not as mod
 tells more of them (recursive least squares with a prior, Gauss; the prior is what the arm does not know when it has
 weighed itself, for errors of twice their stated size), until a motion at a new posture leaves next to nothing. What
 then differs has changed. Measured in three worlds, one of them at the high level: joint 2 of the Stanford arm is known
-to .27 N m of the 18 that it bears over the table, joint 3 to .6 N of 5 to 20. A joint that bears no weight tells
+to .27 N m of the 18 that it bears over the table, joint 3 to .6 N of 5 to 20. A joint that carries no weight tells
 nothing.
 """
 

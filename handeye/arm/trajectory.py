@@ -103,7 +103,7 @@ def _raised(arm: ArmModel, X_WT: Pose, q: Array, height: float) -> Array | None:
 
 
 def _knots(q0: Array, q1: Array | None, via: Sequence[Array], q2: Array | None, q3: Array) -> Array:
-    """All knots, with points in joint space in the place of missing lift-off and set-down points."""
+    """All knots, with points in joint space instead of missing lift-off and set-down points."""
     ahead = via[0] if via else q3 if q2 is None else q2
     behind = via[-1] if via else q0 if q1 is None else q1
     leave, reach = q0 + DIRECT_KNOT * (ahead - q0), q3 + DIRECT_KNOT * (behind - q3)

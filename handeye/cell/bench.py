@@ -75,7 +75,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)
 
     def replace(self, spec: mujoco.MjSpec) -> None:
-        """Go on with a changed scene: what was there before is where it was."""
+        """Continue with a changed scene: what was there before is where it was."""
         self.model, self.data = spec.recompile(self.model, self.data)
         mujoco.mj_forward(self.model, self.data)
         for part in self._parts:

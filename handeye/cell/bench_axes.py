@@ -183,7 +183,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
     # -- as time passes -------------------------------------------------------------------------------
 
     def _interpolate(self) -> None:
-        """Go on towards the goal, evenly for a period: goals that jump shake what lies on the axes.
+        """Continue towards the goal, evenly for a period: goals that jump shake what lies on the axes.
 
         Measured: a platter's acceleration had peaks of 10.8 m/s2 on ways planned with 1, which drew blocks along.
         """

@@ -32,7 +32,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
     """Two fingers, their motor and sensors `switch_a` and `switch_b` behind a prefix in the MuJoCo model.
 
     The activation of the motor `grip` is the set-point of its servo, its control the rate of that: between two commands
-    the fingers go on as smoothly as by an analogue servo.
+    the fingers continue as smoothly as by an analogue servo.
     """
 
     kind = HandState

@@ -40,7 +40,7 @@ class Mechanism(ABC, Generic[S]):
         """More time (s) than that of `before` passes at once, because everything sleeps."""
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Go on in a changed scene, where numbers of bodies, joints and servos may be others, if it can."""
+        """Continue in a changed scene, where numbers of bodies, joints and servos may be others, if it can."""
         raise Refused(f"{self.name} cannot continue in a changed scene")
 
     def after(self) -> None:

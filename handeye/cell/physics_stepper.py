@@ -32,7 +32,7 @@ def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
 
 
 class PhysicsStepper:
-    """Lets the physics of a cell go on.
+    """Lets the physics of a cell continue.
 
     A long step in which anything comes into contact is taken back, and short ones are made instead, from the last
     moment at which nothing touched: no contact ever feels a long step.

@@ -1,7 +1,7 @@
 """The raster of a television tube: where on its target the beam reads the points of a picture.
 
 Coils and their currents are not perfect. The raster is drawn out or in towards the corners, uneven along its lines and
-from line to line, and no picture lies quite where the one before lay. All figures are shares of half the picture.
+from line to line, and no picture lies quite where the previous one lay. All figures are shares of half the picture.
 """
 
 from dataclasses import dataclass
@@ -61,6 +61,6 @@ class Raster:
         found = uv
         for _ in range(
             8
-        ):  # distortions are small and smooth: each step is wrong by a fiftieth of the one before
+        ):  # distortions are small and smooth: each step is wrong by a fiftieth of the previous one
             found = found + uv - self.target(found)
         return np.asarray(found)

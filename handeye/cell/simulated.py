@@ -80,7 +80,7 @@ class SimulatedCell(Clock, SnapshotCell):
         self._data.time = 0.0
 
     def begin_stage(self, number: int) -> None:
-        """Begin a stage of the program, by its number from 1: faults may set in with it."""
+        """Begin a stage of the program, by its number from 1: faults may begin with it."""
         for part in self._mechanisms:
             part.begin_stage(number)
 

@@ -1,4 +1,4 @@
-"""A job of the commands that move the arm: build, carry out, save, judge, print."""
+"""A job of the commands that move the arm: build, run, save, judge, print."""
 
 import shlex
 import sys
@@ -70,7 +70,7 @@ class Job:
     breaks: Sequence[str] = ()
     halfway: bool = False  # Save a checkpoint where it pauses, if it has no folder
     step: bool = False
-    live: bool = False  # Tell each line as it begins, and hear what is said while the run goes
+    live: bool = False  # Show each line as it begins, and accept commands during the run
     server: "Server | None" = None  # Serves the page in which it is stepped, instead of the terminal
     on_stop: str | None = None
     json: bool = False
@@ -100,7 +100,7 @@ class _StageKeeper(Observer):
 
 
 class _Forgiving(Observer):
-    """Keeps an unnamed run. Where the disk takes no more of it, the run goes on without."""
+    """Keeps an unnamed run. If the disk is full, the run continues without it."""
 
     def __init__(self, work: "_Work") -> None:
         self._work = work
@@ -151,7 +151,7 @@ class _Work:
         """The checkpoint that was saved last, outside the folder of the run."""
 
     def _unnamed(self) -> UnnamedRun | None:
-        """A folder for an unnamed run; where there cannot be one, the run goes on without."""
+        """A folder for an unnamed run; if it cannot be made, the run continues without one."""
         home = runs_folder()
         if home is None:
             return None
@@ -181,7 +181,7 @@ class _Work:
             self.folder.close()
 
     def do(self) -> int:
-        """Carry out the job; return the exit code."""
+        """Run the job; return the exit code."""
         runner = self._built()
         if runner is None:
             return self._interrupted(None)
@@ -305,7 +305,7 @@ class _Work:
             return drive(stepper, server.link, self.panic.aside)
 
     def _lines(self, words: list[str]) -> tuple[Iterator[str], Live | None]:
-        """Lines to carry out, and the live display of the run, if there is one."""
+        """Lines to execute, and the live display of the run, if there is one."""
         put = partial(screen.print, end="", markup=False, soft_wrap=True)
         if sys.stdin.isatty():
             lines = typed_lines("handeye> ", self._waiting, lambda: words)

@@ -60,5 +60,5 @@ def _seeds(first: int, last: int) -> range:
 
 
 def following(seeds: Sequence[int]) -> bool:
-    """Each seed is one more than the one before."""
+    """Each seed is one more than the previous one."""
     return all(seed == seeds[0] + k for k, seed in enumerate(seeds))

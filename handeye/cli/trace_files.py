@@ -34,7 +34,7 @@ def run_or_newest(given: Path | None) -> Path:
 
 
 def two_runs(a: Path | None, b: Path | None) -> tuple[Path, Path]:
-    """Two runs to compare: those that were named; the newest one in the place of the second, or the newest two."""
+    """Two runs to compare: those that were named; the newest one instead of the second, or the newest two."""
     from handeye.runs.unnamed_runs import newest_runs
 
     if a is not None and b is not None:

@@ -72,7 +72,7 @@ class ErrorOptions:
 
     @property
     def work(self) -> "AnyTask":
-        """The task; raises InvalidInput if there is none such."""
+        """The task; raises InvalidInput if there is none."""
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
@@ -151,7 +151,7 @@ class WorldOptions:
 
     @property
     def work(self) -> "AnyTask":
-        """The task; raises InvalidInput if there is none such."""
+        """The task; raises InvalidInput if there is none."""
         return self.errors.work
 
     @property

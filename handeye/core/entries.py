@@ -23,7 +23,7 @@ OWN: Final = (
     "handeye.systems.trig:ENTRY",
     "handeye.systems.sigma:ENTRY",
 )  # need no installed metadata
-PLANNED: Final = "program"  # the system that carries out plans of motions, which is meant where none is named
+PLANNED: Final = "program"  # the system that executes plans of motions, which is meant where none is named
 
 Capability = Literal[
     "plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format", "console", "python"

@@ -30,7 +30,7 @@ class HandeyeError(Exception):
 
 
 class InvalidInput(HandeyeError):
-    """A file or argument is unusable, or its request cannot be carried out."""
+    """A file or argument is unusable, or its request cannot be executed."""
 
 
 class BadArgument(InvalidInput):
@@ -54,7 +54,7 @@ class Taken(CannotWrite):
 
 
 class Refused(InvalidInput):
-    """A valid request that this machine, system or state cannot carry out."""
+    """A valid request that this machine, system or state cannot execute."""
 
 
 class PhysicsFailed(HandeyeError):

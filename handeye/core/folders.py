@@ -52,7 +52,7 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
 
 
 def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
-    """Write a folder atomically in the place of an earlier one, which stays if writing fails."""
+    """Replace a folder atomically; the earlier one stays if writing fails."""
     place = Path(os.path.realpath(path))
     temporary = None
     try:

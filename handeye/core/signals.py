@@ -70,7 +70,7 @@ def _interrupt(number: int) -> NoReturn:
 
 
 def _leave_closed_terminal() -> None:
-    """Have the null device in the place of a terminal that was closed: whatever is written to that raises OSError."""
+    """Replace a closed terminal by the null device: writing to the terminal would raise OSError."""
     for file in range(3):
         with suppress(OSError):
             if stat.S_ISCHR(os.fstat(file).st_mode) and not os.isatty(file):

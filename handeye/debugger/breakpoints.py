@@ -24,7 +24,7 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     """The breakpoint in a text; raises InvalidInput if there is no such place, or no step can raise such an error.
 
     It is `error:23`; a line of the source, or `pins.al:3` (its first step, or the first after it); a label; an
-    instruction word (every step that begins with it); or a stage, by its name or a piece of it.
+    instruction word (every step that begins with it); or a stage, by its name or part of it.
     """
     text = text.strip()
     if not text:
@@ -46,7 +46,7 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
 
 def stage_number(text: str, listing: Listing) -> int:
-    """The index of a stage by its number from 1, its name, or a piece of only that name; raises InvalidInput."""
+    """The index of a stage by its number from 1, its name, or part of only that name; raises InvalidInput."""
     return stage_index(text, listing.stages)
 
 

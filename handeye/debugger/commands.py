@@ -30,7 +30,7 @@ from handeye.runs.system import Settable
 
 LISTED_AROUND: Final = 8  # lines that `list` shows before and after one
 
-# -- going on -------------------------------------------------------------------------------------------
+# -- running --------------------------------------------------------------------------------------------
 
 
 def step(session: DebugSession, rest: str) -> CommandResult:

@@ -22,7 +22,7 @@ FREE: Final = "free"  # as fast as it goes
 SLOWEST: Final = 0.25
 FASTEST: Final = 100.0
 _LATE_S: Final = (
-    0.1  # up to which a run catches up; one that is later, as after a picture, goes on from there
+    0.1  # up to which a run catches up; one that is later, as after a picture, continues from there
 )
 
 

@@ -119,18 +119,18 @@ class UnderWay(Record, frozen=True, kw_only=True):
 
 
 class Reply(CommandResult, frozen=True, kw_only=True):
-    """The answer to a command: where the run now stands, and what came of the command."""
+    """The answer to a command: where the run now stands, and the outcome of the command."""
 
     command: str
     position: int  # steps done
     time: float  # s since the working phase began
     stage: str | None  # present or next; None after the last
     stage_number: int | None  # from 1
-    step: int | None  # the step to be done next; None if the run cannot go on by itself
+    step: int | None  # the step to be done next; None if the run cannot continue alone
     line: int | None
     text: str | None  # its statement
     script: str = ""  # the required file its line is in; empty: the script itself
     tasks: tuple[TaskView, ...] | UnsetType = UNSET  # places of the tasks of a system that has several
     did: tuple[StepSummary, ...] = ()  # steps that were done, in words
     events: tuple[AnyEvent, ...] = ()  # events that have happened, in full
-    error: str | None = None  # why the command was not carried out
+    error: str | None = None  # why the command was not executed

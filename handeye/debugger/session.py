@@ -49,8 +49,8 @@ class DebugSession:
         self.breaks: dict[int, AnyStop] = {}  # breakpoints by number; a number is never used twice
         self.over = False
         self.pace = Pace()
-        self.output = Observer()  # prints what the run does while it goes on
-        self.input = Observer()  # takes lines typed while it goes on, or back
+        self.output = Observer()  # prints what the run does while it continues
+        self.input = Observer()  # takes lines typed while it continues, or back
         self.going: Literal["on", "back"] | None = None  # the way in which the run goes; None: it pauses
         self._pause_asked = False
         self._set = 0
@@ -80,10 +80,10 @@ class DebugSession:
     # -- going ----------------------------------------------------------------------------------------
 
     def go(self, stops: Sequence[AnyStop] = (), steps: int | None = None) -> Pause:
-        """Go on to the next of these stops or a breakpoint, or for `steps` steps.
+        """Continue to the next of these stops or a breakpoint, or for `steps` steps.
 
-        A step that is broken off, by the panic button or because something fails, is undone. Raises InvalidInput if the
-        run cannot go on.
+        A step that the panic button or a failure interrupts is undone. Raises InvalidInput if the
+        run cannot continue.
         """
         refusal = self.at_its_end()
         if refusal is not None:
@@ -110,7 +110,7 @@ class DebugSession:
         return pause
 
     def ask_pause(self) -> None:
-        """Ask a run that goes on to pause behind the step under way; raises InvalidInput if it does not go on."""
+        """Ask a moving run to pause after the current step; raises InvalidInput if it is paused."""
         if self.going is None:
             raise Refused("the run is already paused")
         if self.going == "back":
@@ -136,7 +136,7 @@ class DebugSession:
         return Pause(kind="break", next=self.runner.at, met=ByHand())
 
     def at_its_end(self) -> str | None:
-        """Why the run cannot go on by itself; None if it can."""
+        """Why the run cannot continue alone; None if it can."""
         runner = self.runner
         if not runner.ended:
             return None
@@ -168,7 +168,7 @@ class DebugSession:
         return first
 
     def stage_began(self) -> int | None:
-        """Position at which the present stage began, or between stages the one before; None before the first."""
+        """Position at which the present stage began, or between stages the previous one; None before the first."""
         return next(reversed(beginnings(self.runner).values()), None)
 
     # -- where it stands ------------------------------------------------------------------------------

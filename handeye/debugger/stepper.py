@@ -21,7 +21,7 @@ from handeye.runs.snapshot import Checkpoint
 
 
 class Stepper:
-    """Carries out commands on a run."""
+    """Executes commands on a run."""
 
     def __init__(
         self,
@@ -51,7 +51,7 @@ class Stepper:
         return self.session.pause
 
     def do(self, line: str) -> Reply:
-        """Carry out a command; one that is wrong changes nothing."""
+        """Execute a command; one that is wrong changes nothing."""
         line = line.strip()
         happened = len(self.session.runner.events)
         try:
@@ -118,7 +118,7 @@ def interact(
     most: int | None = None,
     live: Live | None = None,
 ) -> Pause:
-    """Carry out commands, one a line, until the session is left; returns why the run pauses. No more lines mean `quit`.
+    """Execute commands, one a line, until the session is left; returns why the run pauses. No more lines mean `quit`.
 
     Args:
         write: prints lines of text, given without the final newline.

@@ -49,7 +49,7 @@ class ExecutionContext:
     search: SearchPattern = spiral  # places that a search tries
     without: frozenset[str] = frozenset()  # senses not used; see `program.senses`
     vision: Stopwatch = field(default_factory=Stopwatch)
-    """Processor time of vision; the working phase itself reads no host clock."""
+    """CPU time of vision; the working phase itself reads no host clock."""
     state: ExecutionState = field(init=False)
     drive: ArmDrive = field(init=False)
     world: WorldModel = field(init=False)
@@ -87,5 +87,5 @@ class ExecutionContext:
 
 
 Action = Callable[[ExecutionContext, Any], Fault | None]
-"""Carries out an operation and returns the error it raises."""
+"""Executes an operation and returns the error it raises."""
 Decision = Callable[[ExecutionContext, Any], bool]  # True if the step takes its branch

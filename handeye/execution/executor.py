@@ -1,4 +1,4 @@
-"""The executor: carries out the graph of a plan, step by step, with error tests."""
+"""The executor: runs the graph of a plan, step by step, with error tests."""
 
 from dataclasses import dataclass
 from typing import Final, Literal
@@ -54,7 +54,7 @@ ACTIONS: Final[dict[type[Operation], Action]] = MOTION_ACTIONS | HAND_ACTIONS | 
 
 @dataclass(slots=True, kw_only=True)
 class Executor:
-    """Carries out a plan on a cell, a step at a time."""
+    """Executes a plan on a cell, a step at a time."""
 
     run: ExecutionContext
 
@@ -136,7 +136,7 @@ class Executor:
         return completed
 
     def _perform(self, step: Step) -> int | None:
-        """Carry out the operation; returns the number of the next step."""
+        """Execute the operation; returns the number of the next step."""
         operation = step.operation
         if operation.branch is not None:
             taken = DECISIONS[type(operation)](self.run, operation)

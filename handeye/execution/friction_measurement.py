@@ -30,8 +30,8 @@ MIN_TRAVEL: Final = 0.5  # fraction of its range that a joint must move, or it i
 MAX_RATIO: Final = 1.8
 """Greatest plausible ratio of friction to the joint's data.
 
-Chosen between sound joints and drives that give half of their torque. Measured: at most 1.61 in sixty worlds; at most
-1.87 in eighty with twice the errors, of which one goes beyond; 1.4 to 2.3 at half a drive.
+Chosen between faultless joints and drives that give half of their torque. Measured: at most 1.61 in sixty worlds; at
+most 1.87 in eighty with twice the errors, of which one goes beyond; 1.4 to 2.3 at half a drive.
 """
 
 

@@ -156,7 +156,9 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
 
 
 def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
-    """Report, once per statement, a guard that is hard to tell from friction as the motion begins `along`, (3,), W."""
+    """Report, once per statement, a guard that is hard to distinguish from friction; the motion begins `along`, (3,),
+    W.
+    """
     assert run.state.at is not None
     place = run.plan.program.steps[run.state.at].place
     if not guards or place in run.state.faint:

@@ -1,4 +1,4 @@
-"""Tasks that go on together under one clock: each waits for a time or for a condition, and the same one is always next.
+"""Tasks that run together under one clock: each waits for a time or a condition, and their order is deterministic.
 
 Time is counted exactly, in rational seconds or whole microseconds: periods of 10 ms and 1/60 s do not drift apart.
 """
@@ -26,8 +26,9 @@ _MOST_AT_ONCE: Final = 1_000_000  # turns of a task at one moment
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Until:
-    """Wait for a condition, which is looked at whenever another task has done something, time has passed, or an
-    event of the clock was handled."""
+    """Wait for a condition, which is tested after another task has acted, time has passed, or an event of the clock
+    was handled.
+    """
 
     met: Callable[[], bool]
     name: str  # the condition in words, for a deadlock: `flag 2`
@@ -49,7 +50,7 @@ class Deadlock(HandeyeError):
 class Agenda(MutableRecord, Generic[Time], kw_only=True):
     """Which task continues next, and when: a record, so that a system whose tasks are data can keep it in its state.
 
-    The task that is due first goes on; of those due at once, the first in `due`, but none twice before the others.
+    The task that is due first continues; of those due at once, the first in `due`, but none twice before the others.
     """
 
     now: Time
@@ -93,7 +94,7 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         return None
 
     def sleep(self, task: str, duration: Time) -> None:
-        """Let a task go on so long after it was due, however late it was served."""
+        """Let a task continue this long after it was due, however late it was served."""
         time, again = self.due[task]
         if duration < 0:
             raise BadArgument(f"{task} cannot wait for a negative time")
@@ -117,7 +118,7 @@ def microseconds(count: int) -> Fraction:
 
 
 def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> list[T]:
-    """Let tasks under one clock go on together, each when it is due; how each ended.
+    """Run tasks together under one clock, each when it is due; returns how each ended.
 
     An arm whose motion has ended is no longer driven while others move on, so that its watchdog sets its brakes.
     A deadlock calls the tasks by `names`, by default `task 1`, `task 2` and so on.

@@ -2,7 +2,7 @@
 
 Everything here goes through the ports: positions are the potentiometers', refined by tachometers; forces are what the
 joint torques leave unexplained. A period does not let time pass: it yields when it has put out everything, and reads
-the cell when it is asked to go on.
+the cell when it is asked to continue.
 """
 
 from collections.abc import Callable, Generator
@@ -43,7 +43,7 @@ class ServoPeriod:
 
 T = TypeVar("T")
 Motion = Generator[float, None, T]
-"""A motion under way: it yields the time, s, after which it must go on, and returns how it ended."""
+"""A motion under way: it yields the time, s, after which it must continue, and returns how it ended."""
 
 
 class Halted(Exception):
@@ -211,7 +211,7 @@ class Servo:
             raise Halted
 
     def _put_out(self, tau: Array | None) -> None:
-        """Tell every device of the cell what to do for the next servo period."""
+        """Command every device of the cell for the next servo period."""
         cell = self.cell
         cell.arm.drive(tau)
         if cell.hand is not None:

@@ -1,7 +1,7 @@
 """The servo loop: motions of an arm along set-points, a servo period at a time, while guards watch.
 
 A motion does not let time pass. It is an iterator that has put out everything for a period when it yields, and reads
-the cell when it is asked to go on; the caller lets the clock advance in between. So any number of arms move under
+the cell when it is asked to continue; the caller lets the clock advance in between. So any number of arms move under
 one clock.
 """
 

@@ -1,1 +1,1 @@
-"""The second waist: a plan, its format on disk, and what makes it sound."""
+"""The second waist: a plan, its format on disk, and what makes it valid."""

@@ -36,5 +36,5 @@ class Plan(Record, frozen=True, kw_only=True):
 
     @property
     def joint_counts(self) -> tuple[int, ...]:
-        """Numbers of joints in the positions of its motions: just one if the plan is sound."""
+        """Numbers of joints in the positions of its motions: just one if the plan is valid."""
         return tuple(sorted({len(knot) for motion in self.motions.values() for knot in motion.knots}))

@@ -1,4 +1,4 @@
-"""Check what the types of a plan cannot say: every reference leads somewhere, and every number can be carried out.
+"""Check what the types of a plan cannot say: every reference leads somewhere, and every number can be executed.
 
 A plan may have been cut, edited or made by another program; whatever passes here can be run without a surprise.
 """
@@ -21,7 +21,7 @@ _SHORTEST: Final = 1e-5  # s, segment of a polynomial
 
 
 def faults(plan: Plan) -> Iterator[str]:
-    """Faults of a plan, a sentence each; none if it is sound."""
+    """Faults of a plan, a sentence each; none if it is valid."""
     program = plan.program
     if not program.steps:
         yield "it has no steps"
@@ -116,7 +116,7 @@ def _use(program: Program, use: Use) -> Iterator[str]:
 
 
 def _numbers(operation: AnyOperation | AnyGuard) -> Iterator[str]:
-    """Numbers that cannot be carried out."""
+    """Numbers that cannot be executed."""
     for field, (low, high) in operation.bounds.items():
         value = getattr(operation, field)
         size = math.hypot(*value) if isinstance(value, tuple) else value

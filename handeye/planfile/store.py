@@ -56,7 +56,7 @@ def _separated(lines: list[str]) -> list[str]:
 
 
 def decode(text: str | bytes, name: str) -> Plan:
-    """The plan in a text; raises BadFile if it is cut short, not sound, or of another format version."""
+    """The plan in a text; raises BadFile if it is cut short, not valid, or of another format version."""
     try:
         head = msgspec.json.decode(text)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -137,7 +137,7 @@ def written_digest(data: bytes) -> str:
 
 
 def is_plan_of(begun: RunStarted, data: bytes) -> bool:
-    """True if a run that began so carried out the plan in some bytes: just these, where it tells their digest."""
+    """True if a run that began so executed the plan in some bytes: just these, where it tells their digest."""
     digest = written_digest(data)
     if begun.content:
         return digest == begun.content

@@ -1,6 +1,6 @@
 """Plans a program for an arm: no clock, no randomness, no simulator.
 
-The planner walks the program in text order, each motion beginning where the one before was planned to end. Goals out
+The planner walks the program in text order, each motion beginning where the previous one was planned to end. Goals out
 of reach, loads too heavy and collisions are found here and not at run time.
 """
 

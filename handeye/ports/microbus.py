@@ -131,7 +131,7 @@ class MicrobusPort(ABC):
 
     @abstractmethod
     def remember(self, memory: MutableRecord) -> None:
-        """Go on from a memory; raises BadFile if it does not fit."""
+        """Continue from a memory; raises BadFile if it does not fit."""
 
     # -- made of these -------------------------------------------------------------------------------------
 

@@ -16,7 +16,7 @@ from handeye.program.guards import GuardKind
 
 AskedBy = Literal["person", "program", "job"]  # a job orders a reversal when its program has ended
 Importance = Literal["debug", "info", "warning", "error"]
-Choice = Literal["proceed", "retry", "skip"]  # go on after a stop, retry the stage, or skip the rest of it
+Choice = Literal["proceed", "retry", "skip"]  # continue after a stop, retry the stage, or skip the rest of it
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
@@ -163,7 +163,7 @@ class ErrorTested(Event, frozen=True, kw_only=True):
 
 
 class SearchAdvanced(Event, frozen=True, kw_only=True):
-    """The search goes on to its place number `count` (0 is the first)."""
+    """The search continues to its place number `count` (0 is the first)."""
 
     count: int
     offset: tuple[float, float]
@@ -234,7 +234,7 @@ class PartMatched(Event, frozen=True, kw_only=True):
 class CameraStarted(Event, frozen=True, kw_only=True):
     """The camera's mechanism set about something: `lens`, `aim` or `focus`, which takes it this long (s).
 
-    It begins when what it does already is done; the arm goes on.
+    It begins when its present movement ends; the arm continues.
     """
 
     action: str
@@ -293,7 +293,7 @@ class UndoOrdered(Event, frozen=True, kw_only=True):
     """Reversal ordered: the arm undoes executed steps until `left` remain."""
 
     left: int
-    halts: bool  # the run ends there; else the program can go on
+    halts: bool  # the run ends there; else the program can continue
     asked_by: AskedBy = "person"
 
 
@@ -316,7 +316,7 @@ class StageUndone(Event, frozen=True, kw_only=True):
 
 
 class UndoEnded(Event, frozen=True, kw_only=True):
-    """The reversal is complete; the program would go on with a step."""
+    """The reversal is complete; the program would continue with a step."""
 
     step: int
 

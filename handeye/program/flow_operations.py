@@ -118,7 +118,7 @@ class Wait(Operation, frozen=True, kw_only=True):
 
 
 class Undo(Operation, frozen=True, kw_only=True):
-    """Reverse the stage and repeat it; after `times` reversals since the stage began, go on."""
+    """Reverse the stage and repeat it; after `times` reversals since the stage began, continue."""
 
     bounds: ClassVar = {"times": (1, 100)}
 

@@ -28,5 +28,5 @@ class SystemState(MutableRecord, kw_only=True):
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """The place of each unfinished task, in order; that at `at` goes on next. A system of several overrides it."""
+        """The place of each unfinished task, in order; that at `at` runs next. A system of several overrides it."""
         return () if self.at is None else (TaskPlace("", self.at),)

@@ -1,1 +1,1 @@
-"""Runs that can be stepped, kept, taken up again and put back in time."""
+"""Runs that can be stepped, kept, resumed and taken back in time."""

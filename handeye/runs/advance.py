@@ -136,13 +136,13 @@ AnyStop = (
 class Pause(Record, frozen=True, kw_only=True):
     """Reason of a pause, as facts."""
 
-    kind: Literal["end", "operator", "trouble", "break", "panic"]  # `trouble`: it cannot go on
+    kind: Literal["end", "operator", "trouble", "break", "panic"]  # `trouble`: it cannot continue
     done: int = 0  # steps done since the run went on
-    next: int | None = None  # the step to be done next; None if the run cannot go on by itself
+    next: int | None = None  # the step to be done next; None if the run cannot continue alone
     met: AnyStop | None = None  # the stop condition, if one was met
     error: int | None = None  # the error that the operator is called for
     cause: Cause | None = None  # cause of that error, or of a call for none
-    message: str = ""  # the program's own words to the operator, or those of the cell that cannot go on
+    message: str = ""  # the program's own words to the operator, or those of the cell that cannot continue
     undone: bool = False  # it ended where the arm has undone what it was to undo
     back: bool = False  # the panic button was hit on the way back in time
 
@@ -204,7 +204,7 @@ def _step(runner: Runner, stops: Sequence[AnyStop], done: int) -> Pause | None:
 
 
 def ended(runner: Runner, done: int = 0) -> Pause:
-    """Why a run cannot go on by itself."""
+    """Why a run cannot continue alone."""
     if runner.trouble is not None:
         return Pause(kind="trouble", done=done, message=runner.trouble)
     call = runner.call

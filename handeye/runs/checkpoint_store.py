@@ -45,11 +45,11 @@ class CheckpointStore:
                 continue
 
     def moved(self) -> Iterator[Path]:
-        """Files, sound or not, of checkpoints of a run that had begun."""
+        """Files, valid or not, of checkpoints of a run that had begun."""
         return (path for path in self.folder.glob(f"*{ENDING}") if _position(path) >= 0)
 
     def damaged(self) -> list[str]:
-        """A sentence for each file that is not sound."""
+        """A sentence for each file that is not valid."""
         faults = []
         for path in sorted(self.folder.glob(f"*{ENDING}")):
             try:
@@ -88,7 +88,7 @@ class CheckpointStore:
             )
 
     def newest(self) -> tuple[Checkpoint | None, list[str]]:
-        """The sound checkpoint with the most steps done, and a sentence for each file that is not sound."""
+        """The valid checkpoint with the most steps done, and a sentence for each file that is not valid."""
         found, faults = None, []
         for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
             try:

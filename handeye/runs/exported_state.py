@@ -38,7 +38,7 @@ def initial_state(world: WorldSpec, name: str = DEFAULT) -> ExportedState:
 
 
 def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
-    """The state in a checkpoint or the newest sound one of a run's folder, and a sentence for each unreadable one."""
+    """The state in a checkpoint or the newest valid one of a run's folder, and a sentence for each unreadable one."""
     if not path.is_dir():
         return _exhibit(path, read_checkpoint(path)), []
     _, checkpoint, faults = open_again(path)

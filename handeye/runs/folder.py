@@ -156,7 +156,7 @@ class RunFolder(Observer):
         self.kept.drop_after(self._runner.position)
         try:
             self._recorder.cut(events)
-        finally:  # none of the three must go on as if nothing was undone
+        finally:  # none of the three must continue as if nothing was undone
             self._journal.undone(events, self._runner.time, "back")
 
     def _goes_on(self) -> None:
@@ -240,7 +240,7 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False, unnamed:
 
 
 def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
-    """The folder of an interrupted run, its newest sound checkpoint, and a sentence for each file left out.
+    """The folder of an interrupted run, its newest valid checkpoint, and a sentence for each file left out.
 
     Raises BadFile if there is none, or it is not of the plan in the folder.
     """

@@ -50,7 +50,7 @@ class Meter:
 
 
 def read_host_seconds(path: Path) -> HostSeconds | None:
-    """Host time of earlier sessions; None if there is no record. Raises BadFile if it is not sound."""
+    """Host time of earlier sessions; None if there is no record. Raises BadFile if it is not valid."""
     if not path.exists():
         return None
     try:

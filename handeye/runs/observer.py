@@ -21,4 +21,4 @@ class Observer:
         """A state worth keeping has been reached."""
 
     def close(self) -> None:
-        """The run is over, or broken off."""
+        """The run is over, or interrupted."""

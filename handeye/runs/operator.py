@@ -34,7 +34,7 @@ class Back(Record, frozen=True, kw_only=True):
 
 
 class Unwind(Record, frozen=True, kw_only=True):
-    """Have the arm undo steps back to the last start of a stage, given by its index, and go on from there."""
+    """Have the arm undo steps back to the last start of a stage, given by its index, and continue from there."""
 
     stage: int
 
@@ -43,7 +43,7 @@ OperatorChoice = Choice | Literal["abort"] | Back | Unwind
 
 
 class Operator(Protocol):
-    """A person or a rule that says how to go on."""
+    """A person or a rule that says how to continue."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         """The operator's answer to a call of a run; `refused`: why the last answer was impossible."""
@@ -64,7 +64,7 @@ NOBODY: Final = Abort()
 class Retry:
     """Repeats each stage up to `times` times, then gives up; it gives up at once while the arm reverses.
 
-    It counts the events of the run, so that a resumed run goes on as if it had never been broken off.
+    It counts the events of the run, so that a resumed run continues as if it had never been interrupted.
     """
 
     times: int
@@ -144,7 +144,7 @@ def attend(
     stops: Sequence[AnyStop] = (),
     kept: Callable[[int], Checkpoint | None] = lambda _: None,
 ) -> Pause:
-    """Go on until the run pauses in a way that the operator does not settle.
+    """Continue until the run pauses in a way that the operator does not settle.
 
     `kept` finds the newest checkpoint on disk with at most that many steps done, for going back.
     """

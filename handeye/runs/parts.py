@@ -1,6 +1,6 @@
 """Parts of a run that are replaced by code of the caller.
 
-Checkpoints and traces cannot hold code, but its name: a run that was begun with such a part goes on only with a part
+Checkpoints and traces cannot hold code, but its name: a run that was begun with such a part continues only with a part
 of that name.
 """
 

@@ -77,7 +77,7 @@ class Runner:
         """
         parts.check(start.setup.replaced)
         self.setup = start.setup
-        self.listing = listing_of(start.setup)  # stages and steps of what is carried out
+        self.listing = listing_of(start.setup)  # stages and steps of the program
         self.vision = Stopwatch(time.process_time)  # processor time of vision here, undone steps included
         self.kind = system_of(start.setup)  # the system that carries it out, as a value
         self.system: RunningSystem = self.kind.build(
@@ -125,7 +125,7 @@ class Runner:
 
     @property
     def trouble(self) -> str | None:
-        """Why the run cannot go on, if it is not a matter for the operator."""
+        """Why the run cannot continue, if it is not a matter for the operator."""
         return self._broken or self.system.trouble
 
     @property
@@ -146,7 +146,7 @@ class Runner:
 
     @property
     def arm_cell(self) -> SimulatedCell:
-        """The cell in which a plan of motions is carried out; raises InvalidInput if the system follows none."""
+        """The cell in which a plan of motions is executed; raises InvalidInput if the system follows none."""
         if self.system.arm_cell is None:
             raise refusal(self.setup.system, "plans")
         return self.system.arm_cell
@@ -160,7 +160,7 @@ class Runner:
 
     @property
     def ended(self) -> bool:
-        """No step can be done, unless the operator says how to go on."""
+        """No step can be done, unless the operator says how to continue."""
         return self.at is None or self.trouble is not None
 
     @property
@@ -170,12 +170,12 @@ class Runner:
 
     @property
     def at(self) -> int | None:
-        """The number of the step to be done next; None if the run cannot go on by itself."""
+        """The number of the step to be done next; None if the run cannot continue alone."""
         return self.system.state.at
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """The place of each unfinished task; that of `at` goes on next."""
+        """The place of each unfinished task; that of `at` runs next."""
         return self.system.state.places
 
     @property
@@ -217,7 +217,7 @@ class Runner:
             events=tuple(self.events[: kept.happened]),
         )
 
-    # -- going on -------------------------------------------------------------------------------------
+    # -- running --------------------------------------------------------------------------------------
 
     def step(self) -> None:
         """Do the next step. Raises Halted if the panic button is hit; `rollback` then takes back what it did."""
@@ -234,7 +234,7 @@ class Runner:
         self._settle()
 
     def answer(self, choice: Choice) -> None:
-        """Go on after the operator was called."""
+        """Continue after the operator was called."""
         self.system.answer(choice)
         self._settle()
 

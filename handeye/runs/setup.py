@@ -13,12 +13,12 @@ class Setup(Record, frozen=True, kw_only=True):
     """Everything that decides a run without interference."""
 
     system: str = PLANNED  # name of the system that carries it out
-    plan: Record  # plan that is carried out: a `Plan` where it is one of motions
+    plan: Record  # the plan: a `Plan` if it is one of motions
     world: WorldSpec
     camera: str  # how to make pictures: `auto`, `gl` or `ray`
     judged: bool = False  # the referee is to look at what came out. It decides nothing of the run.
     limits: dict[str, float] = msgspec.field(default_factory=dict)
-    """Limits that findings of the task's referee stand against in the place of its own, in their units."""
+    """Limits that findings of the task's referee stand against instead of its own, in their units."""
     replaced: dict[str, str] = msgspec.field(default_factory=dict)  # parts by the caller's code, by name
     without: tuple[str, ...] = ()  # senses that the program does without, in the order of `SENSES`
 

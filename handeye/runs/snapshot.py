@@ -23,7 +23,7 @@ class Snapshot(Record, frozen=True, kw_only=True):
 
 
 class Checkpoint(Record, frozen=True, kw_only=True):
-    """Everything needed to take up a run again, on any day and any computer."""
+    """Everything needed to resume a run, on any day and any computer."""
 
     setup: Setup
     snapshot: Snapshot | None = None  # None: the run has not begun

@@ -201,7 +201,7 @@ class RunningSystem(Protocol):
         """Do one step, the unit that is done again when it is interrupted. Raises Halted or PhysicsFailed."""
 
     def answer(self, choice: Choice) -> None:
-        """Go on after the operator was called."""
+        """Continue after the operator was called."""
 
     @property
     def executed(self) -> Sequence[ExecutedStep]:
@@ -222,7 +222,7 @@ class RunningSystem(Protocol):
 
     @property
     def arm_cell(self) -> SimulatedCell | None:
-        """The cell in which a plan of motions is carried out."""
+        """The cell in which a plan of motions is executed."""
         return None
 
     @property
@@ -249,7 +249,9 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def restore(self, state: SystemState) -> None:
-        """Go on from a copy of a state, its cell as it was then; raises InvalidInput if it does not fit the plan."""
+        """Continue from a copy of a state, with its cell as at that time; raises InvalidInput if it does not fit the
+        plan.
+        """
 
     @property
     def shown(self) -> Mapping[str, Any]:
@@ -323,7 +325,7 @@ class System(ABC):
 
     @abstractmethod
     def decode(self, data: bytes, name: str) -> Any:
-        """The plan in some bytes, found sound; `name` is for messages. Raises InvalidInput."""
+        """The plan in some bytes, found valid; `name` is for messages. Raises InvalidInput."""
 
     def digest(self, plan: Any, data: bytes) -> str:
         """Sixteen hexadecimal digits that identify a plan, `data` as bytes."""

@@ -36,7 +36,7 @@ def written(setup: Setup) -> bytes:
 
 
 def digest_of(setup: Setup) -> str:
-    """Sixteen hexadecimal digits that identify the program carried out."""
+    """Sixteen hexadecimal digits that identify the program executed."""
     return _digest(_Identical(setup.system, setup.plan))
 
 

@@ -66,7 +66,7 @@ def done_since(checkpoint: Checkpoint, events: Sequence[AnyEvent]) -> int | None
 
 
 def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> Checkpoint:
-    """The run as it was after the last step it finished: the steps since the checkpoint are carried out again.
+    """The run as it was after the last step it finished: the steps since the checkpoint are repeated.
 
     Equal runs take the same course to the byte. Raises BadFile if this one takes another.
     """

@@ -146,7 +146,7 @@ def _remove(path: Path) -> None:
 
 @contextmanager
 def held(path: Path) -> Iterator[None]:
-    """While a run goes on in a folder, no other command removes it."""
+    """While a run continues in a folder, no other command removes it."""
     with ExitStack() as lock:
         if (path / MARK).is_file():
             with suppress(InvalidInput):

@@ -1,4 +1,4 @@
-"""Verifies a recorded run: it is carried out again and compared."""
+"""Verifies a recorded run: it is repeated and compared."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -79,7 +79,7 @@ def option(name: str) -> tuple[str, ...]:
 
 
 def any_task(name: str) -> AnyTask:
-    """The task of a name, whatever kind of system does it; raises InvalidInput if there is none such."""
+    """The task of a name, whatever kind of system does it; raises InvalidInput if there is none."""
     if not isinstance(name, str):
         raise BadArgument(f"give a task by its name, not by {name!r}")
     found = known_any(name)
@@ -91,7 +91,7 @@ def any_task(name: str) -> AnyTask:
 
 
 def task(name: str = DEFAULT) -> Task:
-    """The task of a name that planned programs do; raises InvalidInput if there is none such."""
+    """The task of a name that planned programs do; raises InvalidInput if there is none."""
     return planned(any_task(name))
 
 

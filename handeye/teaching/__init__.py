@@ -1,1 +1,1 @@
-"""Functions carried out one at a time, and positions taught by moving the arm."""
+"""Functions executed one at a time, and positions taught by moving the arm."""

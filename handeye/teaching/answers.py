@@ -1,4 +1,4 @@
-"""Answers to typed lines, as text and as JSON; texts planned and carried out; conversations line by line."""
+"""Answers to typed lines, as text and as JSON; texts planned and executed; conversations line by line."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -91,7 +91,7 @@ def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> A
 
 
 def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
-    """Tell what was done after the first `happened` events of the plan under way."""
+    """Report what was done after the first `happened` events of the plan under way."""
     runner = workplace.runner
     told = step_summaries(runner.events[happened:], runner.listing, runner.task.measures)
     did = tuple(step for step in told if step.line is not None)

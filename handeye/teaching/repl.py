@@ -1,4 +1,4 @@
-"""The arm program of 1973: functions typed in are collected, `DO` carries out; its commands are a table."""
+"""The arm program of 1973: functions typed in are collected, `DO` executes; its commands are a table."""
 
 import re
 from collections.abc import Callable
@@ -38,7 +38,7 @@ class Repl:
     over: bool = False  # the user has left
 
     def hear(self, line: str) -> Answer:
-        """Carry out a command, or collect a function."""
+        """Execute a command, or collect a function."""
         try:
             word, rest = [*line.split(maxsplit=1), "", ""][:2]
             command = COMMANDS.get(word.upper())
@@ -86,7 +86,7 @@ class Repl:
 
 
 def _do(repl: Repl, rest: str) -> Answer:
-    """Carry out the collected lines, or a function, macro or program, now."""
+    """Execute the collected lines, or a function, macro or program, now."""
     if not rest:
         if not any(map(str.strip, repl.functions)):
             raise Refused("nothing is collected; type instructions, or `DO OPEN 3` to run one at once")

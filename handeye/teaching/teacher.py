@@ -41,7 +41,7 @@ class Teacher:
     file: Path
     saved: str  # the text of the file
     text: str = field(init=False)  # the same, with the names given since
-    afloat: bool = False  # the brakes are off, and gravity is borne
+    afloat: bool = False  # the brakes are off, and gravity is balanced
     # what `undo` restores: what was taught and the text before something was named, or (None) the cell
     _before: list[tuple[Taught, str] | None] = field(default_factory=list)
 
@@ -57,7 +57,7 @@ class Teacher:
     # -- moving ---------------------------------------------------------------------------------------
 
     def function(self, text: str) -> Answer:
-        """Carry out a function of the arm language."""
+        """Execute a function of the arm language."""
         marks = len(self.workplace.before)
         given = carry_out(self.workplace, Source(name=TYPED, text=text), alone=True)
         if len(self.workplace.before) > marks:

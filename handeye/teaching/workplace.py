@@ -1,4 +1,4 @@
-"""A cell in which plans are carried out one after the other; each begins with what those before it have left."""
+"""A cell in which plans run one after the other; each starts in the state that the previous one left."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -30,7 +30,7 @@ from handeye.teaching.functions import TYPED, planned
 MAX_STATES: Final = 100  # to go back to
 _NOTHING: Final = "WHERE"
 _PICTURE: Final = "LOOK SETUP"
-"""Programs that a workplace has before it is given one; they are not carried out."""
+"""Programs that a workplace has before it is given one; they do not run."""
 _FORGOTTEN: Final = (
     "at", "pending", "stage", "stopped", "onward", "idle", "clock", "shots", "general", "found",
     "done", "undoing",
@@ -128,7 +128,7 @@ class Workplace:
     # -- doing ----------------------------------------------------------------------------------------
 
     def carry_out(self, plan: Plan) -> Pause:
-        """Carry out a plan; raises Refused if it takes pictures, and the camera was not set up."""
+        """Execute a plan; raises Refused if it takes pictures, and the camera was not set up."""
         if self.run.state.calibration is None and plan.program.written("picture"):
             raise Refused("the camera is not calibrated; start with --look for a plan that takes pictures")
         self.mark()
@@ -166,7 +166,7 @@ class Workplace:
         self.before = [*self.before, self.checkpoint()][-MAX_STATES:]
 
     def back(self) -> None:
-        """Return to before the last plan was carried out; raises Refused if there was none."""
+        """Return to before the last plan ran; raises Refused if there was none."""
         if not self.before:
             raise Refused("there is nothing to undo")
         self.runner = self._runner(self.before.pop())

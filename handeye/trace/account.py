@@ -17,7 +17,7 @@ _BENEATH: Final = " " * 20  # indents the outcome of a step
 
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
-    """The account, line by line: stages; time, line and text of each step, what came of it; and how it ended."""
+    """The account, line by line: stages; time, line and text of each step, its outcome; and how it ended."""
     teller = _Teller()
     for event in events:
         teller.tell(event)
@@ -39,7 +39,7 @@ class _Teller:
     _shift: Array | None = None  # offset of the goal of the present step from its planned place, m
     _off: Array = field(default_factory=lambda: np.zeros(3))
     """Offset of the end of the last motion from its planned end, m; a straight one begins from there."""
-    _tested: str | None = None  # the answer to a test, until it is known where the program goes on
+    _tested: str | None = None  # the answer to a test, until it is known where the program continues
 
     def clock(self, event: AnyEvent) -> str:
         """The time of an event in a column: seconds since the run began."""
@@ -103,7 +103,7 @@ class _Teller:
         self.lines.append(f"{_BENEATH}{text}")
 
     def _lead_on(self, where: str) -> None:
-        """Tell the answer to a test, now that it is known where it leads."""
+        """Report the answer to a test, now that it is known where it leads."""
         if self._tested is not None:
             self._beneath(f"{self._tested}: {where}")
         self._tested = None

@@ -67,7 +67,7 @@ _MARKED: Final[Mapping[str, type[AnyEvent]]] = {
 
 
 def plot(trace: Trace, stage: str | None = None) -> Plot:
-    """A plot of a trace, or of one `stage` given by its number among those carried out, its name, or a piece of it."""
+    """A plot of a trace, or of one `stage` given by its number among those executed, its name, or part of it."""
     begin, end = trace.covers if stage is None else _covers(trace, stage)
     rows = Span(begin, end).rows(trace.times)
     if rows.start == rows.stop:
@@ -83,7 +83,7 @@ def plot(trace: Trace, stage: str | None = None) -> Plot:
 
 
 def _covers(trace: Trace, stage: str) -> tuple[float, float]:
-    """From when to when a stage was carried out, each time that it was, s."""
+    """Start and end of a stage, each time it ran, s."""
     names = tuple(dict.fromkeys(each.name for each in trace.stages))
     name = names[stage_index(stage, names)]
     found = [each for each in trace.stages if each.name == name]

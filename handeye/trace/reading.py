@@ -1,4 +1,4 @@
-"""Reads traces from disk, and their plans. One that is not whole, not sound or not ours is refused in one sentence."""
+"""Reads traces from disk, and their plans. One that is not whole, not valid or not ours is refused in one sentence."""
 
 import re
 from collections import Counter
@@ -27,7 +27,7 @@ TRACE: Final = Kind("trace", re.escape(MCAP0_MAGIC), ending=".mcap")
 
 
 def read_trace(path: Path, *, lenient: bool = False) -> Trace:
-    """The trace in a file; raises BadFile if it is not whole (unless `lenient`), sound, and of its plan."""
+    """The trace in a file; raises BadFile if it is not whole (unless `lenient`), valid, and of its plan."""
     return read_trace_as(Trace, path, lenient=lenient)
 
 
@@ -89,7 +89,7 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
 
 
 def plan_of(trace: Trace) -> Plan:
-    """The plan that was carried out; raises InvalidInput if it is not sound, or the system follows none."""
+    """The plan that ran; raises InvalidInput if it is not valid, or the system follows none."""
     require(trace.head.system, "plans", trace.name)
     return decode(trace.plan, f"the plan in {trace.name}")
 

@@ -44,7 +44,7 @@ class PictureSource:
 class Recorder:
     """Writes the trace of a run: what is undone is taken out again, so that the file holds what counted.
 
-    A run that was broken off and resumed any number of times leaves the same bytes as one that never was. A trace that
+    A run that was interrupted and resumed any number of times leaves the same bytes as one that never was. A trace that
     cannot be written raises CannotWrite once, and nothing more is written.
     """
 

@@ -1,4 +1,4 @@
-"""The stages and steps of a run as they were carried out."""
+"""The stages and steps of a run as executed."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
@@ -39,7 +39,7 @@ class Span:
 
 @dataclass(slots=True)
 class DoneStep:
-    """A step as it was carried out."""
+    """A step as executed."""
 
     started: StepStarted
     events: list[AnyEvent] = field(default_factory=list)  # its end among them, if it ended
@@ -50,12 +50,12 @@ class DoneStep:
 
     @property
     def span(self) -> Span:
-        """The time it took; one that was broken off ends with the run."""
+        """The time it took; one that was interrupted ends with the run."""
         return Span(self.started.time, self.events[-1].time if self.finished else np.inf)
 
 
 def done_steps(events: Iterable[AnyEvent]) -> Iterator[DoneStep]:
-    """The steps in the order in which they were carried out."""
+    """The steps in the order in which they were executed."""
     step: DoneStep | None = None
     for event in events:
         if isinstance(event, StepStarted):
@@ -78,7 +78,7 @@ class Stage(Record, frozen=True, kw_only=True):
 
     name: str
     begin: float  # s
-    end: float  # s; of one that was broken off, the time of the last event
+    end: float  # s; of one that was interrupted, the time of the last event
     status: Status
     back: bool = False  # the arm undid what was done in it
 

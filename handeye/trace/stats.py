@@ -50,7 +50,7 @@ class StageFigures(Figures, kw_only=True):
     """Figures of a stage; one that was done more than once is counted together."""
 
     stage: str
-    status: str = BROKEN_OFF  # how it last ended: done, stopped, skipped, or broken off
+    status: str = BROKEN_OFF  # how it last ended: done, stopped, skipped, or interrupted
 
 
 class Statistics(msgspec.Struct, kw_only=True):

@@ -22,7 +22,7 @@ from handeye.trace.stages import CLOCKS
 from handeye.trace.table import Column, Table
 from handeye.trace.trace import Trace
 
-NO_STEP: Final = -1  # in the place of the number of a step, and of its line, where none was under way
+NO_STEP: Final = -1  # instead of the number of a step, and of its line, where none was under way
 
 
 def table(trace: Trace, name: str) -> Table:

@@ -30,7 +30,7 @@ FELT: Final = {
     GuardKind.TORQUE: 0.04,
     GuardKind.TOUCH: 0.5,
 }  # allowed deviation of the reading of a guard: N, N m, or switches
-LONGEST_GAP_S: Final = 10.0  # between two periods, whatever stands still: the second hand of a clock goes on
+LONGEST_GAP_S: Final = 10.0  # between two periods, even at rest: the second hand of a clock moves on
 _NOWHERE: Final = np.array([0, 0, -1e3, 1, 0, 0, 0], dtype=np.float64)
 """Pose of an absent body, far from all others."""
 

@@ -40,7 +40,7 @@ Read = TypeVar("Read")
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trace:
-    """A trace that was read, and found sound. What is worked out from its messages is worked out once.
+    """A trace that was read, and found valid. What is computed from its messages is computed once.
 
     Times are s since the program began, everywhere. Reading raises `InvalidInput` if a message
     is not what its channel says.
@@ -59,7 +59,7 @@ class Trace:
 
     @cached_property
     def stages(self) -> tuple[Stage, ...]:
-        """The stages as they were carried out, in order."""
+        """The stages as executed, in order."""
         return Several(stages(self.events))
 
     @cached_property
@@ -117,7 +117,7 @@ class Trace:
 
         Args:
             line: its number in the script, or `"pins.al:12"` in a file that the script requires; each time it was
-                carried out counts. A motion counts by its own line, not by that of its `STOP`.
+                executed counts. A motion counts by its own line, not by that of its `STOP`.
 
         Raises:
             InvalidInput: no such line ran.
@@ -131,7 +131,7 @@ class Trace:
         return self._forces.within(spans)
 
     def _line_below(self, place: str) -> str:
-        """Tell the next line that was carried out: that of the motion, where `place` is that of its `STOP`."""
+        """Report the next line that ran: that of the motion, where `place` is that of its `STOP`."""
         file, _, number = place.rpartition(":")
         started = [step.started for step in done_steps(self.events) if step.started.file == file]
         below = [step for step in started if number.isdecimal() and step.line > int(number)]
@@ -239,7 +239,7 @@ class Trace:
     def unseen(self) -> int:
         """Events before the first of which more was recorded than that they happened.
 
-        More than the start of the run and of its first stage, if it was taken up from a checkpoint. None of a system
+        More than the start of the run and of its first stage, if it was resumed from a checkpoint. None of a system
         that moves no arm.
         """
         if not self.head.arm:

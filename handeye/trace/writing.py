@@ -35,7 +35,7 @@ from handeye.vision.marks import Mark
 MOVED: Final = 1e-6  # change of a pose (m, or of a component of its quaternion) that is worth writing down
 PUT_AWAY: Final = -1.0  # m below which parts lie that have become something else; the floor is higher
 
-BOUNDARIES: Final = (RunStarted, StageFinished)  # events after which a run may be taken up again
+BOUNDARIES: Final = (RunStarted, StageFinished)  # events after which a run may be resumed
 
 
 class TraceWriter:

@@ -1,4 +1,4 @@
-"""One whole run: a drawn world, a calibrated camera, a plan carried out, a referee's verdict."""
+"""One whole run: a drawn world, a calibrated camera, a plan executed, a referee's verdict."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -44,7 +44,7 @@ def run_plan(
     without: tuple[str, ...] = (),
     operator: Operator = NOBODY,
 ) -> FinishedRun:
-    """Carry out a plan in a world, and have it judged.
+    """Execute a plan in a world, and have it judged.
 
     Args:
         meter: measures what the run costs the host; by default from now on.

@@ -36,7 +36,7 @@ class PairedBatch(Record, frozen=True, kw_only=True):
     measures: dict[str, Difference]
     noticed: int  # Failures of this batch that were noticed: by an error, a call, a guard
     silent: int  # Failures that were taken for a success
-    failed: int  # Trials of this batch that broke off
+    failed: int  # Trials of this batch that did not finish
 
 
 class PairedTrial(NamedTuple):

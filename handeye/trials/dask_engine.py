@@ -44,7 +44,7 @@ def _answers(
 
 
 def _tried(work: GuardedWork[Any], code: str, case: Case) -> list[Any]:
-    """Carry out a case on a worker; raises InvalidInput if that has another handeye."""
+    """Execute a case on a worker; raises InvalidInput if that has another handeye."""
     if code_digest() != code:
         raise Refused(
             "a worker has another version of handeye than this computer; install the same version on all"

@@ -49,7 +49,7 @@ class DisturbanceResult(Record, frozen=True, kw_only=True):
 class DisturbanceRow(TrialRow, frozen=True, kw_only=True):
     """One disturbance, which is the condition, tried once."""
 
-    tried: DisturbanceResult | None = None  # None: it broke off
+    tried: DisturbanceResult | None = None  # None: it did not finish
 
     @property
     def outcome(self) -> str:

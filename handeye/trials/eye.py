@@ -1,4 +1,4 @@
-"""Trials of a task that carry out no program, such as those of its eye: several in each world."""
+"""Trials of a task that execute no program, such as those of its eye: several in each world."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -95,7 +95,7 @@ class FaultTrial(Record, frozen=True, kw_only=True):
 class FaultRow(TrialRow, frozen=True, kw_only=True):
     """One trial with a fault, which is its condition."""
 
-    tried: FaultTrial | None = None  # None: it broke off
+    tried: FaultTrial | None = None  # None: it did not finish
 
     @property
     def outcome(self) -> str:
@@ -130,7 +130,7 @@ class FaultWork:
     faults: Mapping[str, Fault]
     camera: str
     sound: Path | None = None
-    """Folder of the sound runs in which faults that set in with a stage begin; None: each run is a whole one."""
+    """Folder of the fault-free runs from which faults of a later stage start; None: every run is complete."""
 
     def __call__(self, case: Case) -> list[FaultRow]:
         """Run once with the fault, or with the panic button pressed."""
@@ -240,4 +240,4 @@ FAULTS: Final = Sweep(
     summary=_summary,
     more=_more,
 )  # fmt: skip
-"""A plan carried out with one fault each."""
+"""A plan executed with one fault each."""

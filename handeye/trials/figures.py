@@ -109,7 +109,7 @@ class Figures(Record, frozen=True, kw_only=True):
     right: int
     silent_failures: int  # Failures that were taken for a success
     failed: int
-    """Trials that broke off: by an exception, at a limit, or because their process was killed twice."""
+    """Trials that did not finish: by an exception, at a limit, or because their process was killed twice."""
     uncounted: int
     killed: int  # How often the process of a trial was killed
     wilson95: tuple[float, float] | None  # Wilson's interval of the probability that a trial is right
@@ -119,12 +119,12 @@ class Figures(Record, frozen=True, kw_only=True):
     conditions: tuple[ConditionFigures, ...]  # Where there are several
     failures: tuple[Failure, ...]
     causes: tuple[Cause, ...]  # Causes of the failures, the most frequent first
-    cpu_s: float  # Processor time of all trials
+    cpu_s: float  # CPU time of all trials
     wall_s: float  # Time since this command began
 
     @property
     def exit_code(self) -> int:
-        """3: a failure was taken for a success; 1: every trial broke off; else 0."""
+        """3: a failure was taken for a success; 1: no trial finished; else 0."""
         return 3 if self.silent_failures else int(0 < self.failed == self.n)
 
 

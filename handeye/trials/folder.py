@@ -31,7 +31,7 @@ _OURS: Final = {
 
 
 def sweep_of(kind: str) -> Sweep[Any]:
-    """The kind of sweep that the folder of a batch says; raises InvalidInput if there is none such here."""
+    """The kind of sweep that the folder of a batch says; raises InvalidInput if there is none here."""
     name = kind.partition(" ")[0]
     places = {name: place for entry in entries().values() for name, place in entry.sweeps.items()} | _OURS
     if name not in places:
@@ -108,7 +108,7 @@ class BatchFolder(Generic[R]):
     def __init__(
         self, path: Path, sweep: Sweep[R], head: Head, plan: Plan | None = None, *, anew: bool = False
     ) -> None:
-        """Begin a batch, go on with it, or (`anew`) drop it first; raises InvalidInput."""
+        """Begin a batch, continue with it, or (`anew`) drop it first; raises InvalidInput."""
         self.path, self._sweep = path, sweep
         _check(path, sweep, head, plan, anew=anew)
         try:

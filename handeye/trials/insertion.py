@@ -79,7 +79,7 @@ class Condition(Record, frozen=True, kw_only=True):
 
     @property
     def plan(self) -> Plan:
-        """The plan that is carried out."""
+        """The plan that is executed."""
         return _plan(self.search, self.step)
 
 
@@ -124,7 +124,7 @@ class _ForcePeak(Observer):
 class InsertionRow(TrialRow, frozen=True, kw_only=True):
     """One trial under a condition; ten share a world, in which the pin is fetched once."""
 
-    tried: InsertionTrial | None = None  # None: it broke off
+    tried: InsertionTrial | None = None  # None: it did not finish
     step_in: float = 0.0  # Step of the search
 
     @property
@@ -208,7 +208,7 @@ def fetched(plan: Plan, seed: int) -> Runner:
 def tried(
     condition: Condition, begun: Runner, trial: InsertionTrial, plan: Plan | None = None
 ) -> InsertionTrial:
-    """A trial that goes on where the pin has been fetched, by a plan that begins as the condition's does."""
+    """A trial that continues where the pin has been fetched, by a plan that begins as the condition's does."""
     if begun.ended:
         return replace(trial, told=_told(begun))
     drawn = random_numbers(trial.seed, f"insertion.error.{trial.number}").standard_normal(2) * condition.sd

@@ -103,7 +103,7 @@ def assemble_each(
         search: as for `handeye.begin`.
         referee: as for `handeye.begin`.
         jobs: processes at a time; with more than 1 a program must be guarded by `if __name__ == "__main__":`, and
-            limits are taken, but no code in the place of a part.
+            limits are possible, but no code that replaces a part.
 
     Returns:
         a table of results in the order of the worlds.

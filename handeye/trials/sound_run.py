@@ -54,12 +54,12 @@ class SoundRun:
 
 
 def sound_runs(of: Setup, folder: Path, worlds: Sequence[WorldSpec], jobs: int) -> Iterator[SoundRun]:
-    """The sound runs of some worlds, in the order they end; a folder keeps them, and those it lacks run now."""
+    """The fault-free runs of some worlds, in the order they end; a folder keeps them, and those it lacks run now."""
     yield from in_processes(partial(sound_run, folder, of), worlds, jobs)
 
 
 def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
-    """The sound run of a world, carried out now unless the folder has it; raises InvalidInput for a wrong folder."""
+    """The fault-free run of a world, executed now unless the folder has it; raises InvalidInput for a wrong folder."""
     store = CheckpointStore(folder / f"{world.seed}-{world.level}")
     setup = msgspec.structs.replace(of, world=world)
     store.check(setup)
@@ -93,7 +93,7 @@ def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int,
 
 
 def with_faults(start: Checkpoint, faults: Sequence[Fault]) -> Checkpoint:
-    """A state of a sound run as that of one with faults that have yet to set in; raises InvalidInput."""
+    """A state of a fault-free run as that of one with faults that have yet to begin; raises InvalidInput."""
     if not faults:
         return start
     snapshot, world = start.snapshot, msgspec.structs.replace(start.setup.world, faults=tuple(faults))

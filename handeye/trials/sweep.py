@@ -1,8 +1,9 @@
 """A sweep: trials of one kind in many worlds, each kept as it ends, and all of them counted.
 
 A kind is a value, `Sweep`: what is kept of a trial, how its outcomes count, and which tables are made of many. All else
-is the same for every kind: the folder in which a sweep goes on where it was broken off (`folder`), figures with their
-intervals (`figures`), the terminal (`text`), the page (`page`), tables (`tables`), and comparing two (`comparing`).
+is the same for every kind: the folder in which a sweep continues where it was interrupted (`folder`), figures with
+their intervals (`figures`), the terminal (`text`), the page (`page`), tables (`tables`), and comparing two
+(`comparing`).
 """
 
 from collections.abc import Callable, Generator, Mapping, Sequence
@@ -29,7 +30,7 @@ before there was anything to try it on."""
 Standing = Literal["right", "wrong", "silent", "uncounted"]
 """The class of an outcome: a success; a failure; a failure that was taken for a success; not at all."""
 
-FAILED: Final = "failed"  # Outcome of a trial that broke off
+FAILED: Final = "failed"  # Outcome of a trial that did not finish
 GRACE: Final = 1.1
 """Multiple of the limit of processor time at which a process ends: it hangs where nothing looks at the limit."""
 _CAME_TO_AN_END: Final = ("ended", "not built")
@@ -44,7 +45,7 @@ _BROKEN_OFF: Final[Mapping[str, str]] = {
 
 
 class Case(Record, frozen=True, kw_only=True):
-    """Trials that are carried out together, in one world."""
+    """Trials that are executed together, in one world."""
 
     trials: tuple[int, ...]  # Their numbers among the trials of the condition, from 0
     seed: Seed
@@ -224,7 +225,7 @@ def lost(row: type[R], case: Case, **fields: object) -> list[R]:
 
 
 Engine = Callable[[GuardedWork[Any], Sequence[Case]], Generator[Answer[Case, list[Any]], None, None]]
-"""Carries out cases in any order; one whose process is lost is tried once more."""
+"""Executes cases in any order; one whose process is lost is tried once more."""
 
 
 def processes(jobs: int, cpu_limit_s: float | None = None) -> Engine:

@@ -166,5 +166,5 @@ def told_so_far(sweep: Sweep[R], rows: Sequence[R]) -> str:
 
 
 def kept(rows: int, out: object) -> str:
-    """The sentence on a batch that is broken off."""
+    """The sentence on a batch that is interrupted."""
     return f"{counted(rows, 'trial')} kept in {out}; the same command continues from there"

@@ -79,7 +79,7 @@ class Worker:
 
 @dataclass(slots=True, kw_only=True)
 class _Assignment(Generic[Item]):
-    """A trial that is to be carried out, or is under way."""
+    """A trial that is waiting or running."""
 
     item: Item
     killed: int = 0
@@ -184,7 +184,7 @@ def _answer(worker: Worker) -> Answer[Any, Any]:
 
 
 def _serve(there: Connection, limit_s: float | None) -> None:
-    """Carry out what comes, until nothing more does."""
+    """Run what arrives, until nothing more does."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
     try:
         trial = there.recv()
@@ -199,7 +199,7 @@ def _serve(there: Connection, limit_s: float | None) -> None:
 
 @contextmanager
 def _limited(limit_s: float | None) -> Iterator[None]:
-    """While a trial goes on: let the system end this process when it has had the processor for so long."""
+    """During a trial: let the system end this process when it has used this much CPU time."""
     if limit_s is None or not hasattr(signal, "setitimer"):  # as on Windows
         yield
         return

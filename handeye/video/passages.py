@@ -28,7 +28,7 @@ class Passage:
 
     begin: float  # s by the cell's clock
     end: float
-    stage: int  # Index among the stages as carried out, either way; -1 before the first
+    stage: int  # Index among the stages as executed, either way; -1 before the first
     looked_at: SeenPicture | None = None  # picture shown while the run stands still
 
 

@@ -66,7 +66,7 @@ def _follow(trace: Trace, side: str, stages: Sequence[int], rate: float) -> list
 def _targets(trace: Trace) -> list[Array]:
     """For each stage an aim (m) and viewing distance (m), shape (n, 4).
 
-    A stage in which the hand stays takes those of the next stage, or the one before.
+    A stage in which the hand stays takes those of the next stage, or the previous one.
     """
     found = [_target(np.array(_hands(trace, stage))) for stage in trace.stages_both_ways]
     return [_nearest(found, number, trace) for number in range(max(len(found), 1))]

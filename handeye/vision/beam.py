@@ -59,7 +59,7 @@ def beams(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edges:
-    """As `door.beams`, of arguments that are known to be sound."""
+    """As `door.beams`, of arguments that are known to be valid."""
     starts, directions = np.rint(starts), np.asarray(directions, dtype=float)
     scan.beams += len(starts)
     back, ahead = scan.runs(starts, directions)

@@ -102,7 +102,7 @@ def characterise(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Blob | None:
-    """As `door.characterise`, of arguments that are known to be sound."""
+    """As `door.characterise`, of arguments that are known to be valid."""
     u, v = seed
     for bounce in range(1, BOUNCES + 1):
         level = _chord(scan, (u, v), (1, 0), polarity, step, reach, wide, beyond)

@@ -40,7 +40,7 @@ BESIDE: Final = 0.3 * INCH  # from a hole's border to where the difference is me
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
 """In the picture before: fraction of the contrast that is a border, and of the face's level that is face."""
-ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the one before
+ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32
 WINDOW: Final = 9
 """Neighbouring rays whose median counts: a quarter of the rim, wider than an aligning pin hides."""

@@ -118,7 +118,7 @@ class Scan:
 
     @contextmanager
     def within(self, corners: ArrayLike) -> Iterator[None]:
-        """Keep beams within a convex quadrilateral for a while; then the window is the one before."""
+        """Keep beams within a convex quadrilateral for a while; then the window is the previous one."""
         before = self.sides
         self.limit(corners)
         try:

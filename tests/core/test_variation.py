@@ -150,7 +150,10 @@ def test_a_specification_survives_the_disk(seed: int, level: Level, name: str) -
 
 
 def test_a_world_drawn_in_another_way_is_refused() -> None:
-    sentence = "the world of seed 3 comes from another version of handeye; this version gives another world for that seed"
+    sentence = (
+        "the world of seed 3 comes from another version of handeye; this version gives another world for "
+        "that seed"
+    )
     with pytest.raises(InvalidInput, match=sentence):
         TABLE.draw(WorldSpec(seed=3, drawing=DRAWING + 1))
 

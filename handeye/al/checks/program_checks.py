@@ -51,7 +51,7 @@ def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]
 
 
 def _unused(whole: CompiledScript, found: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Unused names, except on lines that are never carried out."""
+    """Unused names, except on lines that are never executed."""
     lost = {_line(whole.source, d) for d in found if d.code == "unreachable-code"}
     unused = [
         *unused_parameters(whole.script),

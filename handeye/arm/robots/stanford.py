@@ -119,7 +119,7 @@ _HAND: Final = HandModel(
 # follows to a fraction of a millimetre. The wrist has little inertia and would bend under a push of a few pounds,
 # hence more there. Lag: placeholder, twenty times what free motions show. Short: placeholder, five times the .032 in
 # that whole runs show; the servo is soft. Drag: chosen; with the little friction of its joints alone the arm would
-# go on.
+# continue.
 _SERVO: Final = ServoModel(
     period=JIFFY, frequency=(25.0, 25.0, 25.0, 40.0, 40.0, 40.0), lag=(0.05, 0.05, 0.03, 0.15, 0.15, 0.15),
     short=0.004, settle=8, drag=0.1,
@@ -128,7 +128,7 @@ _SERVO: Final = ServoModel(
 # Chosen. Gain: slow enough for the arm's 20 kg of felt inertia. Gain of turning: slow for a wrist that gives some 160
 # N m a radian under its servo. Limit of turning: what leans on the hand more has hit it.
 # Friction: the data sheet has none. Inferred from the paper, by which the arm that is let go of stays where it is:
-# joints 2 and 3 bear half a step of their torques and what is left of gravity when the arm has weighed itself; the
+# joints 2 and 3 carry half a step of their torques and what is left of gravity when the arm has weighed itself; the
 # wrist bears half a step. Of joint 1: placeholder, half a per cent of what its drive can do.
 _COMPLIANCE: Final = ComplianceModel(
     gain=0.0015, speed=0.0127, turn_gain=0.1, turn_speed=0.1, turn_limit=15 * DEGREE, ramp=6,

@@ -51,7 +51,7 @@ SAME_JOINTS: Final = 1e-4  # rad or m within which an arm is at a loop's entry
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UndoFailure:
-    """Why a reversal was broken off; the run stays there."""
+    """Why a reversal was interrupted; the run stays there."""
 
     error: int | None = None
     cause: Cause | None = None

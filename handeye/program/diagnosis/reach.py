@@ -1,4 +1,4 @@
-"""Reach failures: why an arm cannot take up a pose or make a motion. Facts, joints from 0, SI units; and sentences."""
+"""Reach failures: why an arm cannot reach a pose or make a motion. Facts, joints from 0, SI units; and sentences."""
 
 from collections.abc import Sequence
 from typing import Protocol, assert_never

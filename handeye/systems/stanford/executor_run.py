@@ -128,7 +128,7 @@ class RunningPlan(RunningSystem):
     def unkept(self) -> str | None:
         return self._unkept
 
-    # -- going on -------------------------------------------------------------------------------------
+    # -- running --------------------------------------------------------------------------------------
 
     def begin(self) -> Sequence[AnyEvent]:
         if self._eye is not None and self.plan.program.written("picture"):
@@ -142,7 +142,7 @@ class RunningPlan(RunningSystem):
         return [self._started(), *self._friction(seconds)]
 
     def _prepare(self, eye: CameraSetup) -> float:
-        """Measure the joints and calibrate the camera, or take up a kept preparation; return the joints' time, s."""
+        """Measure the joints and calibrate the camera, or use a kept preparation; return the joints' time, s."""
         kept = KeptCalibrations.of_user()
         conditions = None if kept.folder is None else conditions_of(self._setup, self._cell.renderer)
         earlier = None if conditions is None or self._anew else kept.find(conditions)
@@ -160,7 +160,7 @@ class RunningPlan(RunningSystem):
         return seconds
 
     def _goes_on_from(self, earlier: Preparation) -> bool:
-        """Take up a kept preparation; False, with nothing changed, if it cannot be used."""
+        """Use a kept preparation; False, with nothing changed, if it cannot be used."""
         try:
             take_up(earlier, self.context, self._cell)
         except InvalidInput:

@@ -38,7 +38,7 @@ class Preparation(Record, frozen=True, kw_only=True):
 def preparation_of(
     run: ExecutionContext, cell: SimulatedCell, seconds: float, friction_s: float
 ) -> Preparation:
-    """The preparation that a run has just carried out; the clock of the cell shows 0 by now."""
+    """The preparation that a run has just made; the clock of the cell now shows 0."""
     return Preparation(
         cell=cell.capture(),
         drive=copied(run.state.drive),

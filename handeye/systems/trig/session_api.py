@@ -15,7 +15,7 @@ _WIDE: Final = 100  # characters of a line of the displays
 
 
 class TrigSession:
-    """A session at TRIG's editor, with a teach box: each line typed is carried out, and the program grows.
+    """A session at TRIG's editor, with a teach box: each line typed is executed, and the program grows.
 
     It shows itself as its steps; in notebooks in miniature, too.
 
@@ -50,7 +50,7 @@ class TrigSession:
         The messages, a sentence each.
 
                 Raises:
-                    InvalidInput: a line cannot be carried out; those before it have been.
+                    InvalidInput: a line cannot be executed; those before it have been.
         """
         told: list[str] = []
         script = Script(text.splitlines(), told.append)

@@ -128,7 +128,7 @@ def arm() -> Iterator[Quantity]:
 
 
 def _friction() -> Iterator[Quantity]:
-    """Coulomb friction of the joints; that of joint 1, which bears no weight, is checked by nothing."""
+    """Coulomb friction of the joints; that of joint 1, which carries no weight, has no check."""
     means = STANFORD.compliance.friction
     what = (
         "Coulomb friction of the joints, varied by a quarter. Without this error it is the mean; set to 0, there "

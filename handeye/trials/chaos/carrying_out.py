@@ -1,4 +1,4 @@
-"""Carries out a schedule: interrupted where it says so, taken up again from disk, and ended by its operator."""
+"""Executes a schedule: interrupted where it says so, resumed from disk, and ended by its operator."""
 
 import subprocess
 import sys
@@ -65,7 +65,7 @@ class Button(Observer):
 
 @dataclass(slots=True)
 class ScheduleRun:
-    """A schedule carried out."""
+    """A schedule executed."""
 
     folder: Path
     runner: Runner
@@ -113,7 +113,7 @@ class ScheduleRunner:
     def _interrupted(
         self, interruption: Break, stops: Sequence[StopCondition]
     ) -> tuple[Runner | None, Pause | None]:
-        """Go on until an interruption, or until the run pauses by itself before it."""
+        """Continue until an interruption, or until the run pauses by itself before it."""
         if interruption.kind == "kill":
             self._folder.close()
             kill_resumed(self._place, interruption.after)

@@ -25,7 +25,7 @@ Count = Annotated[int, msgspec.Meta(ge=1, le=9999)]
 
 _NEAR: Final = (1, 400)  # Servo periods before the panic button is hit: up to seven seconds
 _FEW: Final = (1, 6)  # Steps or events before any other interruption
-MOST_STEPS: Final = 24  # Steps of a schedule that does not go on to the end of its stage
+MOST_STEPS: Final = 24  # Steps of a schedule that does not continue to the end of its stage
 
 
 class Break(Record, frozen=True, kw_only=True):
@@ -43,7 +43,7 @@ class Schedule(Record, frozen=True, kw_only=True):
 
     seed: int
     level: Level = "nominal"
-    start: Annotated[int, msgspec.Meta(ge=0)]  # Steps of the sound run that are done when it begins
+    start: Annotated[int, msgspec.Meta(ge=0)]  # Steps of the fault-free run that are done when it begins
     steps: Count | None = None  # Most steps before it ends; None: until the end of its first stage
     faults: tuple[str, ...] = ()  # As they would be typed
     breaks: tuple[Break, ...] = ()
@@ -69,7 +69,7 @@ class Schedule(Record, frozen=True, kw_only=True):
                 yield msgspec.structs.replace(self, **{name: (*things[:number], *things[number + 1 :])})
 
     def given(self, catalogue: Catalogue) -> tuple[Fault, ...]:
-        """Its faults; raises InvalidInput if one is unknown, or sets in with no stage."""
+        """Its faults; raises InvalidInput if one is unknown, or begins with no stage."""
         found = faults(catalogue, self.faults, by_number)
         for fault in found:
             if fault.stage is None:
@@ -136,7 +136,7 @@ def draw(
 
 
 def _fault(chance: random.Random, kind: FaultKind, stage: int) -> Fault:
-    """A fault of a kind that sets in with a stage, at its usual size or at another."""
+    """A fault of a kind that begins with a stage, at its usual size or at another."""
     usual = kind.usual(stage)
     if kind.size is None or chance.random() < 0.5:
         return usual

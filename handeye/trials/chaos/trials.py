@@ -167,7 +167,7 @@ def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
     """Failed findings on work that the program considers right.
 
     A stage that the program has done is judged by the findings that must hold from its end on. If one does not, the
-    program goes on, for a later check may notice: it is silent only if the program ends with a wrong pump.
+    program continues, for a later check may notice: it is silent only if the program ends with a wrong pump.
     """
     happened = carried.runner.events[len(start.events) :]
     overruled = any(isinstance(event, OperatorAnswered) and event.choice != "retry" for event in happened)
@@ -204,7 +204,7 @@ LEVELS: Final[tuple[Level, ...]] = ("nominal", "low", "high")
 class ChaosRow(TrialRow, frozen=True, kw_only=True):
     """One schedule, which is the condition, tried."""
 
-    drawn: ScheduleResult | None = None  # Its result; None: it broke off
+    drawn: ScheduleResult | None = None  # Its result; None: it did not finish
     shrunk: ScheduleResult | None = None
     """The same with the fewest things with which it still fails; None: it does not fail."""
 
@@ -219,7 +219,7 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChaosWork:
-    """Tries schedules on the sound runs of a folder."""
+    """Tries schedules on the fault-free runs of a folder."""
 
     setup: Setup  # The setup of the runs without their worlds
     folder: Path

@@ -123,7 +123,7 @@ class Watch:
         return ()
 
     def over(self) -> bool:
-        """Tell whether it has taken too long."""
+        """True if it has taken too long."""
         if self.clock() > self.simulated_s:
             self.ended = "simulated limit"
         elif self.timer.cpu_s > self.cpu_s:
@@ -151,7 +151,7 @@ ASSEMBLY: Final = Sweep(
     more=lambda rows: {"answered": answered(rows)},
     details=details,
 )
-"""Programs carried out and judged."""
+"""Programs run and judged."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -188,4 +188,4 @@ DISMANTLING: Final = Sweep(
     narrated=True,
     details=lambda rows: (margin_details([row for row in rows if row.verdict != "not built"]),),
 )
-"""Programs carried out and undone by the arm."""
+"""Programs run and undone by the arm."""

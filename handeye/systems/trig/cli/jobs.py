@@ -252,7 +252,7 @@ def pallet_trials(
     Each trial is that of `handeye trig palletise`: taught, run, judged, undone, judged. Ctrl-C ends the batch and
     prints what has finished.
 
-    Exit code 0: no silent failure; 1: every trial broke off; 3: in some trial all was said to be done, and the referee
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial all was said to be done, and the referee
     disagrees.
     """
     from handeye.systems.trig.jobs.benches import MOST_BLOCKS

@@ -40,7 +40,7 @@ class ObservedScene(Record, frozen=True, kw_only=True):
 
 
 class InitialScene(ObservedScene, frozen=True, kw_only=True):
-    """The scene before a run, and the one before its reversal."""
+    """The scene before a run, and the scene before its reversal."""
 
     taught: dict[str, Place]  # taught positions
     turned: ObservedScene | None = None  # scene before the reversal, if recorded

@@ -1,4 +1,4 @@
-"""Typed lines: carried out as commands or refused in a sentence, from a terminal or a script.
+"""Typed lines: executed as commands or refused in a sentence, from a terminal or a script.
 
 The lines of a script are those of a terminal: commands, with or without the prompt; after a command the buttons of
 the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to its questions, with or without the question.
@@ -136,7 +136,7 @@ class Script(Desk):
 
 
 class LineRefused(BadFile):
-    """A line of a script cannot be carried out."""
+    """A line of a script cannot be executed."""
 
     def __init__(self, name: str, number: int, why: str) -> None:
         super().__init__(f"{name}, line {number}: {why}")

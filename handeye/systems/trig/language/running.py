@@ -142,7 +142,7 @@ class Interpreter:
         return RunResult(steps=steps, end="none" if id == NONE else "count")
 
     def carry_out(self, id: int, came: int) -> int | None:
-        """Carry out one node, moving the cursor to a step; arguments and result as for `execute`."""
+        """Execute one node, moving the cursor to a step; arguments and result as for `execute`."""
         node = self.program.graph[id]
         if came in node.fathers:
             node.last_father = came
@@ -162,7 +162,7 @@ class Interpreter:
         return not self.halted()
 
     def execute(self, node: Node, came: int) -> int | None:
-        """Carry out one node after the node `came`; returns the next node, or None if the arm was halted."""
+        """Execute one node after the node `came`; returns the next node, or None if the arm was halted."""
         match node.type:
             case "normal" | "guarded":
                 return self._move(node)

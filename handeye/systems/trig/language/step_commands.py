@@ -97,7 +97,7 @@ def check_no_opposite(session: Session, name: str) -> None:
 
 
 def loop(session: Session, given: Arguments) -> None:
-    """LOOP: go back to a step a number of times before going on."""
+    """LOOP: go back to a step a number of times before continuing."""
     target, wanted = session.step(given.step or ""), given.count or 0
     if target.id == TOP:
         raise Refused(f"a loop goes back to a step; {target_hint(session)}")

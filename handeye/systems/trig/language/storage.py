@@ -19,7 +19,7 @@ from handeye.systems.trig.language.program import TrigProgram
 
 
 def faults(graph: Graph, positions: Positions) -> Iterator[str]:
-    """Violations of invariants in words; none if the program is sound."""
+    """Violations of invariants in words; none if the program is valid."""
     torn = list(_edge_faults(graph))
     if not torn and not _has_tree(graph):
         torn = ["its steps are not all connected to the top"]

@@ -1,4 +1,4 @@
-"""Carries out a taught job, reverses it, and judges both."""
+"""Executes a taught job, reverses it, and judges both."""
 
 from collections.abc import Callable, Mapping
 from typing import Final, Literal
@@ -69,7 +69,7 @@ def carry_out(
     go: Callable[[int | None], Pause] | None = None,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Pause:
-    """Carry out a job from its present state to the end of its program or for `after` steps, and back if possible.
+    """Execute a job from its present state to the end of its program or for `after` steps, and back if possible.
 
     `go` runs a number of steps, or all, by default without an operator; `tell` gets the end of each leg in words.
     """
@@ -86,7 +86,7 @@ def carry_out(
 
 
 def carried_out(runner: Runner, *, after: int | None = None) -> JobReport:
-    """Carry out a job without a folder; `after` as for `carry_out`."""
+    """Execute a job without a folder; `after` as for `carry_out`."""
     pause = carry_out(runner, after=after)
     return account(runner, pause, outcome(runner, pause, Meter(), judged=True), after=after)
 

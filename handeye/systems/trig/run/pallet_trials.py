@@ -20,7 +20,7 @@ PLACES: Final = 15
 class PalletRow(TrialRow, frozen=True, kw_only=True):
     """One palletising trial."""
 
-    report: JobReport | None = None  # None: broken off
+    report: JobReport | None = None  # None: interrupted
 
     @property
     def outcome(self) -> str:

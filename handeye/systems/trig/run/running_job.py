@@ -1,4 +1,4 @@
-"""A TRIG job under way: taught in the world of its run, carried out and undone step by step on a bench."""
+"""A TRIG job under way: taught in the world of its run, executed and undone step by step on a bench."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -97,7 +97,7 @@ class RunningJob(RunningSystem):
     def trouble(self) -> str | None:
         return None
 
-    # -- going on -------------------------------------------------------------------------------------
+    # -- running --------------------------------------------------------------------------------------
 
     def begin(self) -> Sequence[AnyEvent]:
         self.job.teach(self._ask)
@@ -161,7 +161,7 @@ class RunningJob(RunningSystem):
             state.stage = None
 
     def _carried_out(self, step: TaughtStep) -> str | None:
-        """Carry out a step and the hidden nodes after it; returns why the arm refuses, if it does."""
+        """Execute a step and the hidden nodes after it; returns why the arm refuses, if it does."""
         try:
             next = self.job.session.runner.carry_out(step.node, self._state.came)
         except Refused as error:  # it cannot go where the step wants it

@@ -25,7 +25,7 @@ def declared(
     *,
     stage: int | None = None,
 ) -> PumpFault[B]:
-    """A fault that sets in during a run; by default with a stage, or from the start."""
+    """A fault that begins during a run; by default with a stage, or from the start."""
     return PumpFault(
         name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
     )

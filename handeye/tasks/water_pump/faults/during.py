@@ -1,4 +1,4 @@
-"""Faults that set in during a run: mishaps, by a person's hand or by chance.
+"""Faults that begin during a run: mishaps, by a person's hand or by chance.
 
 Each begins with a stage and lasts a stated time. What is taken away or lost lies from that moment on the tray under
 the floor, where nothing meets it: the hand that takes it is not simulated. A push is a force; so is the hand that moves

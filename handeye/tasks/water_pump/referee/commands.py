@@ -1,4 +1,4 @@
-"""Which motors of a cell have a command left, begun or not: as time goes on, they move what lies right."""
+"""Which motors of a cell still have a command, begun or not: later they would move parts that are right now."""
 
 from typing import Final
 

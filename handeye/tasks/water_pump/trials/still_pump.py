@@ -145,7 +145,7 @@ def known_camera(
 def by_lamp(still: StillPump, renderer: str) -> Calibration:
     """Calibrate as runs do: in the cell of the world the arm measures itself, then carries its lamp through the view.
 
-    The camera of the still scene goes on as that leaves it: with its lens, its aim, and the noise to come. Raises
+    The camera of the still scene continues in that state: with its lens, its aim, and the noise to come. Raises
     CalibrationFailed if the lamp was seen too few times.
     """
     cell = build_cell(still.world, camera=renderer)
