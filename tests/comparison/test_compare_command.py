@@ -134,7 +134,7 @@ def test_a_message_that_is_none_is_refused(tmp_path: Path) -> None:
     broken = tuple(
         replace(message, data=b"{") if message.topic == "/hand" else message for message in run.trace.messages
     )
-    with pytest.raises(InvalidInput, match=r"^a message in .*a\.mcap or .*a\.mcap cannot be read$"):
+    with pytest.raises(InvalidInput, match=r"^a message in .*a\.mcap or .*a\.mcap cannot be understood$"):
         comparison(run, replace(run, trace=replace(run.trace, messages=broken)))
 
 

@@ -103,7 +103,7 @@ def arm() -> Iterator[Quantity]:
         group("arm.drive_gain", numbered(Normal, *[1.0] * 6), "%",
             "True torque of a drive divided by the commanded torque.", least=-90.0,
             unsourced="a linear current amplifier is as accurate as its resistors, and 1 % is the class of the E96 "
-                      "series (IEC 60063); the error of the motors is not known. {DOUBLED}"),
+                      f"series (IEC 60063); the error of the motors is not known. {DOUBLED}"),
         _friction(),
         group("arm.damping", numbered(Uniform, *[30.0] * 6), "%",
             "True viscous friction of a joint divided by the controller's value.", least=-90.0,
@@ -175,5 +175,5 @@ def rubbing(kinds: Sequence[str]) -> Iterator[Quantity]:
         "friction", {name: Uniform(15.0) for name in kinds}, "%",
         "Coefficients of friction divided by those of the drawing.", least=-100.0,
         unsourced="two laboratories measure different friction for the same pair of metals (VAMAS round robin, Wear "
-                  "114, 1987; ASTM G115), and this pump was never measured. {DOUBLED}",
+                  f"114, 1987; ASTM G115), and this pump was never measured. {DOUBLED}",
     )  # fmt: skip
