@@ -86,7 +86,7 @@ STATES: dict[str, tuple[str, tuple[DefectState, ...]]] = {
     "other defects": ("a", ()),
     "another size": ("a", (DefectState(seconds=0.0, first=b"abc"),)),
     "not a finite number": ("a", (DefectState(seconds=0.0, first=np.array(np.nan).tobytes()),)),
-    "when it cannot have": ("a", (DefectState(seconds=-1.0),)),
+    "at an impossible time": ("a", (DefectState(seconds=-1.0),)),
     "impossibly bright": (PICTURE, (DefectState(seconds=0.0, first=bytes([16]) * ROWS * COLUMNS),)),
 }
 

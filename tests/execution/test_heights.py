@@ -40,7 +40,7 @@ def test_one_layer_is_within_its_range() -> None:
 def test_a_height_outside_its_range_raises_error_9(layer: float) -> None:
     run = touched_twice(layer)
     assert run.errors == [WRONG_HEIGHT]
-    assert "in over BARE; allowed: 0.040 to 0.080 in" in run.told
+    assert "in above BARE; allowed: 0.040 to 0.080 in" in run.told
 
 
 def test_a_height_over_what_was_never_saved_raises_error_9() -> None:

@@ -145,7 +145,7 @@ def test_a_deadlock_names_who_waits_for_what() -> None:
         (float("nan"), "^a task cannot wait for nan s$"),
         (float("inf"), "^a task cannot wait for inf s$"),
         (0.0, "^no task can continue: A waits for nothing repeatedly, without any time passing$"),
-        (Until(met=lambda: True, name="it"), "^no task can continue: A waits for nothing, "),
+        (Until(met=lambda: True, name="it"), "^no task can continue: A waits for nothing repeatedly, "),
     ],
 )
 def test_a_wait_without_end_or_sense_is_told_and_ends_all_tasks(

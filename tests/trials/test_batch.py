@@ -164,7 +164,7 @@ def test_a_trial_of_a_seed_that_is_not_the_batch_s_is_refused(tmp_path: Path) ->
     folder = BatchFolder(tmp_path, ASSEMBLY, TRIAL.head(ASSEMBLY, (5, 9)), TRIAL.plan)
     folder.append(Row(trial=1, seed=6, result=RIGHT))
     folder.close()
-    with pytest.raises(InvalidInput, match="line 2, has the seed 6, which trial 1 has not"):
+    with pytest.raises(InvalidInput, match="line 2, has the seed 6, which is not that of trial 1"):
         read_batch(tmp_path)
 
 
@@ -234,7 +234,7 @@ def test_the_plan_in_the_folder_is_that_of_the_batch(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("line", "why"),
     [
-        (b'{"trial":0,"seed":77,"ended":"killed"}', "has the seed 77, which trial 0 has not"),
+        (b'{"trial":0,"seed":77,"ended":"killed"}', "has the seed 77, which is not that of trial 0"),
         (b'{"trial":0,"seed":5,"ended":"ended"}', "a trial that counts as 'ended' has no result"),
     ],
 )
