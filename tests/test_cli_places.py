@@ -36,7 +36,7 @@ def test_a_file_of_another_kind_is_left_alone(command: Command, planned: Planned
     code, out, err = command(*WRITERS[what])
     kind = what.removesuffix(" of a run")
     assert (code, out) == (2, "")
-    assert err == f"handeye: {kept} exists and is not a {kind}; nothing was written\n"
+    assert err == f"handeye: {kept} exists and is no {kind}; nothing was written\n"
     assert kept.read_text(encoding="utf-8") == OURS
 
 

@@ -174,7 +174,7 @@ def test_a_video_in_the_folder_of_its_run_is_renewed_and_one_elsewhere_only_on_r
 def test_a_file_of_somebody_is_left_alone(command: Command, kept: Path) -> None:
     Path("it.webm").write_text("mine", encoding="utf-8")
     assert refused(command, "kept", "-o", "it.webm", "--overwrite") == (
-        "it.webm exists and is not a WebM video; nothing was written"
+        "it.webm exists and is no WebM video; nothing was written"
     )
 
 

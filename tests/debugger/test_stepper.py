@@ -481,7 +481,7 @@ def test_a_checkpoint_goes_to_the_file_that_is_named(say: Say, tmp_path: Path) -
 def test_a_file_that_is_no_checkpoint_is_left_alone(say: Say, tmp_path: Path) -> None:
     file = tmp_path / "pump.al"
     file.write_text("PARK\n")
-    assert say(f"checkpoint {file}")[0].error == f"{file} exists and is not a checkpoint; nothing was written"
+    assert say(f"checkpoint {file}")[0].error == f"{file} exists and is no checkpoint; nothing was written"
     assert file.read_text() == "PARK\n"
 
 

@@ -130,10 +130,10 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.JointAlone(joint=ARM.joints[1], torque=9 * OUNCE_INCH, friction=3 * OUNCE_INCH, one_way=True),
-        "wrist takes 9 oz-in to move; at first it took 3 oz-in, or the arm no longer stands upright",
+        "wrist takes 9 oz-in to move; at the start it took 3 oz-in, or the arm no longer stands upright",
     ),
-    (c.JointAlone(joint=ARM.joints[0], torque=-80 * OUNCE_FORCE), "rail: 80 oz do not move it on"),
-    (c.CurrentSilent(torque=0.0), "it showed 0.0 oz-in at most, less than it takes to start"),
+    (c.JointAlone(joint=ARM.joints[0], torque=-80 * OUNCE_FORCE), "rail: 80 oz do not move it"),
+    (c.CurrentSilent(torque=0.0), "it showed 0.0 oz-in at most, less than the motor needs to start"),
     (
         c.PictureRepeated(picture="AFTER", earlier="BEFORE"),
         "picture AFTER is the same as BEFORE, pixel by pixel",

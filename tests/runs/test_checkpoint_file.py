@@ -96,9 +96,9 @@ def test_another_arm_is_refused(runner: Runner) -> None:
     [
         ({"plan": "{}"}, "the plan in it is not a plan"),
         ({"events": []}, "events are incomplete"),
-        ({"calibration": 3}, "not a sound checkpoint"),
+        ({"calibration": 3}, "not a valid checkpoint"),
         ({"more": 1}, "unknown field"),
-        ({"snapshot": {"position": -1}}, "not a sound checkpoint"),
+        ({"snapshot": {"position": -1}}, "not a valid checkpoint"),
         ({"events": [{"event": "ErrorRaised", "time": 1.0, "number": 2, "detail": ""}]}, "unknown field"),
     ],
 )

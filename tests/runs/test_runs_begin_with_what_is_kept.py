@@ -158,7 +158,7 @@ def test_a_run_that_cannot_keep_its_calibration_goes_on_and_says_so(camera: Came
     runner = Runner(start())
     (said,) = cautions(runner, judged=False)
     assert runner.trouble is None
-    assert said.startswith("the calibration of the camera is not kept for other runs: ")
+    assert said.startswith("the camera calibration was not kept for other runs: ")
 
 
 def test_code_of_the_caller_is_a_condition_that_nobody_knows() -> None:

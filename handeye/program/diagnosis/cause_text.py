@@ -291,7 +291,7 @@ def _alone(cause: c.JointAlone) -> str:
         return f"{cause.joint.name}: {abs(cause.torque) / unit:.0f} {name} do not move it"
     took, takes = distinct_digits([cause.friction / unit, cause.torque / unit], 0)
     tilted = ", or the arm no longer stands upright" if cause.one_way else ""
-    return f"{cause.joint.name} takes {takes} {name} to move; at first it took {took} {name}{tilted}"
+    return f"{cause.joint.name} takes {takes} {name} to move; at the start it took {took} {name}{tilted}"
 
 
 def _way(joint: c.JointName, way: float) -> str:

@@ -166,7 +166,7 @@ def test_events_of_a_run_begin_with_its_tasks_and_end_with_them() -> None:
 def test_a_program_is_run_from_the_shell_and_what_it_prints_is_shown(command: Command) -> None:
     code, out, _ = command("sigma", "run", str(PLANS / "handover.mal"))
     assert (code, out.split()[:4]) == (0, ["PIECES", "4", "SECONDS", "15.6936"])
-    assert "The program came to its end." in out
+    assert "The program finished." in out
 
 
 @pytest.mark.slow
@@ -220,9 +220,7 @@ def test_a_program_that_cannot_be_run_is_refused_in_a_sentence(
 
 def test_what_the_system_cannot_do_is_refused_by_its_name(command: Command) -> None:
     file = str(PLANS / "dead.mal")
-    assert (
-        "SUPERSIGMA cannot follow a plan of motions: `handeye sigma run FILE.mal`" in command("plan", file)[2]
-    )
+    assert "SUPERSIGMA cannot run a plan of motions: `handeye sigma run FILE.mal`" in command("plan", file)[2]
     assert command("check", file)[:2] == (0, f"{file}: no errors\n")
     assert "MOVE axis (TO|BY)" in command("sigma", "words", "move")[1]
     assert "`MOOVE` is no word of MAL; did you mean `MOVE`?" in command("sigma", "words", "MOOVE")[2]

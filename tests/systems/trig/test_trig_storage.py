@@ -111,7 +111,7 @@ def test_an_unwritable_place_and_a_foreign_file_are_refused() -> None:
     Path("mine.trig.json").write_text('{"mine": 1}', encoding="utf-8")
     typist = Typist("GRASP")
     for line, sentence in {
-        "W mine": "mine.trig.json exists and is not a TRIG program; nothing was written",
+        "W mine": "mine.trig.json exists and is no TRIG program; nothing was written",
         "W nowhere/f": "nowhere/f.trig.json cannot be written: No such file or directory",
         "R nothing": "nothing.trig.json: there is no such file",
         "R mine": "mine.trig.json is not a TRIG program",

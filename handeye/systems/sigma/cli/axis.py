@@ -26,7 +26,7 @@ def axis(
     ] = None,
     load: Annotated[float, Parameter(help="Force against the motion, N.")] = 0.0,
     stop_after: Annotated[
-        float | None, Parameter(help="Have an emergency stop the motor after so many ms.")
+        float | None, Parameter(help="Have an emergency stop the motor after this time, in ms.")
     ] = None,
     cut: Annotated[
         bool, Parameter(negative=(), help="Stop by leaving the pulses out, and not by the steepest ramp.")

@@ -2,7 +2,7 @@
 
 Two models. The sine, force = pull-out x sin(2 pi lag / 4 steps), integrated in steps of .1 ms, is the one to believe.
 The balance, in steps of 1 ms, is for benches: it asks whether the force that the pulses want is there, and lets a rotor
-that has lost them coast until it can catch them again. Both slip by whole poles, 4 steps. SI, but for steps.
+that has lost them coast until it can catch them again. Both slip by whole poles, 4 steps. SI, except steps.
 """
 
 import math

@@ -170,7 +170,9 @@ def verdict(found: AxisStudy) -> list[str]:
         f"the least pull-out force is {found.margin:.2f} times what is asked for, at {1000 * found.tightest:.0f} ms"
     ]
     if not found.starts:
-        out.append("its pole is too shallow for the jump to start/stop speed, but for what the damping takes")
+        out.append(
+            "its pole is too shallow for the jump to start/stop speed, except for what the damping takes"
+        )
     if found.kept:
         out.append(f"the rotor follows each pulse, at most {found.lag:.2f} steps away; it would slip at 2")
     elif not found.lost:

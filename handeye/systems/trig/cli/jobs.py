@@ -43,8 +43,8 @@ class KeptOptions:
         Path | None,
         Parameter(
             name=["--out", "-o"],
-            help="Folder for the run: trace, checkpoints, result, what came of the job (job.json), its program, and a "
-            "report (report.html). `handeye resume` and `handeye dismantle` go on from there.",
+            help="Folder for the run: trace, checkpoints, result, outcome of the job (job.json), its program, and a "
+            "report (report.html). `handeye resume` and `handeye dismantle` continue from there.",
         ),
     ] = None
     video: Annotated[
@@ -240,7 +240,7 @@ def pallet_trials(
         WholeNumber, Parameter(name="--n", help="Number of trials; trial K has the seed --seed plus K.")
     ] = 10,
     seed: FirstSeed = 0,
-    blocks: Annotated[WholeNumber, Parameter(help="In the stack, 0 to 20.")] = 7,
+    blocks: Annotated[WholeNumber, Parameter(help="Number of blocks in the stack, 0 to 20.")] = 7,
     interrupt: Annotated[
         bool, Parameter(help="Interrupt each run after a random number of steps, and undo it from there.")
     ] = False,

@@ -100,7 +100,7 @@ def write(session: Session, given: Arguments) -> None:
     _check_files(session)
     file = session.file if given.file is None else trig_file(Path(given.file))
     if file is None:
-        raise Refused("no file has been read or written yet; W takes a name")
+        raise Refused("no file has been read or written yet; give W a name")
     check_place(file, TRIG_FILE)
     if file != session.file:
         check_new(file)
