@@ -29,13 +29,13 @@ LOCK, TEST_LOCK = ROOT / "requirements.lock", ROOT / "requirements-dev.lock"
 STAMP = VENV / "set-up.stamp"
 """Says what .venv was made from; written last."""
 UNFINISHED = VENV / "set-up.unfinished"
-"""Is there while .venv is being made or changed: where a start finds it, .venv is made anew."""
+"""Is there while .venv is being made or changed: where a start finds it, .venv is made again."""
 TURNSTILE = VENV / "set-up.turnstile"
 """Locked by the start that sets up; others wait for it."""
 BROWSER = "HANDEYE_CHROMIUM"
 """Names the browser for the checks of the pages."""
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-"""What it is called where nobody names it."""
+"""Its default name."""
 
 
 CALLED = "HANDEYE_CALLED"
@@ -237,7 +237,8 @@ def install_packages(lock: Path, line: ProgressLine) -> None:
     if code != 0:
         raise SetUpFailed(
             f"pip could not install what {lock.name} lists. "
-            f"With a connection and 1 GB of free disk, start again: the next start begins anew. pip said:\n{said}"
+            f"With a connection and 1 GB of free disk, start again: the next start begins from scratch. pip "
+            f"said:\n{said}"
         )
 
 

@@ -51,7 +51,7 @@ class UnbrokenRun:
     world: tuple[str, ...]
     """The options of the command line that choose its world."""
     command: tuple[str, ...]
-    """Words of the command that carries it out, but for its folder."""
+    """Words of the command that runs it, without its folder."""
     events: tuple[AnyEvent, ...]
     stages: tuple[str, ...]
     first: int = 0
@@ -64,7 +64,7 @@ class UnbrokenRun:
 
 
 def whole_run(folder: Path, seed: int, world: Sequence[str]) -> UnbrokenRun:
-    """Carry out the script of the task from beginning to end, without a break.
+    """Run the script of the task from beginning to end, without a break.
 
     Args:
         world: options of the command line that choose the world.
@@ -208,7 +208,7 @@ def _started(whole: UnbrokenRun, place: Path) -> "subprocess.Popen[bytes]":
 
 
 def _ended(process: "subprocess.Popen[bytes]") -> int:
-    """The exit code of a run that was told to stop."""
+    """The exit code of a run that was asked to stop."""
     try:
         return process.wait(LIMIT)
     except subprocess.TimeoutExpired:

@@ -13,7 +13,7 @@ _UNITS: Final = {"cpu_s": "CPU s", "mib": "MiB"}
 
 
 def page(growths: Sequence[Growth]) -> RenderableType:
-    """A table for each thing that is counted, with what one of it costs beneath what all cost."""
+    """A table for each kind of counted object, with the cost of one below the cost of all."""
     counted = dict.fromkeys(growth.of for growth in growths)
     tables = [_table(of, [growth for growth in growths if growth.of == of]) for of in counted]
     rule = f"power: of the size, over the last two powers of ten; up to {LINEAR} counts as linear"

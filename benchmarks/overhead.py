@@ -33,7 +33,7 @@ class Overhead:
 
 @dataclass(slots=True)
 class _Timed(Observer):
-    """Looks on through a folder, and at the clock."""
+    """Watches through a folder, and reads the clock."""
 
     folder: RunFolder
     tracing: float = 0.0

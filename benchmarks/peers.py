@@ -74,7 +74,7 @@ class Way:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Comparison:
-    """Ways to do one thing."""
+    """Ways to do the same."""
 
     ours: Way
     others: tuple[Way, ...] = ()

@@ -121,7 +121,7 @@ class Speed:
 
     @property
     def cpu_s(self) -> float:
-        """The whole process, but for the tapes."""
+        """The whole process, without the tapes."""
         return self.start_cpu_s + self.planning_cpu_s + self.spent.cpu_s
 
     @property

@@ -28,7 +28,7 @@ class Sight:
 
 
 def sights(number: int, camera: str) -> Iterator[Sight]:
-    """So many, of worlds 0, 1 and so on, their cameras as drawn: what is found wrong, the eye has found wrong.
+    """A number of worlds from 0 on, their cameras as in the drawing: what is found wrong, the eye has found wrong.
 
     Raises:
         InvalidInput: pictures cannot be made so here.

@@ -41,7 +41,7 @@ class _Stages(Observer):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Watching:
-    """Who looks on while all this goes on."""
+    """The observer of all this."""
 
     observers: Sequence[Observer] = ()
     viewed: Callable[[int, int], None] = lambda *_: None
@@ -54,11 +54,11 @@ NOBODY: Final = Watching()
 def carry_out(
     setup: Setup, watching: Watching = NOBODY, *, folder: Path | None = None, calibrate: bool = True
 ) -> tuple[RunCost, Checkpoint]:
-    """Carry out a run with an account of its time; what it has cost, and the state in which its work began.
+    """Run with an account of the time; what it has cost, and the state in which its work began.
 
     Args:
         folder: trace and checkpoints are kept there.
-        calibrate: the camera is calibrated anew, whatever is kept.
+        calibrate: the camera is calibrated again, whatever is kept.
 
     Raises:
         InvalidInput: the run cannot be had.

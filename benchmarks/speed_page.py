@@ -23,7 +23,7 @@ _COLUMNS: Final = {
 
 
 def page(speed: Speed) -> RenderableType:
-    """All of it, for people."""
+    """All of it, as text."""
     return Group(
         _phases(speed),
         Text(),

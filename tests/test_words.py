@@ -57,6 +57,9 @@ def prose(file: Path) -> Iterator[tuple[int, str]]:
         yield from prose_of_page(re.sub(r"^\| we do not write .*?\n\n", "\n", source, flags=re.M | re.S))
     elif file.suffix == ".md":
         yield from prose_of_page(source)
+    elif file.suffix == ".js":  # comments and texts
+        for number, line in enumerate(source.splitlines(), 1):
+            yield number, " ".join(re.findall(r"//.*|/?\*.*|\"[^\"]*\"|`[^`]*", line))
     else:
         yield from enumerate(source.splitlines(), 1)
 
