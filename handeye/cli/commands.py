@@ -30,7 +30,7 @@ fmt = editing:fmt: Format scripts in columns, like a listing of the period; comm
 explain = editing:explain: Explain a diagnostic code, an error number or an instruction; without an argument, list the codes.
 docs = docs:docs: List the pages of the documentation, or print one.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
-export: Export a world, or the end of a run, to other programs.
+export: Export a world, or the state of a run, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
 export glb = exports:glb: Write solids for programs that show or measure shapes, and check that they are closed and have the right mass.
 inspect = scripts:inspect: Show what a plan does: stages, steps, times, guards, forces, and what each step depends on.

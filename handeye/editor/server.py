@@ -308,7 +308,7 @@ def _lenses(script: EditedScript, _: lsp.CodeLensParams) -> list[lsp.CodeLens]:
 
 _STAGE_COMMANDS: Final = {
     "Run": ("handeye.run", "Carry out this stage, after those before it.", ("--stage",)),
-    "Run from here": ("handeye.runFromHere", "Carry out the program from this stage on.", ("--from",)),
+    "Run from here": ("handeye.runFromHere", "Run the program from this stage on.", ("--from",)),
     "Debug": ("handeye.debug", "Step through the program from this stage on.", ("--step", "--from")),
 }
 """Command, tooltip and options of `handeye run` behind each title above a stage."""

@@ -52,7 +52,7 @@ def kept_run(path: Path) -> KeptRun:
             f"{path / RESULT} belongs to another run: of {quoted(result.program)} in the world of {result.world}"
         )
     if not (path / EVENTS).exists() and not (path / PLAN).exists():
-        raise BadFile(f"the run in {path} cannot be shown: it has no {PLAN}")
+        raise BadFile(f"the run in {path} cannot be shown: its {PLAN} is missing")
     events = effective(read_events(path / EVENTS, growing=True)) if (path / EVENTS).exists() else []
     if not events:
         raise BadFile(f"the run in {path} has not begun")
