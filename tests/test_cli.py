@@ -199,7 +199,7 @@ def test_a_script_without_its_ending_is_told_from_a_plan(
 ) -> None:
     planned("OPEN 1")
     Path("job.txt").write_text("OPEN 1", encoding="utf-8")
-    sentence = "handeye: job.txt is not a plan; is it a script? `handeye plan job.txt` makes the plan\n"
+    sentence = "handeye: job.txt is not a plan; is it a script? `handeye plan job.txt` makes a plan of it\n"
     assert command(*words, "job.txt") == (2, "", sentence)
 
 

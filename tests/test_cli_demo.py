@@ -35,7 +35,7 @@ def test_it_can_be_repeated_and_replaces_nothing_else(command: Command) -> None:
     mine.write_bytes(mine.read_bytes() + b"of another run")
     code, out, err = command("demo")
     assert (code, out) == (2, "")
-    assert err.splitlines()[-1] == "handeye: demo.html is there already; --overwrite replaces it"
+    assert err.splitlines()[-1] == "handeye: demo.html already exists; --overwrite replaces it"
     assert command("demo", "--overwrite")[0] == 0
     assert not mine.read_bytes().endswith(b"of another run")
 

@@ -92,7 +92,7 @@ def test_what_was_written_once_is_replaced_only_where_that_is_asked_for(
     place = Path(words[-1])
     assert command(*words)[0] == 0
     place.write_bytes(before := place.read_bytes() + b"\n")
-    assert command(*words) == (2, "", f"handeye: {place} is there already; --overwrite replaces it\n")
+    assert command(*words) == (2, "", f"handeye: {place} already exists; --overwrite replaces it\n")
     assert place.read_bytes() == before
     assert command(*words, "--overwrite")[0] == 0
     assert place.read_bytes() == before[:-1]

@@ -105,8 +105,8 @@ def test_without_the_extra_there_is_no_mp4_and_nothing_is_drawn(
 ) -> None:
     monkeypatch.setitem(sys.modules, "av", None)
     assert refused(command, "kept", "-o", "it.mp4") == (
-        "`video -o FILE.mp4` needs av, which is not installed: `pip install av` brings it, and so does the extra `mp4` "
-        "of handeye"
+        "`video -o FILE.mp4` needs av, which is not installed: `pip install av` installs it, and so does the "
+        "extra `mp4` of handeye"
     )
 
 
@@ -117,7 +117,7 @@ def test_it_is_made_from_python_too(kept: Path) -> None:
 
 def test_python_is_told_its_own_word_for_replacing_one(kept: Path) -> None:
     handeye.open(kept).video("it.webp", width=64, height=48, speed=0.5, first=1, last="open")
-    with pytest.raises(InvalidInput, match=r"^it\.webp is there already; overwrite=True replaces it$"):
+    with pytest.raises(InvalidInput, match=r"^it\.webp already exists; overwrite=True replaces it$"):
         handeye.open(kept).video("it.webp")
 
 
@@ -168,7 +168,7 @@ def test_a_video_in_the_folder_of_its_run_is_renewed_and_one_elsewhere_only_on_r
     shutil.copy(kept / "video.webp", "it.webp")
     assert command("video", "kept", *SMALL)[1].endswith("; the earlier one is replaced\n")
     said = refused(command, "kept", "-o", "it.webp", *SMALL)
-    assert said == "it.webp is there already; --overwrite replaces it"
+    assert said == "it.webp already exists; --overwrite replaces it"
 
 
 def test_a_file_of_somebody_is_left_alone(command: Command, kept: Path) -> None:

@@ -82,7 +82,7 @@ def positive(count: int, what: str) -> None:
 
 WholeNumber = Annotated[int, Parameter(converter=whole)]
 PictureFile = Annotated[Path, Parameter(name=["--out", "-o"], help="The picture, PNG.")]
-Overwrite = Annotated[bool, Parameter(help="Replace what is there already.")]
+Overwrite = Annotated[bool, Parameter(help="Replace existing files.")]
 SceneCamera = Annotated[
     str | None,
     Parameter(

@@ -107,7 +107,7 @@ def check_place(path: Path, kind: Kind, *, overwrite: bool = True) -> None:
             if front and not re.match(kind.begins, front):
                 raise CannotWrite(f"{path} exists and is no {kind.name}; nothing was written")
             if front and not overwrite:
-                raise Taken(f"{path} is there already; --overwrite replaces it")
+                raise Taken(f"{path} already exists; --overwrite replaces it")
         from tempfile import TemporaryFile  # slow to import, and nothing that only reads needs it
 
         with TemporaryFile(dir=Path(os.path.realpath(path)).parent):
@@ -119,7 +119,7 @@ def check_place(path: Path, kind: Kind, *, overwrite: bool = True) -> None:
 def check_new(path: Path) -> None:
     """Raise Taken if something is there: a typed command has no `--overwrite`."""
     if path.exists():
-        raise Taken(f"{path} is there already; nothing was written, take another name")
+        raise Taken(f"{path} already exists; nothing was written, choose another name")
 
 
 def write_over(path: Path, data: bytes, kind: Kind) -> None:

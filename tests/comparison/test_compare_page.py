@@ -116,7 +116,7 @@ def test_both_commands_write_the_page(command: Command, word: str) -> None:
 def test_a_page_is_replaced_only_if_somebody_says_so_and_nothing_else_ever(command: Command) -> None:
     words = ("compare", "a.mcap", "b.mcap", "-o", "page.html")
     assert command(*words)[0] == 0
-    said = "handeye: page.html is there already; --overwrite replaces it\n"
+    said = "handeye: page.html already exists; --overwrite replaces it\n"
     assert command(*words) == (2, "", said)
     assert command(*words, "--overwrite")[0] == 0
     Path("page.html").write_text("mine", encoding="utf-8")

@@ -85,7 +85,7 @@ def test_programs_are_saved_to_new_files_and_loaded(tmp_path: Path, monkeypatch:
     typed = Typed()
     typed(f"LOAD {PLANS / 'dead.mal'}")
     assert typed("SAVE mine") == ["mine.mal: 26 lines"]
-    assert typed("SAVE mine") == ["mine.mal is there already; nothing was written, take another name"]
+    assert typed("SAVE mine") == ["mine.mal already exists; nothing was written, choose another name"]
     assert (tmp_path / "mine.mal").read_text(encoding="utf-8") == (PLANS / "dead.mal").read_text(
         encoding="utf-8"
     )
