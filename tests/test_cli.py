@@ -94,7 +94,7 @@ def test_a_plan_of_two_files_needs_neither(command: Command) -> None:
 
 
 SPOILED: dict[str, Callable[[str], str]] = {
-    "is cut short": lambda text: text[:200],
+    "was cut short": lambda text: text[:200],
     "has plan format version 99": lambda text: text.replace(f'"version": {VERSION}', '"version": 99'),
     "unknown field `extra`": lambda text: text.replace("{", '{"extra": 1,', 1),
     "not a plan": lambda _: "[]",

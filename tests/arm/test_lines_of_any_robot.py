@@ -123,7 +123,7 @@ def test_a_slide_that_would_have_to_be_too_fast_is_named() -> None:
     assert isinstance(found, IKResult)
     assert isinstance(found.reason, TooFast)
     assert found.message(CARTESIAN).startswith("joint 1 (x) would have to move at")
-    assert found.message(CARTESIAN).endswith("in/s; it can do 39 in/s")
+    assert found.message(CARTESIAN).endswith("in/s; its limit is 39 in/s")
 
 
 def test_rolls_in_line_share_what_one_of_them_cannot_do() -> None:

@@ -99,6 +99,7 @@ WORDS: list[tuple[c.Cause, str]] = [
         "by the weight that it bears a drive gives more or less torque than commanded, or the arm no longer stands "
         "upright: that of the wrist 1.30 times",
     ),
+    (c.MotorSlow(share=0.4), "the motor had started after 0.4 of the usual time: it turns too slowly"),
     (
         c.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
         "the gap reads 0.50 in; the fingers were driven to 1.80 in",

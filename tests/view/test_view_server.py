@@ -264,7 +264,7 @@ def test_what_cannot_be_understood_is_refused_and_changes_nothing(
 ) -> None:
     viewer = theatre.viewer()
     viewer.send(message)
-    assert heard(viewer, "refused")["refused"] == "this message cannot be understood"
+    assert heard(viewer, "refused")["refused"] == "this message cannot be read"
     assert theatre.server.link.come() is None
 
 

@@ -184,7 +184,7 @@ def test_a_program_is_stepped_by_its_own_line_numbers_and_back(command: Command)
     typed = "until 160\nshow tasks\nback 3\nbreak FEEDER\nquit\n"
     code, out, _ = command("sigma", "run", str(PLANS / "handover.mal"), "--step", typed=typed)
     assert "→ 160  TAKE PLACEFREE   [FEEDER]" in out
-    assert "MAIN        50  WAIT FEEDERDONE AND SCREWERDONE, waits for flags" in out
+    assert "MAIN        50  WAIT FEEDERDONE AND SCREWERDONE, waiting for flags" in out
     assert "3 steps undone" in out
     assert code == 0
 
