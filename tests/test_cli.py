@@ -159,7 +159,7 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
             ("trials", "assembly", "--n", "3", "--only", "3"),
             "there is no trial 3: this batch has trials 0 to 2",
         ),
-        (("trials", "assembly", "--n", "0"), "at least one trial is needed; 0 is too few"),
+        (("trials", "assembly", "--n", "0"), "the number of trials must be at least 1, not 0"),
         (
             ("trials", "assembly", "--cpu-limit", "0"),
             "a limit of time is a number of seconds above 0; 0 is not",

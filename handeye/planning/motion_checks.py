@@ -224,7 +224,7 @@ class Checks:
                 return
 
     def told_from_friction(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Check that guards can be told from the expected friction at the start, `q`."""
+        """Check that guards are distinguishable from the expected friction at the start, `q`."""
         expected = np.array(self.arm.compliance.friction)
         for demand in demands:
             most = faint(self.arm, q, expected, demand.exerted) if demand.guard else None

@@ -76,7 +76,7 @@ def test_the_bench_wants_to_measure_at_least_once(benchmark: Command) -> None:
     assert benchmark("language", "--times", "0") == (
         2,
         "",
-        "handeye: at least one time is needed; 0 is too few\n",
+        "handeye: the number of times must be at least 1, not 0\n",
     )
 
 

@@ -111,7 +111,7 @@ def test_the_bench_tells_a_program_the_same(benchmark: Command) -> None:
 
 @pytest.mark.parametrize("bench", ["vision", "ik"])
 def test_a_bench_wants_to_measure_at_least_once(benchmark: Command, bench: str) -> None:
-    said = "handeye: at least one time is needed; 0 is too few\n"
+    said = "handeye: the number of times must be at least 1, not 0\n"
     assert benchmark(bench, "--times", "0") == (2, "", said)
 
 

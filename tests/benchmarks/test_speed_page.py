@@ -120,7 +120,7 @@ def test_the_worlds_are_those_from_the_seed_on(benchmark: Command, monkeypatch: 
 
 
 def test_the_bench_wants_a_world(benchmark: Command) -> None:
-    said = "handeye: at least one world is needed; 0 is too few\n"
+    said = "handeye: the number of worlds must be at least 1, not 0\n"
     assert benchmark("speed", "--worlds", "0") == (2, "", said)
 
 
