@@ -177,7 +177,7 @@ def test_positions_are_taught_from_a_page(browser: Browser, tmp_path: Path) -> N
         type_in(page, "push x 1 60")
         page.wait("/the arm is moving/.test(document.getElementById('state').textContent)")
         press(page, "Where")
-        page.wait(f"/`where` was not carried out/.test({TOLD})")
+        page.wait(f"/`where` was refused/.test({TOLD})")
         press(page, "Panic")
         answered("stopped by the panic button; the brakes are set")
         press(page, "Save")
