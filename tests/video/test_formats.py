@@ -81,15 +81,14 @@ def test_a_file_is_known_by_how_it_begins() -> None:
     [
         (
             "it.gif",
-            "it.gif: a GIF would be seven times as large, with only 256 colours; make a .webp or a .webm",
+            "it.gif: a GIF would be seven times as large, with only 256 colours; make a .webp or a .webm or a .mp4",
         ),
-        ("it.APNG", "it.APNG: an animated PNG would be twenty times as large; make a .webp or a .webm"),
         (
-            "it.mp4",
-            "it.mp4: browsers expect H.264 in it, which OpenCV cannot write; make a .webp or a .webm",
+            "it.APNG",
+            "it.APNG: an animated PNG would be twenty times as large; make a .webp or a .webm or a .mp4",
         ),
-        ("it.mkv", "it.mkv: the name of a video ends in .webp or .webm"),
-        ("it", "it: the name of a video ends in .webp or .webm"),
+        ("it.mkv", "it.mkv: the name of a video ends in .webp or .webm or .mp4"),
+        ("it", "it: the name of a video ends in .webp or .webm or .mp4"),
     ],
 )
 def test_other_files_are_refused_with_the_reason(name: str, sentence: str) -> None:
