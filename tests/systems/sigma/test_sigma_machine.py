@@ -8,6 +8,7 @@ from mal_bench import TWO_TASKS, begun, carried_out, go_on, mal
 from handeye.core.mutable_records import copied
 from handeye.systems.sigma.machine.perfect import PerfectMotors
 from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
+from handeye.systems.sigma.protocol import NUMBERS
 
 
 @pytest.mark.sigma_row(32)
@@ -154,6 +155,19 @@ def test_a_busy_motor_lets_the_next_command_wait() -> None:
     assert (ran.printed, ran.vm.memory.commands, ran.vm.time > 1.5) == (["0"], 3, True)
 
 
+@pytest.mark.sigma_row(23)
+def test_a_move_of_two_axes_is_two_commands_whose_motions_overlap_and_end_apart() -> None:
+    ran = begun("10 MOVE X1 TO 50, Y1 TO 20")
+    ran.vm.statement()
+    machine = ran.vm.machine
+    assert isinstance(machine, PerfectMotors)
+    x, y = (machine.memory.motors[number] for number in (NUMBERS["X1"], NUMBERS["Y1"]))
+    assert [event.to for event in ran.sent] == ["X1", "Y1"]
+    assert x.begun < y.begun < y.until < x.until  # Y is at its place before X is: the path has a bend
+    assert (x.steps, y.steps) == (1333, 533)
+
+
+@pytest.mark.sigma_row(23)
 def test_a_straight_line_is_within_half_a_millimetre_of_straight() -> None:
     """Speeds come in steps of 2 mm/s, so that their ratio is off: the axes wait for each other on the way."""
     ran, place, begun_at, off = (
