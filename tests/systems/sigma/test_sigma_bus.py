@@ -480,6 +480,17 @@ def test_a_state_that_is_kept_with_bytes_under_way_goes_on_the_same_to_the_byte(
     assert msgspec.json.encode(resumed.memory) == msgspec.json.encode(whole.memory)
 
 
+def test_a_state_that_is_kept_while_a_limited_motor_moves_is_taken_back_the_same_to_the_byte() -> None:
+    bus = LoggedBus()
+    bus.send(limit_speed("X1", 250))
+    for command in (move("X1", 40), move_slow("X1", 40, 20.0)):
+        bus.send(command)
+        kept = msgspec.json.encode(bus.memory)
+        bus.remember(msgspec.json.decode(kept, type=BusMemory))
+        assert msgspec.json.encode(bus.memory) == kept
+        bus.settled("X1")
+
+
 def test_what_another_bus_remembers_is_refused() -> None:
     with pytest.raises(BadFile, match="that of another bus"):
         LoggedBus().remember(copied(LoggedBus(layout=LINE).memory))

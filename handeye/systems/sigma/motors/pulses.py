@@ -106,13 +106,13 @@ def profile(steps: int, curve: Curve, limit: float = 0.0) -> Train:
         steps: From 1.
         limit: Greatest speed, steps/s; 0: that of the curve.
     """
-    top = min(curve.top, limit) if limit else curve.top
+    top = min(curve.top, float(limit)) if limit else curve.top
     return Train(steps=steps, start=min(curve.start, top), top=top, acceleration=curve.acceleration)
 
 
 def constant(steps: int, speed: float, curve: Curve, limit: float = 0.0, *, ramped: bool = True) -> Train:
     """The train of a move at constant speed, steps/s; above start/stop speed it has ramps, unless `ramped` is off."""
-    speed = min(speed, limit) if limit else speed
+    speed = min(speed, float(limit)) if limit else speed
     start = min(curve.start, speed) if ramped else speed
     return Train(steps=steps, start=start, top=speed, acceleration=curve.acceleration)
 
