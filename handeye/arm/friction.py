@@ -1,6 +1,6 @@
 """What the hand feels where it meets nothing: friction of the joints that is not known, and steps of the converters.
 
-The force estimate has no friction beside what is known of it. A joint at rest takes up any torque up to its Coulomb
+The force estimate has no friction beyond what is known. A joint at rest takes up any torque up to its Coulomb
 friction f_i, a sliding one takes up all of it, and what the estimate cannot explain is felt as the wrench J^-T tau
 (statics, by virtual work: Paul 1981). So the box of torques |tau_i| <= f_i is felt as a polytope of wrenches, which
 along a unit vector u reaches the sum over the joints of |u J^-T_i f_i|.
