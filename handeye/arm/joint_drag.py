@@ -29,7 +29,7 @@ MAX_DRAG_RATIO: Final = 2.0
 
 Measured friction is right within a quarter of a step and 2 %, and so is what a motion takes: at twice the stated errors
 up to 1.08 times and half a step. The rest is left to weight that differs between one way and the other. Sound joints of
-twelve worlds come to 1.4."""
+twelve worlds reach 1.4."""
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size
 WEIGHT_DOUBT: Final = 0.2
 """Fraction of weight and inertia torques that may be wrong where a joint went one way only: masses, mass centres and

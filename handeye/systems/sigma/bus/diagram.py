@@ -176,7 +176,7 @@ def as_text(drawn: Diagram, width: int = 100, *, ascii: bool = False) -> list[st
     columns = max(20, width - _NAME - behind)
     scale = (drawn.end - drawn.begin) / columns
     high, low, edge = _ASCII if ascii else _UNICODE
-    narrow = scale > drawn.slot / 2  # bytes lie too close to each other to be told apart
+    narrow = scale > drawn.slot / 2  # bytes lie too close to each other to be distinguished
 
     def column(at: int) -> int:
         return int((at - drawn.begin) / scale)

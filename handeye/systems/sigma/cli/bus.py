@@ -122,7 +122,7 @@ def run(
     json: Json = False,
     drawing: DrawingOptions = NO_DRAWING,
 ) -> int:
-    """Carry out a program in MAL over the wires, and say how busy the bus and the computer were.
+    """Run a program in MAL over the wires, and say how busy the bus and the computer were.
 
     The diagram is drawn with --svg alone, of the whole run or of a part. `handeye sigma run --arm wired` keeps a run.
 

@@ -20,7 +20,7 @@ class BusRun(Record, frozen=True, kw_only=True):
     """What a program has done to the bus."""
 
     completed: bool
-    message: str  # why it did not come to its end; empty: it did
+    message: str  # why it did not finish; empty: it did
     seconds: float
     commands: int  # questions among them
     per_second: float
