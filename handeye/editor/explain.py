@@ -142,7 +142,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         "MOVE T\nSKIPE 3 ;T is out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.SERVO_LAG: Remedy(
-        "Something is where nothing was expected. Expect it with a STOP, which ends the motion, or ask the operator.",
+        "Something is where nothing was expected, or the joint of the message does not follow. Expect the first with "
+        "a STOP, which ends the motion, or ask the operator.",
         'MOVE T\nCHANGE [0 0 -1] .5\nSKIPN 4 ;nothing is in the way\nWAIT "CLEAR THE TABLE"\nMOVE P',
     ),
     errors.WATCHDOG: Remedy(

@@ -75,6 +75,12 @@ class ExecutionContext:
         return tuple(guard for guard in guards if guard.sense() not in self.without)
 
     @property
+    def part_here(self) -> str:
+        """The part at whose place the hand should be since the last MOVE; empty if its goal is no part's."""
+        place = self.plan.program.positions.get(self.state.place)
+        return "" if place is None or place.of is None else place.of
+
+    @property
     def planned(self) -> PlannedMotion:
         """The planned motion of the present step, which must have one."""
         assert self.state.at is not None

@@ -209,7 +209,8 @@ def _thick_enough(run: ExecutionContext, least: float) -> Fault | None:
     gap = run.drive.sensed.gap
     if at_least(gap, least):
         return None
-    return Fault(number=errors.NOTHING_HELD, cause=GapTooSmall(gap=round(gap, 6), minimum=least))
+    cause = GapTooSmall(gap=round(gap, 6), minimum=least, of=run.part_here)
+    return Fault(number=errors.NOTHING_HELD, cause=cause)
 
 
 def _switches_open(run: ExecutionContext) -> Fault:

@@ -4,6 +4,7 @@ import math
 from typing import Final
 
 import numpy as np
+from msgspec import structs
 
 from handeye.arm.friction import faint
 from handeye.arm.ik import IKResult
@@ -29,8 +30,10 @@ from handeye.program.diagnosis.causes import (
     CurrentSilent,
     CurrentUnlike,
     GuardsUnmet,
+    HandAstray,
     HeightOutside,
     HeightUnknown,
+    JointBehind,
     MotorSlow,
     TravelOutside,
 )
@@ -176,7 +179,10 @@ def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
     """The error of a motion's outcome: none after a trip, and one if guards did not trip."""
     if outcome.error is not None:
-        return Fault(number=outcome.error, cause=outcome.cause)
+        cause = outcome.cause
+        if isinstance(cause, HandAstray | JointBehind):
+            cause = structs.replace(cause, of=run.part_here)
+        return Fault(number=outcome.error, cause=cause)
     if outcome.trip is not None:
         trip = outcome.trip
         run.emit(

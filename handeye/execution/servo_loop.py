@@ -45,6 +45,8 @@ _AT_ONCE = 15
 """Servo periods, at most, for which an arm that the brakes hold is left alone: the panic button waits .25 s."""
 LIGHT = 5.0
 """Heaviest load (N) with which the drag of the joints is judged: a heavier one that is lost is felt as much. Chosen."""
+SWING = 0.3
+"""Share of its limit by which a joint that swings has been off to either side. Chosen: what stops it pushes one way."""
 PRESS_TIME = 10.0
 """s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
 
@@ -99,10 +101,11 @@ class ServoLoop(Servo):
         guard: Monitor | None = None,
         direction: Array | None = None,
         beside: Callable[[int], None] = lambda _: None,
-        drag: JointDrag | None = None,
+        drag: tuple[JointDrag, JointDrag] | None = None,
         balance: TorqueBalance | None = None,
     ) -> Motion[Outcome]:
-        """Follow set-points; end early when `guard` trips. `drag` and `balance` take down what torques that takes.
+        """Follow set-points; end early when `guard` trips. `drag`, of all of it and of its first half, and `balance`
+        take down what torques that takes.
 
         The guard looks along `direction`, unit vectors in W, shape (3,) or (N, 3); `beside` sets what else is put out
         in a servo period, by the number of its set-point.
@@ -120,7 +123,7 @@ class ServoLoop(Servo):
         J = jacobian(self.arm, motion.q) if felt else np.zeros((count, 6, n))  # without effect
         directions = np.broadcast_to(np.zeros(3) if direction is None else direction, (count, 3))
         sensors, off = self._sensors(), np.zeros(len(self.state.q))
-        met = np.zeros(n)
+        met, swing = np.zeros(n), np.zeros((2, n))
         for i in range(len(motion)):
             here, along = Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i]), directions[i]
             q, qd, qdd = motion.q[i], motion.qd[i], motion.qdd[i]
@@ -135,10 +138,11 @@ class ServoLoop(Servo):
                 return CUT
             self.state.q = samples.q[i]
             if drag is not None:
-                drag.step(spare, here.bias, self.sensed.qd)
+                for each in drag if 2 * i < len(motion) else drag[:1]:
+                    each.step(spare, here.bias, self.sensed.qd)
             if balance is not None:
                 balance.step(q, spare, self.sensed.qd)
-            failed = self._doubted(sensors) or self._behind(met)
+            failed = self._doubted(sensors) or self._behind(met, swing)
             if failed is not None:
                 return failed
             if len(motion) <= 3 * i < 2 * len(motion):
@@ -148,7 +152,7 @@ class ServoLoop(Servo):
                 self._freeze(along)
                 return Outcome(trip=trip)
         met = yield from self.holding(self.arm.servo.settle)
-        return REACHED if guard is not None else self._arrived(off, met)
+        return REACHED if guard is not None else self._arrived(off, met, swing)
 
     def gliding(self, samples: Samples, guard: Monitor | None, direction: Array | None) -> Motion[Outcome]:
         """Follow set-points through free air; see `following`.
@@ -157,14 +161,17 @@ class ServoLoop(Servo):
         """
         held = not self.state.in_air and off_zero(self.state.wrench[:3])  # it comes from what it pressed on
         self.state.in_air = False
-        drag = JointDrag(arm=self.arm)
+        drag, half = JointDrag(arm=self.arm), JointDrag(arm=self.arm)
         balance = TorqueBalance(arm=self.built, friction=self.state.friction)
-        outcome = yield from self.following(samples, guard, direction, drag=drag, balance=balance)
+        outcome = yield from self.following(samples, guard, direction, drag=(drag, half), balance=balance)
         if outcome.off > self.arm.servo.short / 2:  # far more than what lags on the way of a free arm
             yield from self.zeroing()
             return self._force_in_air()
         if outcome == REACHED and self.state.load <= LIGHT:
             outcome = self._dragging(drag) or REACHED
+        elif isinstance(outcome.cause, HandAstray | JointBehind) and self.state.load <= LIGHT:
+            stiff = self._dragging(half, outcome.cause.joint)  # long before it met anything
+            outcome = stiff or outcome
         if outcome == REACHED and len(samples) and self.state.links is not None and not held:
             outcome = self._off_balance(balance) or REACHED
         self.state.in_air = outcome == REACHED
@@ -184,7 +191,11 @@ class ServoLoop(Servo):
         gone, given, turn = 0.0, np.zeros(3), np.zeros(3)
         for tick in range(course.patience(round(PRESS_TIME / self.period), self.period)):
             if gone >= course.distance:
-                return REACHED if guard is not None else self._arrived(np.zeros(len(met)), met)
+                return (
+                    REACHED
+                    if guard is not None
+                    else self._arrived(np.zeros(len(met)), met, np.zeros((2, len(met))))
+                )
             gone += course.advance(self.state.wrench, tick) * self.period
             given += course.yielding(self.state.wrench) * self.period
             turn = course.turned(turn, self.state.wrench, self.period)
@@ -271,16 +282,20 @@ class ServoLoop(Servo):
         held = solve(self.arm, translated(X_set, along * direction), self.state.q)
         self.state.q = self.state.here.copy() if held.q is None else held.q
 
-    def _arrived(self, on_the_way: Array, met: Array) -> Outcome:
-        """Check that the hand is at its set-point, shape (n,) both.
+    def _arrived(self, on_the_way: Array, met: Array, swing: Array) -> Outcome:
+        """Check that the hand is at its set-point.
 
-        `on_the_way`: by how much joints were off theirs; `met`: torques that are left unexplained.
+        `on_the_way`, shape (n,): by how much joints were off theirs; `met`, (n,): torques that are left unexplained;
+        `swing`: see `_lagging`.
         """
         off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
         if off < self.arm.servo.short:
             return REACHED
         before = float(np.linalg.norm((jacobian(self.arm, self.state.q) @ on_the_way)[:3]))
-        astray = Outcome(error=errors.SERVO_LAG, cause=HandAstray(distance=round(off, 6)), off=before)
+        joint, _ = self._lagging(swing)
+        name, swings = self.arm.joints[joint].name, bool((swing[:, joint] >= SWING).all())
+        cause = HandAstray(distance=round(off, 6), joint=name, swings=swings)
+        astray = Outcome(error=errors.SERVO_LAG, cause=cause, off=before)
         return self._alone(met) or astray
 
     # -- doubting -----------------------------------------------------------------------------------
@@ -319,19 +334,32 @@ class ServoLoop(Servo):
         )  # fmt: skip
         return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
 
-    def _behind(self, met: Array) -> Outcome | None:
-        """See that every joint keeps up with its set-point, which else becomes where it is."""
-        lag = np.abs(self.state.here - self.state.q) > constants(self.arm).lag
-        if not lag.any():
+    def _behind(self, met: Array, swing: Array) -> Outcome | None:
+        """See that every joint keeps up with its set-point, which else becomes where it is; see `_lagging`."""
+        joint, lag = self._lagging(swing)
+        if lag <= 1.0:
             return None
         self.state.q = self.state.here.copy()
-        joint = self.arm.joints[int(np.argmax(lag))].name
-        return self._alone(met) or Outcome(error=errors.SERVO_LAG, cause=JointBehind(joint=joint))
+        cause = JointBehind(joint=self.arm.joints[joint].name, swings=bool((swing[:, joint] >= SWING).all()))
+        return self._alone(met) or Outcome(error=errors.SERVO_LAG, cause=cause)
 
-    def _dragging(self, drag: JointDrag) -> Outcome | None:
-        """See that no joint took far more than its friction on a motion through free air, if friction is known."""
+    def _lagging(self, swing: Array) -> tuple[int, float]:
+        """The joint that is furthest behind for its limit, and by what multiple of that.
+
+        `swing`, shape (2, n), takes down how far each joint has been off to either side, as such a multiple.
+        """
+        off = (self.state.here - self.state.q) / constants(self.arm).lag
+        np.maximum(swing, (off, -off), out=swing)
+        joint = int(np.argmax(np.abs(off)))
+        return joint, abs(float(off[joint]))
+
+    def _dragging(self, drag: JointDrag, lagging: str = "") -> Outcome | None:
+        """See that no joint took far more than its friction on a motion through free air, if friction is known.
+
+        If a joint lagged behind, no other one is to be blamed.
+        """
         stiff = drag.stiff(self.state.friction) if self.state.friction.any() else None
-        if stiff is None:
+        if stiff is None or lagging not in ("", self.arm.joints[stiff.joint].name):
             return None
         cause = JointAlone(
             joint=self._named(stiff.joint), torque=round(stiff.torque, 6), friction=round(stiff.friction, 6),

@@ -11,7 +11,7 @@ from handeye.arm.kinematics import forward
 from handeye.arm.line import straight
 from handeye.arm.model import ArmModel
 from handeye.arm.robots.stanford import STANFORD
-from handeye.core.errors import SERVO_LAG
+from handeye.core.errors import JOINT_STIFF, SERVO_LAG
 from handeye.core.pose import Array
 from handeye.core.units import INCH
 from handeye.execution.compliance import Course
@@ -19,7 +19,7 @@ from handeye.execution.drive import ArmDrive
 from handeye.execution.servo import Halted
 from handeye.execution.servo_loop import Outcome
 from handeye.execution.state import DriveState
-from handeye.program.diagnosis.causes import HandAstray, JointBehind
+from handeye.program.diagnosis.causes import HandAstray, JointAlone, JointBehind
 from handeye.program.guards import Force
 from handeye.touch.guards import monitor
 
@@ -86,6 +86,7 @@ def test_a_joint_that_lags_too_far_behind_stops_the_motion() -> None:
     outcome = going(drive, 0.2)
     assert outcome.error == SERVO_LAG
     assert isinstance(outcome.cause, JointBehind)
+    assert not outcome.cause.swings  # what stands in its way pushes it one way
     np.testing.assert_array_equal(drive.state.q, drive.state.here)
 
 
@@ -96,6 +97,45 @@ def test_a_hand_that_is_held_up_short_of_its_goal_is_an_error() -> None:
     assert outcome.error == SERVO_LAG
     assert isinstance(outcome.cause, HandAstray)
     assert outcome.cause.distance > 0.001
+
+
+@pytest.mark.parametrize(("before", "error"), [(3.0, JOINT_STIFF), (0.0, SERVO_LAG)])
+def test_a_joint_that_lags_is_stiff_if_it_took_too_much_in_the_first_half_of_its_way(
+    before: float, error: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cell, drive = driving(with_servo(lag=(5e-3, *STANFORD.servo.lag[1:])))
+    drive.state.friction = np.full(6, 0.1)
+    x, y, _ = cell.arm.tcp
+    samples = straight(drive.arm, drive.state.q, INCH * np.array([-y, x, 0.0]) / np.hypot(x, y), 2 * INCH)
+    move, moved = cell.arm._move, [0]
+
+    def dragged(torque: Array, seconds: float) -> None:
+        moved[0] += 1
+        late = moved[0] > 0.7 * len(samples)
+        cell.arm.push = 60.0 * np.array([y, -x, 0.0]) / np.hypot(x, y) if late else np.zeros(3)
+        move(torque - before * np.eye(6)[0] * np.tanh(cell.arm.qd[0] / 0.02), seconds)
+
+    monkeypatch.setattr(cell.arm, "_move", dragged)
+    outcome = drive.glide(samples)
+    assert outcome.error == error
+    assert isinstance(outcome.cause, JointAlone if before else JointBehind)
+
+
+def test_a_servo_that_is_late_swings_about_its_set_points(monkeypatch: pytest.MonkeyPatch) -> None:
+    cell, drive = driving()
+    torques, put_out = [np.zeros(6)], cell.arm.drive
+
+    def late(torque: Array | None) -> None:
+        torques.append(np.zeros(6) if torque is None else torque)
+        put_out(torques[-2])
+
+    drive.hold(1)
+    torques[0] = cell.arm.torque
+    monkeypatch.setattr(cell.arm, "drive", late)
+    outcome = drive.glide(straight(drive.arm, drive.state.q, 2 * INCH * DOWN, 2 * INCH))
+    assert outcome.error == SERVO_LAG
+    assert isinstance(outcome.cause, HandAstray | JointBehind)
+    assert outcome.cause.swings
 
 
 def test_no_torque_is_asked_for_beyond_what_the_drives_can_do() -> None:

@@ -32,7 +32,16 @@ WORDS: list[tuple[c.Cause, str]] = [
         "joint 2 (wrist) would have to be 100.0 degrees; it ends at 90.0 degrees",
     ),
     (c.JointBehind(joint="boom"), "boom lags behind its set-point"),
+    (
+        c.JointBehind(joint="boom", swings=True, of="PUMP"),
+        "boom swings about its set-point: its drive or the computer is late, or its tachometer fails; or PUMP has "
+        "moved",
+    ),
     (c.HandAstray(distance=0.2 * INCH), "the hand is 0.20 in from its set-point"),
+    (
+        c.HandAstray(distance=0.2 * INCH, joint="boom", of="BASE"),
+        "the hand is 0.20 in from its set-point; boom lags most; or BASE has moved",
+    ),
     (c.HandStuck(moved=0.5 * INCH), "the hand stopped after 0.50 in"),
     (c.GuardsUnmet(guards=(GuardKind.FORCE,)), ""),
     (c.GuardsUnmet(guards=(GuardKind.FORCE, GuardKind.MOMENT)), "or the moment"),
@@ -46,7 +55,10 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (c.HeightUnknown(name="BARE"), "BARE was not saved"),
     (c.GapTooSmall(gap=0.02 * INCH, minimum=0.1 * INCH), "the gap is 0.02 in, the minimum 0.10 in"),
-    (c.GapTooSmall(gap=-0.002 * INCH, minimum=0.0), "the gap is -0.002 in, the minimum 0.000 in"),
+    (
+        c.GapTooSmall(gap=-0.002 * INCH, minimum=0.0, of="PUMP"),
+        "the gap is -0.002 in, the minimum 0.000 in; or PUMP has moved",
+    ),
     (c.GapTooLarge(gap=0.4 * INCH, maximum=0.3 * INCH), "the gap is 0.40 in, the maximum 0.30 in"),
     (c.NothingBetween(gap=0.1 * INCH), "not both fingers touch; the gap is 0.10 in"),
     (

@@ -34,9 +34,11 @@ def cause_sentence(cause: Cause) -> str:
             goal = f"{cause.goal}: " if cause.goal else ""
             return goal + reach_sentence(cause.arm, cause.reason)
         case c.JointBehind():
-            return f"{cause.joint} lags behind its set-point"
+            lags = f"{cause.joint} {_SWINGS if cause.swings else 'lags behind its set-point'}"
+            return lags + _or_moved(cause.of)
         case c.HandAstray():
-            return f"the hand is {_inches(cause.distance)} from its set-point"
+            lags = f"; {cause.joint} {_SWINGS if cause.swings else 'lags most'}" if cause.joint else ""
+            return f"the hand is {_inches(cause.distance)} from its set-point{lags}{_or_moved(cause.of)}"
         case c.HandStuck():
             return f"the hand stopped after {_inches(cause.moved)}"
         case c.GuardsUnmet():
@@ -51,7 +53,7 @@ def cause_sentence(cause: Cause) -> str:
             return f"{cause.name} was not saved"
         case c.GapTooSmall():
             gap, least = _apart(cause.gap, cause.minimum)
-            return f"the gap is {gap} in, the minimum {least} in"
+            return f"the gap is {gap} in, the minimum {least} in{_or_moved(cause.of)}"
         case c.GapTooLarge():
             gap, most = _apart(cause.gap, cause.maximum)
             return f"the gap is {gap} in, the maximum {most} in"
@@ -88,6 +90,13 @@ def cause_sentence(cause: Cause) -> str:
         ):  # fmt: skip
             return _undo_stopped(cause)
     assert_never(cause)
+
+
+_SWINGS = "swings about its set-point: its drive or the computer is late, or its tachometer fails"
+
+
+def _or_moved(part: str) -> str:
+    return f"; or {part} has moved" if part else ""
 
 
 def inspection_sentence(cause: c.InspectionCause | None) -> str:

@@ -51,15 +51,27 @@ class BeyondArm(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointBehind(CauseRecord, frozen=True, kw_only=True):
-    """A joint did not keep up with its set-point."""
+    """A joint did not keep up with its set-point; `swings`: it was far off on both sides in this motion.
+
+    `of`: the part at whose place the motion should end, if any.
+    """
 
     joint: str
+    swings: bool = False
+    of: str = ""
 
 
 class HandAstray(CauseRecord, frozen=True, kw_only=True):
-    """The hand is not at its set-point at the end of a motion."""
+    """The hand is not at its set-point at the end of a motion, by `distance` (m).
+
+    `joint` is furthest behind for its limit; `swings`: it was far off on both sides in this motion; `of`: the part at
+    whose place the motion should end, if any.
+    """
 
     distance: float
+    joint: str = ""
+    swings: bool = False
+    of: str = ""
 
 
 class HandStuck(CauseRecord, frozen=True, kw_only=True):
@@ -101,10 +113,11 @@ class HeightUnknown(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapTooSmall(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) of the closed fingers is below the minimum."""
+    """The gap (m) of the closed fingers is below the minimum; `of`: the part at whose place they closed, if any."""
 
     gap: float
     minimum: float
+    of: str = ""
 
 
 class GapTooLarge(CauseRecord, frozen=True, kw_only=True):
