@@ -117,7 +117,7 @@ ERRORS: Final[dict[int, str]] = {
     "or the force sense or a drive fails",
     JOINT_SENSE_WRONG: "the potentiometer and the tachometer of a joint disagree: one of them fails",
     CURRENT_WRONG: "the current of the screwdriver's motor does not fit its torque and speed",
-    PICTURE_WRONG: "the camera gives a picture that is not live",
+    PICTURE_WRONG: "the camera gives a picture that is not live, or too noisy",
     JOINT_STIFF: "one joint alone does not follow its drive: its drive, brake or friction has changed",
 }
 """Error numbers a script can test, with the operator's message. 2 and 23 are from the period; from 50 on, a

@@ -234,7 +234,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
     ),
     errors.PICTURE_WRONG: Remedy(
         "Noise makes two pictures of a live camera differ, even of a scene at rest. A picture that equals an earlier "
-        "one, or is uniform, shows nothing.",
+        "one, or is uniform, shows nothing; one with far more noise than a sound camera's is not to be measured in.",
         'LOOK V\nSKIPN 55 ;it is a live picture\nWAIT "SEE TO THE CAMERA"\nGENERAL BASE V',
     ),
     errors.JOINT_STIFF: Remedy(

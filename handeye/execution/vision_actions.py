@@ -10,7 +10,14 @@ from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Shot, VisionResult
 from handeye.planning.grasp_state import first_grasp
 from handeye.ports.camera import DIGITISE, Picture, TvCamera
-from handeye.program.diagnosis.causes import NoGeneral, NoPicture, PictureBlank, PictureRepeated
+from handeye.program.diagnosis.causes import (
+    NoGeneral,
+    NoPicture,
+    PictureBlank,
+    PictureNoisy,
+    PictureRepeated,
+    SenseCause,
+)
 from handeye.program.events import (
     CameraBusy,
     CameraStarted,
@@ -26,7 +33,7 @@ from handeye.vision.base import Failure, PartMatch, locate_general, locate_speci
 from handeye.vision.camera_model import CameraModel, View
 from handeye.vision.gasket import GasketInspection
 from handeye.vision.gasket import inspect as inspect_gasket
-from handeye.vision.live import blank, repeated
+from handeye.vision.live import MAX_NOISE, blank, noise, repeated
 from handeye.vision.marks import Mark, grasp_line
 
 Found = TypeVar("Found")
@@ -90,13 +97,16 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
     return None
 
 
-def _dead(run: ExecutionContext, name: str, picture: Picture) -> PictureBlank | PictureRepeated | None:
-    """Why a picture is not a live camera's, or None."""
+def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | None:
+    """Why a picture is not a sound live camera's, or None."""
     if blank(picture):
         return PictureBlank(picture=name)
     for earlier, shot in run.state.shots.items():
         if repeated(picture, shot.picture):
             return PictureRepeated(picture=name, earlier=earlier)
+    measured = noise(picture)
+    if measured > MAX_NOISE:
+        return PictureNoisy(picture=name, noise=round(measured, 3), most=MAX_NOISE)
     return None
 
 

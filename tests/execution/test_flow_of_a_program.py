@@ -7,7 +7,7 @@ from synthetic import part
 
 from handeye.core.errors import GASKET_WRONG, PART_ASTRAY, SEARCH_EXHAUSTED, WRONG_TRAVEL
 from handeye.execution import executor
-from handeye.ports.camera import COLUMNS, ROWS
+from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.diagnosis.causes import Looping
 from handeye.program.events import PartMatched, SearchAdvanced
 from handeye.program.program import Hole, Part
@@ -41,10 +41,15 @@ def test_pictures_that_show_no_gasket_raise_an_error() -> None:
     assert run.go().errors == [GASKET_WRONG]
 
 
+def patches(seed: int) -> Picture:
+    """A picture of squares of any levels, without noise."""
+    levels = np.random.default_rng(seed).integers(0, 15, (ROWS // 8 + 1, COLUMNS // 8 + 1), np.uint8)
+    return levels.repeat(8, axis=0).repeat(8, axis=1)[:ROWS, :COLUMNS].copy()
+
+
 def test_pictures_in_which_a_part_does_not_stand_alike_raise_an_error() -> None:
     run = fake_run("AIM PUMP\nLOOK A\nLOOK B\nMATCH PUMP A B", parts={"PUMP": part()})
-    shape = (ROWS, COLUMNS)
-    run.cell.camera.pictures = [np.random.default_rng(k).integers(0, 16, shape, np.uint8) for k in range(2)]
+    run.cell.camera.pictures = [patches(k) for k in range(2)]
     assert run.go().errors == [PART_ASTRAY]
     (matched,) = run.all(PartMatched)
     assert (matched.part, matched.ok, matched.unlike > 0.5) == ("PUMP", False, True)
@@ -52,7 +57,7 @@ def test_pictures_in_which_a_part_does_not_stand_alike_raise_an_error() -> None:
 
 def test_pictures_in_which_a_part_stands_alike_raise_none() -> None:
     run = fake_run("AIM PUMP\nLOOK A\nLOOK B\nMATCH PUMP A B", parts={"PUMP": part()})
-    picture = np.random.default_rng(0).integers(0, 15, (ROWS, COLUMNS), np.uint8)
+    picture = patches(0)
     other = picture.copy()
     other[0, 0] += 1  # what is the same to the last point is no live picture
     run.cell.camera.pictures = [picture, other]

@@ -347,6 +347,18 @@ def test_a_picture_that_is_an_earlier_one_is_told() -> None:
     assert run.told.endswith("(picture B is the same as A, pixel by pixel)")
 
 
+@pytest.mark.parametrize(
+    ("sigma", "told"), [(1.0, ""), (2.2, "(picture A has noise of 2.2 levels; allowed: 1.6)")]
+)
+def test_a_picture_with_far_more_noise_than_a_sound_camera_has_is_told(sigma: float, told: str) -> None:
+    scene = np.where(np.arange(COLUMNS) % 40 < 20, 5.0, 10.0)
+    noisy = np.random.default_rng(5).normal(scene, sigma, (ROWS, COLUMNS))
+    run = fake_run("LOOK A")
+    run.cell.camera.pictures = [np.clip(np.rint(noisy), 0, 15).astype(np.uint8)]
+    assert run.go().errors == ([errors.PICTURE_WRONG] if told else [])
+    assert not told or run.told.endswith(told)
+
+
 def test_a_picture_of_one_intensity_is_told() -> None:
     run = fake_run("LOOK A")
     run.cell.camera.pictures = [np.full((ROWS, COLUMNS), 7, np.uint8)]

@@ -64,6 +64,7 @@ def cause_sentence(cause: Cause) -> str:
             | c.GapStill() | c.GapJumped() | c.GapUnlike() | c.CurrentUnlike() | c.MotorSlow() | c.ForceInAir()
             | c.DrivesUnlike() | c.CurrentShort()
             | c.JointSensesApart() | c.JointAlone() | c.CurrentSilent() | c.PictureRepeated() | c.PictureBlank()
+            | c.PictureNoisy()
         ):  # fmt: skip
             return doubt_sentence(cause)
         case c.NoPicture():
@@ -254,6 +255,9 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return f"picture {cause.picture} is the same as {cause.earlier}, pixel by pixel"
         case c.PictureBlank():
             return f"picture {cause.picture} is uniform"
+        case c.PictureNoisy():
+            noise, most = distinct_digits([cause.noise, cause.most], 1)
+            return f"picture {cause.picture} has noise of {noise} levels; allowed: {most}"
     assert_never(cause)
 
 

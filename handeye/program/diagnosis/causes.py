@@ -267,6 +267,14 @@ class PictureBlank(CauseRecord, frozen=True, kw_only=True):
     picture: str
 
 
+class PictureNoisy(CauseRecord, frozen=True, kw_only=True):
+    """A picture has more noise (sigma, levels) than a sound camera's, which has `most`."""
+
+    picture: str
+    noise: float
+    most: float
+
+
 # -- vision -----------------------------------------------------------------------------------------
 
 
@@ -404,7 +412,7 @@ SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision doe
 SenseCause = (
     SwitchesClosed | SwitchesOpen | SwitchesCrossed | SwitchesHard | GapAstray | GapStill | GapJumped | GapUnlike
     | CurrentUnlike | CurrentShort | MotorSlow | DrivesUnlike | ForceInAir | JointSensesApart | JointAlone
-    | CurrentSilent | PictureRepeated | PictureBlank
+    | CurrentSilent | PictureRepeated | PictureBlank | PictureNoisy
 )  # fmt: skip
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
 InspectionCause = NoGasket | GasketWrong
