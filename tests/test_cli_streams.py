@@ -48,6 +48,9 @@ CHEAP = {
     "view": "view ✓",
     "dismantle": "dismantle ✓",
     "trig": "trig ✓.trig.json",
+    "sigma": "sigma ✓.mal",
+    "docs": "docs ✓",
+    "demo": "demo -o ✓",
     "compare": "compare ✓ ✓",
     "trace show": "trace show run",
     "trace stats": "trace stats run",
@@ -212,9 +215,9 @@ def test_a_narrow_terminal_gets_no_line_that_it_would_break_itself(
 def test_a_run_shows_its_stages_whole_in_forty_columns_and_in_ascii(
     started: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    narrow = shown(started, "run job.plan.json --on-stop abort", tmp_path, 40, monkeypatch)
+    narrow = shown(started, "run job.plan.json --on-stop abort --details", tmp_path, 40, monkeypatch)
     assert {"insert", "take", "aligning", "pins"} <= {*narrow.split()}
-    out = told(started, "run job.plan.json", tmp_path, "ascii")[1]
+    out = told(started, "run job.plan.json --details", tmp_path, "ascii")[1]
     assert "+  insert the aligning pins" in out
 
 

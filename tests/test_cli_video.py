@@ -127,7 +127,7 @@ def test_python_is_told_its_own_word_for_replacing_one(kept: Path) -> None:
         ({"first": True}, "a stage is given by its number or its name, not True"),
         ({"camera": 3}, "a camera is given by its name, not 3"),
         ({"seconds": "14"}, "a video takes up to 600 s, and not 14 s"),
-        ({"width": 64.5}, "a video of 64.5 x 360 cannot be made; a side has 8 to 2048 points"),
+        ({"width": 64.5}, "a video of 64.5 x 360 cannot be made; a side has 8 to 2048 pixels"),
         ({"path": 7}, "a video is written to a file that ends in .webp, .webm or .mp4, not 7"),
     ],
 )
@@ -139,7 +139,7 @@ def test_a_wrong_argument_is_told_in_a_sentence(kept: Path, wrong: dict[str, Any
 
 REFUSALS = {
     ("--size", "480"): "`480` is not a size; write it as 480x360",
-    ("--size", "4x4"): "a video of 4 x 4 is not possible; a side has 8 to 2048 pixels",
+    ("--size", "4x4"): "a video of 4 x 4 cannot be made; a side has 8 to 2048 pixels",
     ("--seconds", "0"): "a video takes up to 600 s, and not 0.0 s",
     ("--speed", "nan"): "a video is some times as fast as the run, and not nan times",
     ("--speed", "2", "--seconds", "2"): "a video has a length or a speed; the other follows",

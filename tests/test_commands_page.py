@@ -11,9 +11,10 @@ from cyclopts import CycloptsError
 from handeye.cli import app
 
 PAGE = (Path(__file__).parent.parent / "docs" / "commands.md").read_text(encoding="utf-8")
-ROWS = re.findall(r"^\| (`.*?`[^|]*) \|", PAGE, re.MULTILINE)
+ROWS = re.findall(r"^\| (`[^-].*?`[^|]*) \|", PAGE, re.MULTILINE)
 FOR = {
     "N": "3",
+    "M": "8",
     "DIR": "pump",
     "RUN": "pump",
     "TOPIC": "faults",

@@ -40,6 +40,7 @@ NEVER_ONE = {
     ("handeye/editor/hover.py", "turned"),  # three angles
     ("handeye/report/page/record.py", "len(quantities)"),
     ("handeye/video/request.py", "self.speed"),  # as given, in what refuses it
+    ("handeye/cli/sweeps.py", "sweep.kind"),  # a word
     ("handeye/cli/programs.py", "' or more' if errors == LIMIT else ''"),
 }
 """Numbers that are not 1 where the message is made, by file."""

@@ -97,7 +97,7 @@ def test_a_wrong_command_at_a_terminal_is_no_failure(stepping: Terminal) -> None
     stepping.say("stpe")
     left = stepping.say("exit", end=None)
     assert (stepping.process.wait(), ERASE in left) == (0, False)
-    assert "Left by the user." in left.splitlines()[-1]
+    assert "Ended by the user." in left
 
 
 def test_control_c_at_the_prompt_drops_the_line_and_nothing_else(stepping: Terminal) -> None:

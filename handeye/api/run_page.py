@@ -39,7 +39,7 @@ def run_page(result: Result, state: State, name: str | None, webp: bytes | None)
     ]
     pieces += [line(inked(f"by a person: {each}", "doubtful")) for each in result.interventions]
     pieces += [
-        line(inked(f"{part}: of the calling program, {code}", "doubtful"))
+        line(inked(f"{part}: the calling program's own, {code}", "doubtful"))
         for part, code in (result.replaced or {}).items()
     ]
     if name is not None and webp is not None:

@@ -22,6 +22,7 @@ FORMER: Final = {
     "--output": ("--out", "--out, or -o, names every file or folder that is written"),
     "--workers": ("--jobs", "--jobs says how many processes work at a time"),
     "--width": ("--size", "--size gives both, as 1280x960"),
+    "--svg": ("--out", "--out, or -o, names every file or folder that is written"),
     "--height": ("--size", "--size gives both, as 1280x960"),
 }
 """Options of earlier versions: the one that does the same today, and a sentence on it."""

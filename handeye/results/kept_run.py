@@ -160,5 +160,5 @@ def _message(events: Sequence[AnyEvent], call: OperatorCalled | None) -> str:
     if isinstance(last, RunFinished):
         return "the run has ended without a result"
     if isinstance(last, PanicStopped):
-        return f"interrupted {when}"
-    return f"running or stopped {when}"
+        return f"stopped by the panic button {when}"
+    return f"running or interrupted {when}"

@@ -9,6 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from handeye.core.diagnostics import visible
+from handeye.core.plain_text import counted
 from handeye.results.result import Check, Result
 from handeye.tasks import known, known_any
 from handeye.tasks.interface import HistoricalTiming, Words
@@ -64,7 +65,7 @@ def _short_rows(result: Result) -> Iterator[tuple[str, str]]:
     yield "arm", worked
     if result.checks:
         right = sum(check.ok for check in result.checks)
-        yield "referee", f"{right} of {len(result.checks)} findings within their limits"
+        yield "referee", f"{right} of {counted(len(result.checks), 'finding')} within their limits"
     if t.real_time_factor >= 0.05:
         yield "computer", f"simulated it in {clock(t.run_wall_s)}, {t.real_time_factor:.1f}x real time"
 

@@ -5,6 +5,7 @@ from typing import Final
 
 from handeye.core.files import Kind
 from handeye.core.markup import Markup, cell, element, figure_cell, figure_heads, heads, note, section, table
+from handeye.core.plain_text import counted
 from handeye.report.page.document import head, resource
 from handeye.report.page.plots import Scale, bar, dot, drawing, rule
 from handeye.trials.figures import ConditionFigures, Figures
@@ -30,7 +31,7 @@ def sweep_page(title: str, sweep: Sweep[R], rows: Sequence[R], found: Figures) -
 
 
 def _heading(sweep: Sweep[R], found: Figures) -> str:
-    return f"{found.right} of {found.n} {sweep.success}, {found.silent_failures} silent failures"
+    return f"{found.right} of {found.n} {sweep.success}, {counted(found.silent_failures, 'silent failure')}"
 
 
 def _sections(sweep: Sweep[R], rows: Sequence[R], found: Figures) -> Iterator[Markup]:

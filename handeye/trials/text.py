@@ -108,9 +108,9 @@ def verdict(sweep: Sweep[R], found: Figures) -> str:
     """The number of right trials, with its confidence limits, as a sentence."""
     wrong = [name for name, standing in sweep.outcomes.items() if standing == "wrong"]
     counts = [
-        f"{found.silent_failures} silent failures",
+        counted(found.silent_failures, "silent failure"),
         *(f"{found.outcomes.get(name, 0)} {name}" for name in wrong),
-        f"{found.failed} stopped",
+        f"{found.failed} unfinished",
     ]
     text = f"{found.right} of {found.n} {sweep.success}, {', '.join(counts)}"
     if found.uncounted:
@@ -141,7 +141,7 @@ def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
         "p",
         "noticed",
         "silent",
-        "broken\noff",
+        "un-\nfinished",
     )
     measures = PlainTable(("trials that succeeded in both", "measure"), "pairs", "more", "p")
     for each in found:

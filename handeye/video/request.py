@@ -32,7 +32,7 @@ class VideoRequest:
         sides = [whole(side) for side in (self.width, self.height)]
         if not all(side is not None and SMALLEST <= side <= LARGEST for side in sides):
             raise BadArgument(
-                f"a video of {self.width} x {self.height} cannot be made; a side has {SMALLEST} to {LARGEST} points"
+                f"a video of {self.width} x {self.height} cannot be made; a side has {SMALLEST} to {LARGEST} pixels"
             )
         if self.seconds is not None and self.speed is not None:
             raise BadArgument("a video has a length or a speed; the other follows")

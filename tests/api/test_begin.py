@@ -89,7 +89,7 @@ def test_what_cannot_be_begun_is_told_in_one_sentence(words: dict[str, object], 
 
 def test_a_run_that_stops_before_its_stage_is_no_run_at_that_stage(tmp_path: Path) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^the run stopped before “open”: the program calls the operator: "
+        InvalidInput, match=r"^the run stopped before “open”: the program called the operator: "
     ):
         handeye.begin(CALLS, at="open", camera="ray", out=tmp_path / "run")
     assert (tmp_path / "run" / "result.json").is_file()

@@ -80,7 +80,7 @@ def test_a_run_names_the_code_that_took_the_place_of_a_part(searched: handeye.Ru
     assert isinstance(begun, RunStarted)
     assert searched.trace.head.replaced == begun.replaced == head.replaced == {"search": f"{__name__}.row"}
     assert searched.result.replaced == {"search": f"{__name__}.row"}
-    assert f"search: the caller&#x27;s own, {__name__}.row" in searched._repr_html_()
+    assert f"search: the calling program&#x27;s own, {__name__}.row" in searched._repr_html_()
 
 
 def test_an_ordinary_run_names_no_code(tmp_path: Path) -> None:
@@ -95,7 +95,7 @@ def test_an_ordinary_run_names_no_code(tmp_path: Path) -> None:
     ("given", "sentence"),
     [
         (None, r"^the run has a search of its own, `.*\.row`, which is code and not in a file; "),
-        (column, r"^the run began with `\.\*\.row` as its search, but `\.\*\.column` was given$"),
+        (column, r"^the run began with `.*\.row` as its search, but `.*\.column` was given$"),
     ],
 )
 def test_a_run_is_taken_up_with_the_code_it_was_begun_with(
@@ -113,7 +113,7 @@ def test_a_run_with_code_of_its_own_is_shown_with_how_python_goes_on_with_it(
 ) -> None:
     app(["show", str(searched.out)], result_action="return_value")
     told = capsys.readouterr().err
-    said = f"search `{__name__}.row` of its own: from Python, handeye.begin('{searched.out}', search=...) goes on"
+    said = f"search `{__name__}.row` of its own: from Python, handeye.begin('{searched.out}', search=...) continues it"
     assert (said in " ".join(told.split()), "handeye resume" in told) == (True, False)
 
 

@@ -173,7 +173,7 @@ def test_what_cannot_be_done_is_told_in_one_sentence(run: handeye.Run, wrong: ob
 def test_a_call_of_the_operator_stops_the_run_and_can_be_answered() -> None:
     run = handeye.begin(STOPS, camera="ray")
     assert run.until().why.startswith(
-        "the program calls the operator: the fingers closed beyond the minimum gap"
+        "the program called the operator: the fingers closed beyond the minimum gap"
     )
     assert (run.completed, run.result.error, run.result.stopped_at) == (False, 2, "program")
     run.say("proceed")

@@ -64,7 +64,7 @@ def test_a_run_that_was_broken_off_tells_how_far_it_has_come(broken: Path) -> No
         ("count", "under way"), ("ask", "not reached")
     ]  # fmt: skip
     assert (kept.result.paused, kept.result.completed, kept.result.stopped_at) == (True, False, "count")
-    assert (kept.result.message, kept.left, kept.faults) == ("running or stopped at 4.0 s", False, ())
+    assert (kept.result.message, kept.left, kept.faults) == ("running or interrupted at 4.0 s", False, ())
 
 
 def test_a_run_that_waits_for_the_operator_says_what_it_was_told(run: Path, begun: Runner) -> None:

@@ -339,7 +339,7 @@ def test_states_of_a_run_somebody_took_a_hand_in_are_not_replaced(tmp_path: Path
     runner.experiment("saved", "C1", (0.0, 0.0, 0.001))
     folder.checkpoint(runner.checkpoint())
     folder.close()
-    with pytest.raises(InvalidInput, match="with interventions by people"):
+    with pytest.raises(InvalidInput, match="with interventions by a person"):
         CheckpointStore(tmp_path / "run" / "checkpoints").claim(begin().setup)
 
 

@@ -137,7 +137,7 @@ def test_it_is_stepped_at_two_places_in_its_own_words_and_refuses_an_undo(shell:
         "toy", "two.toy", "--step", "--out", "left", typed="step 3\nundo\nshow tasks\nhelp\nquit\n", code=2
     )
     assert "the counter machine cannot undo what it did: what is counted is counted\n" in said
-    assert "TELL B, waits for B 3" in said
+    assert "TELL B, waiting for B 3" in said
     assert "set register NAME n" in said
     assert "Units: lines and seconds." in said
     assert "undo [N|stage]" not in said

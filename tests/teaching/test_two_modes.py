@@ -97,7 +97,7 @@ def test_a_place_out_of_reach_is_told_as_it_is_typed(console: Console) -> None:
 
 def test_list_drop_and_clear_tell_and_change_what_is_collected(console: Console) -> None:
     assert console.read("OPEN 1", "PARK", "LIST") == "  1  OPEN 1\n  2  PARK"
-    assert console.read("DROP") == "dropped: PARK"
+    assert console.read("DROP") == "removed: PARK"
     assert console.read("LIST") == "  1  OPEN 1"
     console.type("CLEAR")
     assert console.read("LIST") == "nothing is collected"
@@ -210,4 +210,4 @@ def test_a_macro_with_a_parameter_is_carried_out_with_its_operand(console: Conso
     assert console.steps == ["OPEN 3.5"]
     assert "`9` is too large for the gap of `OPEN`" in console.read("WIDE 9")
     assert console.repl.functions[-1] == "WIDE 2"
-    assert "`WIDE` lacks its G" in console.read("DO WIDE")
+    assert "`WIDE` needs its G" in console.read("DO WIDE")

@@ -89,7 +89,7 @@ class TooWeak(Record, frozen=True, kw_only=True):
 
 
 class TooFaint(Record, frozen=True, kw_only=True):
-    """A guard's threshold is hard to tell from joint friction: `felt` (N, N m) can be felt there in free air."""
+    """A guard's threshold is hard to distinguish from joint friction: `felt` (N, N m) can be felt there in free air."""
 
     step: int
     exerted: HandLoad

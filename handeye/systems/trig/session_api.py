@@ -27,7 +27,7 @@ class TrigSession:
        ***  BLOCK
     ▶  ***  (grasp)
     >>> session.type("RUN -1000")
-    ('3 steps undone; there is nothing to undo before this',)
+    ('3 steps undone; nothing before this can be undone',)
     """
 
     def __init__(self, arm: ArmName = "none") -> None:

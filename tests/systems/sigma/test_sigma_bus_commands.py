@@ -77,7 +77,7 @@ def test_every_kind_of_fault_can_be_asked_for_by_its_name_alone(fault: str) -> N
         ("demo --fault stuck-low:0:9", "the bit of a fault is from 0 to 7, not 9"),
         ("demo --fault dead:X1:3", "`dead:X1:3` says more than the fault has: dead:MICROCOMPUTER"),
         ("errors --clock 80", "clocks may be off by 0 to 50 percent, not by 80"),
-        ("demo --svg a.png", "a.png: the name of the SVG drawing must end in .svg"),
+        ("demo --out a.png", "a.png: the name of the SVG drawing must end in .svg"),
     ],
 )
 def test_what_cannot_be_shown_is_refused_in_a_sentence(words: str, why: str, command: Command) -> None:
@@ -87,11 +87,11 @@ def test_what_cannot_be_shown_is_refused_in_a_sentence(words: str, why: str, com
 
 
 def test_a_drawing_is_not_written_over_unless_that_is_said(command: Command) -> None:
-    assert command("sigma", "bus", "demo", "--svg", "bus.svg")[0] == 0
+    assert command("sigma", "bus", "demo", "--out", "bus.svg")[0] == 0
     drawn = Path("bus.svg").read_bytes()
-    code, _, err = command("sigma", "bus", "demo", "--svg", "bus.svg")
+    code, _, err = command("sigma", "bus", "demo", "--out", "bus.svg")
     assert (code, "--overwrite replaces it" in err) == (2, True)
-    assert command("sigma", "bus", "demo", "--svg", "bus.svg", "--overwrite")[0] == 0
+    assert command("sigma", "bus", "demo", "--out", "bus.svg", "--overwrite")[0] == 0
     assert Path("bus.svg").read_bytes() == drawn
 
 

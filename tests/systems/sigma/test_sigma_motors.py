@@ -296,7 +296,7 @@ def test_an_emergency_of_x_at_top_speed_loses_steps() -> None:
 
 
 def test_the_study_is_a_command_with_a_drawing(command: Command) -> None:
-    code, out, _ = command("sigma", "axis", "--mass", "8", "--svg", "axis.svg")
+    code, out, _ = command("sigma", "axis", "--mass", "8", "--out", "axis.svg")
     assert code == 0
     assert "8000 steps (300 mm), long: 803.7 ms, at most 13333.3 steps/s (500 mm/s)" in out
     assert "the rotor follows each pulse" in out

@@ -80,7 +80,7 @@ def test_a_slow_clock_is_seen_in_what_is_taken() -> None:
 def test_the_bus_of_a_program_is_a_command_with_a_drawing(command: Command) -> None:
     where = str(PLANS / "handover.mal")
     code, out, _ = command(
-        "sigma", "bus", "run", where, "--begin", "1.24", "--end", "1.26", "--svg", "run.svg"
+        "sigma", "bus", "run", where, "--begin", "1.24", "--end", "1.26", "--out", "run.svg"
     )
     assert code == 0
     assert "87 commands in 16.9" in out
@@ -93,7 +93,7 @@ def test_the_bus_of_a_program_is_a_command_with_a_drawing(command: Command) -> N
 
 
 def test_a_drawing_of_a_whole_run_has_every_command_and_a_row_a_receiver(command: Command) -> None:
-    command("sigma", "bus", "run", str(PLANS / "handover.mal"), "--svg", "whole.svg")
+    command("sigma", "bus", "run", str(PLANS / "handover.mal"), "--out", "whole.svg")
     root = ElementTree.fromstring(Path("whole.svg").read_text("utf-8"))  # noqa: S314 - our own
     assert len([e for e in root.iter() if e.tag.endswith("rect") and e.get("class") == "d"]) == 5 * 87
     texts = [e.text or "" for e in root.iter() if e.tag.endswith("text")]
@@ -106,9 +106,9 @@ def test_a_drawing_of_a_whole_run_has_every_command_and_a_row_a_receiver(command
     ("words", "why"),
     [
         ("none.mal", "none.mal"),
-        (f"{PLANS}/handover.mal --svg a.svg --begin 3 --end 2", "a diagram begins at 0 s or later"),
-        (f"{PLANS}/handover.mal --svg a.svg --begin nan", "a diagram begins at 0 s or later"),
-        (f"{PLANS}/handover.mal --svg a.svg --end 1e9", "a diagram begins at 0 s or later"),
+        (f"{PLANS}/handover.mal --out a.svg --begin 3 --end 2", "a diagram begins at 0 s or later"),
+        (f"{PLANS}/handover.mal --out a.svg --begin nan", "a diagram begins at 0 s or later"),
+        (f"{PLANS}/handover.mal --out a.svg --end 1e9", "a diagram begins at 0 s or later"),
         (f"{PLANS}/handover.mal --fault dead:77", "there is no microcomputer 77"),
     ],
 )

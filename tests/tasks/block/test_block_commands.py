@@ -90,4 +90,4 @@ def test_a_batch_in_which_every_trial_is_broken_off_does_not_end_well(command: C
     told(command, "plan", *BLOCK, "block.al")
     short = ("--simulated-limit", ".01", *RAY)
     code, out, _ = command("trials", "assembly", "--plan", PLAN, *BLOCK, "--n", "1", *short)
-    assert (code, "1 broken off" in out) == (1, True)
+    assert (code, "1 unfinished" in out) == (1, True)

@@ -51,7 +51,7 @@ def test_a_finished_run_is_exported_as_it_ended(command: Command, ended: tuple[P
     path, runner = ended
     code, out, err = command("export", "mjcf", str(path), "-o", "end")
     assert (code, err) == (0, "")
-    assert out == f"end: short in the world of seed 0, after {runner.position} steps: its end\n"
+    assert out == f"end: short in the world of seed 0, after {runner.position} steps, at its end\n"
     model, data = end(Path("end"))
     assert text(model, "moment") == "final"
     assert data.time == runner.cell.truth.data.time

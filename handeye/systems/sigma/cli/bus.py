@@ -38,18 +38,18 @@ bus = App(name="bus", help="The MICROBUS: what is on its lines, what each receiv
 class DrawingOptions:
     """Where the timing diagram is drawn."""
 
-    svg: Annotated[Path | None, Parameter(help="Draw the timing diagrams into this file (.svg).")] = None
+    out: Annotated[Path | None, Parameter(name=["--out", "-o"], help="The drawing to write, .svg.")] = None
     overwrite: Overwrite = False
 
     def check(self) -> None:
         """Raise InvalidInput if it could not be written afterwards."""
-        if self.svg is not None:
-            check_place(self.svg, DRAWING, overwrite=self.overwrite)
+        if self.out is not None:
+            check_place(self.out, DRAWING, overwrite=self.overwrite)
 
     def write(self, drawn: str) -> None:
         """Write it, if it is wanted."""
-        if self.svg is not None:
-            write_over(self.svg, drawn.encode(), DRAWING)
+        if self.out is not None:
+            write_over(self.out, drawn.encode(), DRAWING)
 
 
 NO_DRAWING: Final = DrawingOptions()
@@ -124,7 +124,7 @@ def run(
 ) -> int:
     """Run a program in MAL over the wires, and say how busy the bus and the computer were.
 
-    The diagram is drawn with --svg alone, of the whole run or of a part. `handeye sigma run --arm wired` keeps a run.
+    The diagram is drawn only with --out, of the whole run or of a part. `handeye sigma run --arm wired` keeps a run.
 
     Exit code 0: all tasks have ended; 1: the program stands; 2: bad input; 130: interrupted.
     """
@@ -151,7 +151,7 @@ def run(
             found, wired, log = over_wires(program, statement_us, defects, seed, poll)
         except Halted:
             raise KeyboardInterrupt from None
-    if drawing.svg is not None:
+    if drawing.out is not None:
         last = wired.now / 1e6 if end is None else end
         if not 0 <= begin < last <= _LONGEST_DIAGRAM:
             raise BadArgument(

@@ -643,7 +643,7 @@ class VirtualMachine:
                 else protocol.move(what.to, steps, curve)
             )
             self.memory.counts[what.to] = what.target
-            means = f"move by {steps} steps" + (f" at {what.slow:g} mm/s" if what.slow else "")
+            means = f"move by {counted(steps, 'step')}" + (f" at {what.slow:g} mm/s" if what.slow else "")
         if what.to in AXES:
             began = self.program.line_of(task.pc).begin
             self.memory.owners[what.to] = Owner(task=name, address=began)
@@ -785,7 +785,7 @@ def _meaning(command: Command) -> str:
     """A command in words."""
     return {
         Op.ORIGIN: "search the end of the rail",
-        Op.LIMIT_SPEED: f"limit the speed to {command.value} steps/s",
+        Op.LIMIT_SPEED: f"limit the speed to {counted(command.value, 'step')}/s",
         Op.POSITION: "where are you?",
         Op.ABORT_POSITION: "where were you when you were aborted?",
         Op.FORCE: f"what is the force along {protocol.COMPONENTS[command.detail % 3]}?",
