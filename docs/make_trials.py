@@ -40,7 +40,7 @@ PROGRAM: Final = "water_pump"
 """Whose plan `handeye trials assembly` takes where it is given none."""
 PAIRED: Final = """The same worlds in pairs, something left out or another program:
 
-| batch | beside | assembled | beside it | only here | only beside it | p | noticed | silent | broken off | arm | p |
+| batch | beside | assembled | beside it | only here | only beside it | p | noticed | silent | unfinished | arm | p |
 |---|---|---|---|---|---|---|---|---|---|---|---|"""
 FACTS: Final = ("command", "commit", "code", "plan", "worlds", "versions", "renderer")
 """What stands above the trials of a batch."""

@@ -137,7 +137,7 @@ def test_a_trace_that_was_cut_short_is_shown_as_far_as_it_goes(command: Command,
     data = (kept / "trace.mcap").read_bytes()
     Path("cut.mcap").write_bytes(data[: len(data) - 40])
     assert command("report", "cut.mcap", "-o", "page.html")[0] == 0
-    assert "The trace file is incomplete" in Path("page.html").read_text(encoding="utf-8")
+    assert "The trace is truncated" in Path("page.html").read_text(encoding="utf-8")
 
 
 def test_a_report_of_an_assembly_needs_a_folder(command: Command) -> None:

@@ -146,7 +146,9 @@ def carry_out_sweep(
             _tell(sweep, ordered, found, options, title, more or {}, head.camera)
         again_later = sum(row.to_be_tried_again for row in ordered)
         if folder is not None and again_later:
-            note(f"{counted(again_later, 'trial')} interrupted by this computer; the same command repeats them")
+            note(
+                f"{counted(again_later, 'trial')} interrupted by this computer; the same command repeats them"
+            )
     return found.exit_code
 
 

@@ -65,7 +65,7 @@ def _short_rows(result: Result) -> Iterator[tuple[str, str]]:
     yield "arm", worked
     if result.checks:
         right = sum(check.ok for check in result.checks)
-        yield "referee", f"{right} of {counted(len(result.checks), 'finding')} within their limits"
+        yield "referee", f"{right} of {counted(len(result.checks), 'finding')} within limits"
     if t.real_time_factor >= 0.05:
         yield "computer", f"simulated it in {clock(t.run_wall_s)}, {t.real_time_factor:.1f}x real time"
 

@@ -192,9 +192,7 @@ def _rubbing(event: happened.FrictionMeasured) -> str:
 def _faint(event: happened.GuardFaint) -> str:
     si, unit = (OUNCE_INCH, "ounce-inches") if event.guard is GuardKind.MOMENT else (OUNCE_FORCE, "ounces")
     limit, felt = f"{event.limit / si:.1f}", f"{event.friction / si:.1f}"
-    return (
-        f"a stop on {limit} {unit} is hard to distinguish from joint friction: {felt} can be felt in free air here"
-    )
+    return f"a stop on {limit} {unit} is hard to distinguish from joint friction: {felt} can be felt in free air here"
 
 
 def _beyond(said: str, si: float, unit: str) -> Callable[[happened.GuardTripped], str]:

@@ -306,7 +306,10 @@ def test_without_a_folder_a_picture_is_named_and_written_only_where_somebody_say
     assert stepper.do("picture seen.png").said == "CLOSE_UP, in seen.png"
     written = Path("seen.png").read_bytes()
     assert written.startswith(b"\x89PNG")
-    assert stepper.do("picture seen.png").error == "seen.png already exists; nothing was written, choose another name"
+    assert (
+        stepper.do("picture seen.png").error
+        == "seen.png already exists; nothing was written, choose another name"
+    )
     assert Path("seen.png").read_bytes() == written
 
 
@@ -474,7 +477,10 @@ def test_a_checkpoint_goes_to_the_file_that_is_named(say: Say, tmp_path: Path) -
     file = tmp_path / "here and now.checkpoint"
     assert say("s 3", f"checkpoint {file}")[-1].file == str(file)
     assert read_checkpoint(file).position == 3
-    assert say("s", f"checkpoint {file}")[-1].error == f"{file} already exists; nothing was written, choose another name"
+    assert (
+        say("s", f"checkpoint {file}")[-1].error
+        == f"{file} already exists; nothing was written, choose another name"
+    )
     assert read_checkpoint(file).position == 3
 
 

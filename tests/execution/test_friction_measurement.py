@@ -90,9 +90,7 @@ def test_the_arm_ends_where_it_began_within_four_seconds() -> None:
 
 def test_a_joint_that_is_stuck_is_named() -> None:
     stuck = Bench("planar", (500.0, 1.0))
-    with pytest.raises(
-        FrictionUnknown, match=r"^joint friction could not be measured: the x does not move "
-    ):
+    with pytest.raises(FrictionUnknown, match=r"^joint friction could not be measured: the x does not move "):
         measured(stuck)
 
 

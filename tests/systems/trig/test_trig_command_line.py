@@ -133,7 +133,7 @@ def test_kept_jobs_are_compared_in_their_units_and_filmed(command: Command) -> N
     assert (code, "in B" in out) == (0, True)
     assert "place x of body cross_slide: A 150.490 mm, B 149.990 mm" in out
     assert "Both runs took the same course" in out
-    assert "Nothing was recorded otherwise" in command("compare", "3", "3")[1]
+    assert "Both runs are identical, to the last bit." in command("compare", "3", "3")[1]
     assert command("video", "3", "--seconds", "1", "--size", "32x24", "--captions")[0] == 0
     assert Path("3/video.webp").exists()
 
