@@ -412,7 +412,7 @@ DEFINE UNCOVER
         CHANGE  [0 0 1] .05     ;off the flange
         CLOSE   2 2.4
         SKIPN   2
-        WAIT    "THE TOP DOES NOT LIE FLAT ON THE GASKET"
+        WAIT    "THE TOP DOES NOT LIE FLAT ON THE GASKET, OR THE GASKET IS MISSING"
         LOAD    36
         CHANGE  [0 0 1] 2.3
 
@@ -867,7 +867,7 @@ TOPPING: COVER
         JUMP    COVERED
 ASKEW:  CHANGE  [0 0 1] 2       ;above the pins, before the hand opens
         SOJG    TRIES OFF
-        WAIT    "THE TOP DOES NOT LIE FLAT ON THE GASKET"
+        WAIT    "THE TOP DOES NOT LIE FLAT ON THE GASKET, OR THE GASKET IS MISSING"
         JUMP    COVERED
 OFF:    UNCOVER
         ASSIGN  STOOD 2
