@@ -425,11 +425,13 @@ DEFINE FEEL SPOT
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
 
-; Does the pump still stand where it was put? Closed fingers come to its rim, .3 in away, and push it to its block.
+; Does the pump still stand where it was put? Closed fingers come to its rim, .3 in away, and push it to its block. Their
+; height is that of the face as it was felt: a sixth of an inch lower, the palm would stand on the crank.
 DEFINE NUDGE SPOT PUSH WAY
         MOVE    SPOT
         RESTORE Y1
         RESTORE X2
+        RESTORE BARE
         STOP    PUSH
         CHANGE  WAY .8 .2
         SKIPN   23
@@ -744,7 +746,17 @@ IN2:    OPEN    .5
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1  ;slowly: .002 in a servo period
         SAVE    BARE            ;how high its face is
-        CHANGE  [0 0 1] 1
+        FEEL    REAR            ;does it lie flat?
+        HEIGHT  BARE -.018 .018 ;.3 degrees between web and rear
+        SKIPE   9
+        JUMP    EVEN
+        FEEL    FACE            ;a touch scatters by up to .005 in: both once more
+        SAVE    BARE
+        FEEL    REAR
+        HEIGHT  BARE -.018 .018
+        SKIPN   9
+        WAIT    "THE BASE DOES NOT LIE FLAT: SOMETHING LIES UNDER IT, OR A JOINT READS WRONG"
+EVEN:   CHANGE  [0 0 1] 1
 
         STAGE   "put on the gasket"
         PARK
