@@ -924,11 +924,11 @@ MOVED:  SOJG    TRIES ALL       ;by the inspection itself? All of it once more
         WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED SINCE IT WAS FELT"
 ALL:    BLOCKS                  ;home, before it is felt
         ROTATION
+        PARK
+        LOOK    WHOLE           ;what is lost from here on, the last picture shows
         HEADS
         TOOLS
         BLOCKS                  ;the driver has drawn it off a little
-        PARK
-        LOOK    WHOLE
         LAYERS
         PARK
         LOOK    DONE HOLD

@@ -243,7 +243,7 @@ class PartMatch:
     cause: PartAstray | None  # None: it stands as it stood
     outline: tuple[tuple[float, float], ...]  # expected in the second picture, corners (u, v)
     shift: float  # m against its surroundings, at the height of its face
-    unlike: float  # fraction of its points that have changed, after aligning
+    unlike: float  # fraction of its points that look different, after aligning
 
     @property
     def ok(self) -> bool:

@@ -179,7 +179,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.PartAstray(off=0.2 * INCH, unlike=0.034),
-        "moved by 0.20 in relative to its surroundings; 3 % of it looks different",
+        "moved by 0.20 in relative to its surroundings; 3.4 % of it looks different",
     ),
     (c.NoSearch(), "no search was set up"),
     (c.PlacesTried(places=9), "9 places tried"),

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from synthetic import Canvas, draw_base, part, view
+from synthetic import FINE, Canvas, draw_base, part, view
 
 from handeye.core.units import DEGREE, INCH
 from handeye.program.diagnosis.causes import OutsidePicture, PartAstray
@@ -17,9 +17,16 @@ NOISE = 1.0
 
 
 def picture(
-    seed: int, by: tuple[float, float] | None = (0.0, 0.0), turn: float = 0.0, dark: bool = False
+    seed: int,
+    by: tuple[float, float] | None = (0.0, 0.0),
+    turn: float = 0.0,
+    dark: bool = False,
+    head: float = 0.0,
 ) -> np.ndarray:
-    """A base moved by so much (in) and turned (rad), or none, on a belt with the edge of something else."""
+    """A base moved by so much (in) and turned (rad), or none, on a belt with the edge of something else.
+
+    A screw head on it, 7 points wide, is brighter than the base by `head` levels.
+    """
     rng = np.random.default_rng(seed)
     canvas = Canvas()
     canvas.fine[:, :160] = 8
@@ -27,6 +34,10 @@ def picture(
     if by is not None:
         there = (POSE[0] + by[0] * INCH, POSE[1] + by[1] * INCH, POSE[2] + turn)
         draw_base(canvas, WHERE, PART, there)
+    u, v = np.rint(WHERE.project(np.array([[POSE[0], POSE[1], PART.at[2] + PART.face]]))[0] * FINE).astype(
+        int
+    )
+    canvas.fine[v - 3 * FINE : v + 4 * FINE, u - 3 * FINE : u + 4 * FINE] += head
     if dark:
         canvas.fine /= 4
     return canvas.picture(rng, NOISE)
@@ -67,6 +78,14 @@ def test_a_part_that_has_moved_farther_than_pictures_lie_apart_does_not_match(
 
 def test_a_part_that_was_taken_away_looks_otherwise() -> None:
     assert matched(picture(4, None)).unlike > 0.3
+
+
+def test_a_screw_head_that_has_gone_does_not_match() -> None:
+    found = match(picture(1, head=4), picture(7), WHERE, PART, POSE)
+    assert isinstance(found, PartMatch)
+    assert found.shift < MOVED / 3
+    assert isinstance(found.cause, PartAstray)
+    assert 0 < found.unlike < 0.02
 
 
 def test_a_part_that_is_turned_where_it_stands_does_not_match() -> None:

@@ -114,7 +114,7 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
 
 def match_sentence(off: float, unlike: float) -> str:
     """The result of a match: displacement (m), and the fraction that looks different."""
-    return f"moved by {_inches(off)} relative to its surroundings; {100 * unlike:.0f} % of it looks different"
+    return f"moved by {_inches(off)} relative to its surroundings; {100 * unlike:.1f} % of it looks different"
 
 
 def _undo_stopped(cause: c.UndoCause) -> str:
