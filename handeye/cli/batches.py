@@ -70,12 +70,12 @@ def assembly_trials(
         ),
     ] = "abort",
     simulated_limit: Annotated[
-        float, Parameter(help="Simulated seconds after which a trial counts as failed.")
+        float, Parameter(help="Simulated seconds after which a trial ends unfinished.")
     ] = 3600.0,
     cpu_limit: Annotated[
         float,
         Parameter(
-            help="CPU seconds after which a trial is stopped. Time in which the computer sleeps or does other work "
+            help="CPU seconds after which a trial ends unfinished. Time in which the computer sleeps or does other work "
             "does not count."
         ),
     ] = 1800.0,
@@ -84,7 +84,7 @@ def assembly_trials(
     """Assemble in many worlds: success rate with its confidence interval, and what failed where.
 
     The figures are the same for any number of workers. A trial whose process is killed is repeated once; an exception
-    counts as a failure. Trials that this computer stopped are repeated when the batch continues. With --out, the
+    counts as a failure. Trials that this computer interrupted are repeated when the batch continues. With --out, the
     folder also gets a page with the figures: figures.html.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: in some world the program reported success and the referee

@@ -49,7 +49,7 @@ def short_page(result: Result) -> RenderableType:
     table.add_column("")
     for name, told in _short_rows(result):
         table.add_row(name, told)
-    return Group(verdict(result), Text(), table, *_remarks(result))
+    return Group(verdict(result), Text(), table, *_remarks(result, short=True))
 
 
 def _short_rows(result: Result) -> Iterator[tuple[str, str]]:
@@ -70,14 +70,17 @@ def _short_rows(result: Result) -> Iterator[tuple[str, str]]:
         yield "computer", f"simulated it in {clock(t.run_wall_s)}, {t.real_time_factor:.1f}x real time"
 
 
-def _remarks(result: Result) -> Iterator[RenderableType]:
+def _remarks(result: Result, *, short: bool = False) -> Iterator[RenderableType]:
     """Sentences on faults, settings and doubts, and on what the operator did."""
     for told in told_faults(result):
         yield Text(f"broken: {told}", "yellow")
     for name, limit in (result.limits or {}).items():
         yield Text(f"limit of {name} set by the calling program: {limit:g}", "yellow")
-    for sentence in result.warnings:
-        yield Text(sentence, "yellow")
+    first, *others = result.warnings or ("",)
+    if short and others:
+        yield Text(f"{first} (and {counted(len(others), 'more warning')}: --details)", "yellow")
+    else:
+        yield from (Text(sentence, "yellow") for sentence in result.warnings)
     for sentence in result.interventions:
         yield Text(f"by a person: {sentence}", "yellow")
 

@@ -14,7 +14,7 @@ from handeye.api.state import State
 from handeye.core.faults import Fault
 from handeye.core.variation import WorldSpec
 from handeye.judge.finding import at_most
-from handeye.results.page import clock, page, referee, timing, verdict
+from handeye.results.page import clock, page, referee, short_page, timing, verdict
 from handeye.results.result import CameraReport, Check, Result, to_json
 
 CALIBRATED = CameraReport(renderer="ray casting", sightings_rms_px={"25 mm": 0.4}, residual_in=0.02)
@@ -186,3 +186,13 @@ def test_a_notebook_shows_the_times_of_1973_beside_the_pump_alone(program: str, 
     shown = run_page(made, cast("State", None), None, None)
     assert ("1973" in shown, "5:30 min" in shown) == (compared, compared)
     assert "processor" not in shown
+
+
+def test_the_short_page_has_one_line_of_warnings() -> None:
+    made = result(completed=True, assembled=True)
+    doubtful = msgspec.structs.replace(made, warnings=("line 7: faint", "line 9: faint"))
+    with (console := Console(width=100)).capture() as told:
+        console.print(short_page(doubtful))
+        console.print(page(doubtful))
+    assert "line 7: faint (and 1 more warning: --details)" in told.get()
+    assert told.get().count("line 9: faint") == 1
