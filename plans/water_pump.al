@@ -747,7 +747,7 @@ IN2:    OPEN    .5
         CHANGE  [0 0 -1] .6 .1  ;slowly: .002 in a servo period
         SAVE    BARE            ;how high its face is
         FEEL    REAR            ;does it lie flat?
-        HEIGHT  BARE -.018 .018 ;.3 degrees between web and rear
+        HEIGHT  BARE -.018 .018 ;.32 degrees between web and rear
         SKIPE   9
         JUMP    EVEN
         FEEL    FACE            ;a touch scatters by up to .005 in: both once more
@@ -924,11 +924,11 @@ MOVED:  SOJG    TRIES ALL       ;by the inspection itself? All of it once more
         WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED SINCE IT WAS FELT"
 ALL:    BLOCKS                  ;home, before it is felt
         ROTATION
-        PARK
-        LOOK    WHOLE           ;what is lost from here on, the last picture shows
         HEADS
         TOOLS
         BLOCKS                  ;the driver has drawn it off a little
+        PARK
+        LOOK    WHOLE           ;what is lost from here on, the last picture shows
         LAYERS
         PARK
         LOOK    DONE HOLD

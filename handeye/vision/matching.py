@@ -29,9 +29,10 @@ SPOT: Final = 5  # side of a square, points: a screw head is about as large
 DIFFERENT: Final = 1.6
 """Mean difference in a square, levels of the smoothed pictures, above which its middle looks different.
 
-The noise of two pictures gives a mean of .3 (median of 17,500 squares) and at most .77 to 1.08 in a pump at rest or
-pushed to its blocks in between (7 worlds, 5 of them of level high). A screw whose head is gone gives 3.7 to 5.6; one
-that stands 2.5 mm high gives .8 to 2.0, so that most such are missed; one behind the crank is not seen at all.
+The noise of two pictures gives a mean of .3 (median of 17,500 squares), and at most .77 to 1.08 in a pump at rest (7
+worlds, 4 of them of level high). A screw whose head is gone gives 3.7 to 5.6; one that stands 2.5 mm high gives .8 to
+2.0, so that most such are missed; one behind the crank is not seen at all. With the heads driven again between the two
+pictures, one sound pump of five went beyond the limit (nominal seed 15).
 """
 BESIDE: Final = 12
 """Points beside the part that count neither to it nor to its surroundings.
