@@ -420,6 +420,8 @@ def started(plan: str, folder: str) -> "subprocess.Popen[str]":
     """A run in a process of its own that has come half way."""
     process = subprocess.Popen(
         [sys.executable, "-m", "handeye", "run", plan, "--out", folder, *BY_RAYS],
+        # Tests that a shell runs in the background inherit SIGINT as ignored, and so would the run.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
