@@ -1,4 +1,4 @@
-"""Set-points of straight motions of all axes, one a period."""
+"""Set-points for straight motions of all axes, one per period."""
 
 import math
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""Machines of a bench: joints and tendons with servos of their own, what they sense, and what they switch."""
+"""The machines on a bench: joints and tendons with their own servos, what they sense, and what they switch."""
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain

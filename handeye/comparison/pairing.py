@@ -159,7 +159,7 @@ class Leg:
 
     begin: float  # s of the course
     a: float
-    """Place of the first run then, s since it began; it goes evenly to that of the next leg."""
+    """Position of the first run at that moment, s since its start; it advances evenly to that of the next leg."""
     b: float
     places: tuple[Place | None, Place | None]
     """The step of each run; None while it waits, or has not begun."""

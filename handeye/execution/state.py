@@ -193,7 +193,7 @@ class ExecutionState(SystemState, kw_only=True):
     world: WorldState = msgspec.field(default_factory=WorldState)
     faint: list[str] = msgspec.field(default_factory=list)  # statements whose guards were reported as faint
     done: list[ExecutedStep] = msgspec.field(default_factory=list)
-    """Executed steps that are not reversed, in order."""
+    """Executed steps that have not been reversed, in order."""
     undoing: ReversalOrder | None = None  # the reversal in progress
     lets_go: Natural | None = None
     """Index of the step that took the screw which has been turned out: reversed, it leaves the screw there."""

@@ -1,4 +1,4 @@
-"""Tasks by name, whatever kind of system does them: the one place that knows which there are.
+"""Tasks by name, whatever kind of system performs them; the only place that knows which tasks exist.
 
 A task comes with handeye, by the entry-point group `handeye.tasks` of an installed package, by `--task MODULE:NAME`, or
 from a Python program that calls `register`. Its module is imported when it is first asked for.

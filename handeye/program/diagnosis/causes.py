@@ -307,7 +307,7 @@ class NoGasket(CauseRecord, frozen=True, kw_only=True):
 
 
 class HoleFault(Record, frozen=True, kw_only=True, tag_field="fault", tag=True):
-    """Base of the faults at one hole of an inspected part."""
+    """Base class of the faults at one hole of an inspected part."""
 
     hole: LargeHole
 

@@ -45,7 +45,7 @@ def on_disk(carried: ScheduleRun) -> Iterator[str]:
 
 
 def in_trace(carried: ScheduleRun) -> Iterator[str]:
-    """Sentences on what is unsound in the trace."""
+    """Sentences that say what is inconsistent in the trace."""
     try:
         trace = read_trace(carried.folder / TRACE)
     except InvalidInput as fault:
@@ -206,7 +206,7 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
     drawn: ScheduleResult | None = None  # Its result; None: it did not finish
     shrunk: ScheduleResult | None = None
-    """The same with the fewest things with which it still fails; None: it does not fail."""
+    """The same trial, reduced to the fewest disturbances with which it still fails; None if it does not fail."""
 
     @property
     def outcome(self) -> str:

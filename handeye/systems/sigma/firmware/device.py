@@ -26,7 +26,7 @@ class Crystal:
         return micros * (PS + self.ppm)
 
     def ticks(self, ticks: int) -> int:
-        """Picoseconds that ticks of its 2 MHz take."""
+        """Duration of a number of ticks of its 2 MHz clock, picoseconds."""
         return ticks * (PS + self.ppm) // _TICKS
 
     def ticks_in(self, picoseconds: int) -> int:

@@ -118,7 +118,7 @@ class TaughtJob(ABC):
 
     @abstractmethod
     def lying(self, when: "Moment") -> tuple[BlockPose, ...]:
-        """Block poses at a moment, in the order of taking."""
+        """Block poses at a given moment, in the order in which the blocks are picked up."""
 
     @abstractmethod
     def turn(self) -> None:
