@@ -1,4 +1,4 @@
-"""A part of a simulated cell that does something as time passes: every device, and what a task adds to physics."""
+"""A part of a simulated cell that acts as time passes: any device, or anything that a task adds to the physics."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator

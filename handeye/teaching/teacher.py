@@ -35,7 +35,7 @@ REST_S = 0.5  # for a floating arm to come to rest when it is let go
 
 @dataclass(slots=True, kw_only=True)
 class Teacher:
-    """A cell, a file of taught positions, and the positions to be written to it."""
+    """A cell, a file of taught positions, and the positions still to be written to that file."""
 
     workplace: Workplace
     file: Path

@@ -16,7 +16,7 @@ from handeye.systems.sigma.protocol import ANSWERS, Op, echo, name_of, self_test
 PATTERNS: Final = (b"\x55\xaa\x33", b"\xaa\x55\xcc")
 """What ECHO asks back: each line low and high, and neighbouring bytes that differ."""
 DEAD: Final = (
-    "nothing on it answers: its interface is dead, or a data line is stuck high that all its numbers have low"
+    "nothing on it answers: its interface is dead, or a data line low in all its addresses is stuck high"
 )
 _ALL: Final = 0xFF
 
