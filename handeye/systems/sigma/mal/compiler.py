@@ -40,6 +40,11 @@ _OPERATORS: Final[dict[str, Op]] = {
     "+": "ADD", "-": "SUB", "*": "MUL", "/": "DIV", "=": "EQ", "<>": "NE", "<": "LT", ">": "GT", "<=": "LE",
     ">=": "GE", "AND": "AND", "OR": "OR",
 }  # fmt: skip
+_FUNCTIONS: Final[dict[str, Op]] = {
+    "ABS": "ABS", "INT": "INT", "SGN": "SGN", "SQR": "SQR", "POS": "POS", "FORCE": "FORCE", "CRASHPOS": "CRASHPOS",
+    "STATUS": "STAT", "BEAM": "BEAM", "TIME": "TIME",
+}  # fmt: skip
+_SETTINGS: Final[dict[str, Op]] = {"SPEED": "LIMSPEED", "CURVE": "CURVE", "LIMIT": "THRESHOLD"}
 
 
 Operand = float | str | tuple[str, ...] | None
@@ -278,8 +283,7 @@ class _Compiler:
         (axis,) = (name.text for name in statement.names)
         if statement.values:
             self._value(statement.values[0])
-        op: Op = {"SPEED": "LIMSPEED", "CURVE": "CURVE", "LIMIT": "THRESHOLD"}[statement.word]  # type: ignore[assignment]
-        self._emit(op, (axis, *(() if statement.values else ("STANDARD",))))
+        self._emit(_SETTINGS[statement.word], (axis, *(() if statement.values else ("STANDARD",))))
         self._emit("CMD")
 
     def _value(self, expression: Expression) -> None:
@@ -300,11 +304,11 @@ class _Compiler:
 
     def _call(self, function: str, argument: Expression | Token | None) -> None:
         if isinstance(argument, Token):
-            self._emit("STAT" if function == "STATUS" else function, argument.text)  # type: ignore[arg-type]
+            self._emit(_FUNCTIONS[function], argument.text)
             return
         if argument is not None:
             self._value(argument)
-        self._emit(function)  # type: ignore[arg-type]  # its own name
+        self._emit(_FUNCTIONS[function])
 
 
 _PLAIN: Final[dict[str, Op]] = {
