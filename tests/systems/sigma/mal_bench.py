@@ -55,7 +55,7 @@ def begun(text: str, *, statement_us: int = STATEMENT_US) -> Ran:
 
 
 def go_on(ran: Ran, most: int = 20_000) -> Ran:
-    """Carry out statements until none can be, or so many are."""
+    """Execute statements until none can be executed, or up to a number of them."""
     while ran.vm.turn and most:
         most -= 1
         task = ran.vm.memory.tasks[ran.vm.turn]

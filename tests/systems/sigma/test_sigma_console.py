@@ -25,7 +25,7 @@ class Typed:
         )
 
     def __call__(self, text: str) -> list[str]:
-        """What is told for some lines."""
+        """What the console prints for some lines."""
         self.told.clear()
         for line in text.splitlines():
             try:

@@ -47,7 +47,7 @@ def speeds(train: Train) -> np.ndarray:
 
 
 def means(values: np.ndarray, count: int) -> np.ndarray:
-    """Means of so many values each: the rounding of a divider is no change of speed."""
+    """Means over groups of values: the rounding of a divider is no change of speed."""
     return values[: len(values) // count * count].reshape(-1, count).mean(axis=1)
 
 

@@ -43,7 +43,7 @@ CURVES: Final = (
 
 
 class Train(Record, frozen=True, kw_only=True):
-    """A pulse train: so many steps that begin and end at `start` and go no faster than `top`, or a stop from `top`."""
+    """A pulse train of `steps` that begins and ends at `start`, no faster than `top`; or a stop from `top`."""
 
     kind: Literal["profile", "stop"] = "profile"
     steps: int  # of a stop: at most
