@@ -1,30 +1,14 @@
 """How long a motor takes for a number of steps: short, medium and long profiles, in whole microseconds."""
 
 import math
-from typing import Final, NamedTuple
 
-
-class Curve(NamedTuple):
-    """How a motor accelerates: steps/s and steps/s2."""
-
-    start: float
-    top: float
-    acceleration: float  # mean
-
-
-CURVES: Final = (
-    Curve(1000.0, 13_333.0, 56_000.0),
-    Curve(1000.0, 15_000.0, 56_000.0),
-    Curve(1000.0, 13_333.0, 28_000.0),
-    Curve(1000.0, 13_333.0, 14_000.0),
-    Curve(500.0, 13_333.0, 56_000.0),
-)
-SHORT: Final = 8  # steps, at start/stop speed throughout
+from handeye.systems.sigma.motors.pulses import CURVES, SHORT
 
 
 def move_us(steps: int, curve: int = 0, limit: int = 0) -> int:
     """The time of a move by `steps` along a curve, microseconds; `limit` is in steps/s, 0: none."""
-    start, top, acceleration = CURVES[curve if curve < len(CURVES) else 0]
+    form = CURVES[curve if curve < len(CURVES) else 0]
+    start, top, acceleration = form.start, form.top, form.acceleration
     if limit:
         top = min(top, float(limit))
     start = min(start, top)
