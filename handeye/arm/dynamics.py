@@ -59,12 +59,6 @@ def at_rest(arm: ArmModel, q: Array) -> Dynamics:
     return Dynamics(M=_mass_matrix(arm, links), bias=_bias(arm, links, None), J=J)
 
 
-def gravity_and_jacobian(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """Gravity torques (..., n) and Jacobian (..., 6, n)."""
-    links = _links(arm, q)
-    return _bias(arm, links, None), tool_jacobian(arm, links.R, links.p)
-
-
 def link_weights(arm: ArmModel, q: Array) -> tuple[Array, Array]:
     """Torques of joint j that bear link i, (..., i, j), and of these what the distance of its mass centre makes."""
     links, k = _links(arm, q), constants(arm)

@@ -11,6 +11,7 @@ from typing import Final
 
 import numpy as np
 
+from handeye.arm.arithmetic import ArmArithmetic, Formulas
 from handeye.arm.ik import IKResult
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
@@ -41,6 +42,7 @@ def calibrate_camera(
     looks: Sequence[CalibrationLook],
     halt: Callable[[], bool] = lambda: False,
     viewed: Callable[[int, int], None] = lambda *_: None,
+    arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas,
 ) -> Calibration:
     """Show the lamp to the camera, and fit the camera model to the arm's positions.
 
@@ -48,7 +50,7 @@ def calibrate_camera(
     number and count of each view. Raises CalibrationFailed if the lamp is seen too few times or the picture does not
     change, Halted on panic.
     """
-    drive = ArmDrive(cell=cell, arm=arm, state=state, halt=halt)
+    drive = ArmDrive(cell=cell, arm=arm, state=state, halt=halt, arithmetic=arithmetic)
     home = drive.state.q.copy()
     numbers, views = count(1), sum(len(look.places) for look in looks)
     sightings: list[Sighting] = []

@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
+from handeye.arm.arithmetic import ArmArithmetic, Formulas
 from handeye.arm.friction import felt_friction
 from handeye.arm.model import ArmModel
 from handeye.core.mutable_records import put_back
@@ -48,6 +49,7 @@ class ExecutionContext:
     emit: Callable[[AnyEvent], None]
     search: SearchPattern = spiral  # places that a search tries
     without: frozenset[str] = frozenset()  # senses not used; see `program.senses`
+    arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # what computes an arm at one posture
     vision: Stopwatch = field(default_factory=Stopwatch)
     """CPU time of vision; the working phase itself reads no host clock."""
     state: ExecutionState = field(init=False)
@@ -56,7 +58,9 @@ class ExecutionContext:
 
     def __post_init__(self) -> None:
         self.state = ExecutionState(drive=DriveState.holding(self.cell.sense(), self.arm))
-        self.drive = ArmDrive(cell=self.cell, arm=self.arm, state=self.state.drive)
+        self.drive = ArmDrive(
+            cell=self.cell, arm=self.arm, state=self.state.drive, arithmetic=self.arithmetic
+        )
         self.world = WorldModel.of(self.plan.program, self.state.world)
 
     @property

@@ -13,6 +13,7 @@ from typing import Final
 
 import numpy as np
 
+from handeye.arm.arithmetic import ArmArithmetic, Formulas
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
@@ -57,7 +58,11 @@ QUICK: Final = Pass(rate=0.03, seconds=0.2)
 
 
 def measure_joints(
-    cell: Workcell, arm: ArmModel, state: DriveState, halt: Callable[[], bool] = lambda: False
+    cell: Workcell,
+    arm: ArmModel,
+    state: DriveState,
+    halt: Callable[[], bool] = lambda: False,
+    arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas,
 ) -> JointMeasurement:
     """Measure joint friction and link weights; the arm ends where it began.
 
@@ -65,7 +70,7 @@ def measure_joints(
     far more torque than its friction, or if a link weight is implausible; Halted on panic.
     """
     periods: list[ServoPeriod] = []
-    drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt)
+    drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt, arithmetic=arithmetic)
     slow, quick = (_drag(drive, periods, way) for way in (SLOW, QUICK))
     coulomb = at_rest(slow.rubbing, quick.rubbing)
     links = mass_factors(arm, state.q, slow.weight)

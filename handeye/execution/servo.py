@@ -11,11 +11,11 @@ from typing import TypeVar
 
 import numpy as np
 
+from handeye.arm.arithmetic import ArmArithmetic, Formulas
 from handeye.arm.computed_torque import felt_wrench, torque
 from handeye.arm.converters import followed
-from handeye.arm.dynamics import Dynamics, at_rest, gravity_and_jacobian
+from handeye.arm.dynamics import Dynamics
 from handeye.arm.joint_agreement import jumped
-from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.weighing import weighed
 from handeye.core.pose import Array, Pose
@@ -60,6 +60,8 @@ class Servo:
     watch: Callable[[ServoPeriod], None] = lambda _: None  # called after every servo period
     halt: Callable[[], bool] = lambda: False  # the panic button, asked at every servo period
     track: Track = field(default_factory=Track)  # records commands and felt forces, for a later undo
+    arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # what computes an arm at one posture
+    _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
 
     @property
     def period(self) -> float:
@@ -72,6 +74,14 @@ class Servo:
         links = self.state.links
         return self.arm if links is None else weighed(self.arm, tuple(links.tolist()))
 
+    @property
+    def chain(self) -> ArmArithmetic:
+        """The arithmetic of `built`."""
+        built = self.built
+        if self._chain is None or self._chain[0] is not built:
+            self._chain = built, self.arithmetic(built)
+        return self._chain[1]
+
     # -- knowing ------------------------------------------------------------------------------------
 
     @property
@@ -81,11 +91,11 @@ class Servo:
 
     def hand(self) -> Pose:
         """`X_WT` by the arm's own sensors."""
-        return forward(self.arm, self.state.here)
+        return self.chain.forward(self.state.here)
 
     def dynamics(self) -> Dynamics:
         """Inertia, bias torques and Jacobian at rest at the present set-point."""
-        return at_rest(self.built, self.state.q)
+        return self.chain.at_rest(self.state.q)
 
     def _reading(self, direction: Array) -> Reading:
         """Reading for the guards."""
@@ -148,9 +158,9 @@ class Servo:
         def feel(after: Sensed) -> None:
             # gravity and Jacobian where the arm is, not at its set-point: under a force it gives way
             q_is = (q_was + self.state.here) / 2
-            (is_so, set_so), (J, _) = gravity_and_jacobian(self.built, np.stack((q_is, q)))
-            bias_so = here.bias + is_so - set_so + friction
-            felt = felt_wrench(here.M, bias_so, J, tau, qd_was, after.qd, self.period)
+            there = self.chain.at_rest(q_is)
+            bias_so = here.bias + there.bias - self.chain.gravity(q) + friction
+            felt = felt_wrench(here.M, bias_so, there.J, tau, qd_was, after.qd, self.period)
             self.state.wrench = felt - self.state.tare
 
         yield from self._wait(tau, feel if estimate else None, guards, taring=taring)

@@ -12,11 +12,11 @@ import numpy as np
 
 from handeye.arm.computed_torque import prepare
 from handeye.arm.converters import sliding
-from handeye.arm.dynamics import Dynamics, gravity, mass_matrix
+from handeye.arm.dynamics import Dynamics
 from handeye.arm.ik import solve
 from handeye.arm.joint_agreement import JointAgreement, crept
 from handeye.arm.joint_drag import JointDrag, alone
-from handeye.arm.kinematics import forward, jacobian
+from handeye.arm.kinematics import jacobian
 from handeye.arm.model import constants
 from handeye.arm.samples import Samples
 from handeye.arm.torque_balance import TorqueBalance
@@ -90,9 +90,9 @@ class ServoLoop(Servo):
     def floating(self, seconds: float) -> Motion[None]:
         """Bear gravity and load only, so that a push moves the hand; the set-point becomes where the arm then is."""
         for _ in range(self._periods(seconds)):
-            q, qd = self.state.here, self.sensed.qd
-            borne = gravity(self.built, q) + jacobian(self.arm, q)[2] * self.state.load
-            yield from self._wait(borne - mass_matrix(self.built, q) @ qd / self.arm.servo.drag)
+            here = self.chain.at_rest(self.state.here)
+            borne = here.bias + here.J[2] * self.state.load
+            yield from self._wait(borne - here.M @ self.sensed.qd / self.arm.servo.drag)
         self.state.q, self.state.met = self.state.here.copy(), None
 
     def following(
@@ -186,7 +186,7 @@ class ServoLoop(Servo):
         zeroed = yield from self.zeroing()
         if zeroed.error is not None:
             return zeroed
-        X_start, sensors = forward(self.arm, self.state.q), self._sensors()
+        X_start, sensors = self.chain.forward(self.state.q), self._sensors()
         sense, met = self._sense(X_start, course), np.zeros(len(self.state.q))
         gone, given, turn = 0.0, np.zeros(3), np.zeros(3)
         for tick in range(course.patience(round(PRESS_TIME / self.period), self.period)):
@@ -272,12 +272,12 @@ class ServoLoop(Servo):
         readings, whose steps average out, so that two motions that end on the same force end as high on average.
         """
         met = self.state.met
-        return float(forward(self.arm, self.state.q)[2, 3] if met is None else met[2])
+        return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])
 
     def _freeze(self, direction: Array) -> None:
         """Hold where the hand is along `direction`, with no reference velocity left to kick it back."""
-        self.state.met = forward(self.arm, self.state.q)[:3, 3]
-        X_set, X_is = forward(self.arm, self.state.q), forward(self.arm, self.state.here)
+        self.state.met = self.chain.forward(self.state.q)[:3, 3]
+        X_set, X_is = self.chain.forward(self.state.q), self.chain.forward(self.state.here)
         along = float((X_is[:3, 3] - X_set[:3, 3]) @ direction)
         held = solve(self.arm, translated(X_set, along * direction), self.state.q)
         self.state.q = self.state.here.copy() if held.q is None else held.q
@@ -288,7 +288,7 @@ class ServoLoop(Servo):
         `on_the_way`, shape (n,): by how much joints were off theirs; `met`, (n,): torques that are left unexplained;
         `swing`: see `_lagging`.
         """
-        off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
+        off = float(np.linalg.norm(self.hand()[:3, 3] - self.chain.forward(self.state.q)[:3, 3]))
         if off < self.arm.servo.short:
             return REACHED
         before = float(np.linalg.norm((jacobian(self.arm, self.state.q) @ on_the_way)[:3]))

@@ -41,6 +41,15 @@ def driving(arm: ArmModel = STANFORD) -> tuple[FakeCell, ArmDrive]:
     return cell, ArmDrive(cell=cell.devices, arm=arm, state=DriveState.holding(cell.devices.sense(), arm))
 
 
+def test_an_arm_that_has_weighed_its_links_computes_with_their_weights() -> None:
+    _, drive = driving()
+    drawn = drive.dynamics().bias
+    drive.state.links = np.full(6, 1.1)
+    np.testing.assert_allclose(drive.dynamics().bias[1], 1.1 * drawn[1], rtol=0.05)  # fingers are not weighed
+    drive.state.links = None
+    np.testing.assert_array_equal(drive.dynamics().bias, drawn)
+
+
 def with_servo(**figures: object) -> ArmModel:
     return replace(STANFORD, servo=replace(STANFORD.servo, **figures))
 

@@ -21,16 +21,17 @@ GIVEN = {
         "camera",
         "emit",
         "search",
+        "arithmetic",
         "vision",
         "drive",
         "world",
         "without",
     },
-    ArmDrive: {"cell", "arm", "watch", "halt", "track"},
+    ArmDrive: {"cell", "arm", "arithmetic", "_chain", "watch", "halt", "track"},
     WorldModel: {"parts", "positions"},
 }
-"""Given anew to each when a run is taken up; `vision` counts processor time, which differs from run to run, and `track`
-is begun anew with each step."""
+"""Given anew to each when a run is taken up; `vision` counts processor time, which differs from run to run, `track`
+is begun anew with each step, and `_chain` is made of what is given and what the arm has weighed."""
 
 
 def test_what_works_holds_what_it_is_given_and_its_state() -> None:

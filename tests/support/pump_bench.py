@@ -16,6 +16,7 @@ from driving import Drive, tick
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.compiled_arm import CompiledArm
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.pose import Array, Pose, planar, pose, translated
 from handeye.core.resources import plans
@@ -233,9 +234,11 @@ def bench(
         put(cell, part, X_WP)
     settle(cell)
     events: list[Event] = []
-    run = ExecutionContext(plan=plan, arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append)
+    run = ExecutionContext(
+        plan=plan, arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append, arithmetic=CompiledArm
+    )
     if program.feels and world is not None and world.arm_build.friction.any():
-        found = measure_joints(cell.devices, STANFORD, run.state.drive)
+        found = measure_joints(cell.devices, STANFORD, run.state.drive, arithmetic=CompiledArm)
         run.state.drive.friction, run.state.drive.links = found.friction, found.links
     run.state.heights.update({name: height * INCH for name, height in (felt or {}).items()})
     first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}

@@ -9,6 +9,7 @@ from robots import ROBOTS
 from handeye.arm.ik import solve
 from handeye.arm.model import ArmModel, constants
 from handeye.cell.arm import SimulatedArm
+from handeye.cell.compiled_arm import CompiledArm
 from handeye.cell.device_errors import ArmErrors
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.pose import Array, hand
@@ -66,7 +67,9 @@ class Bench:
         self.link = model.joint(f"it/j{len(q)}").bodyid[0]
         state = DriveState.holding(cell.devices.sense(), self.arm)
         self.ticks: list[float] = []
-        self.drive = ArmDrive(cell=cell.devices, arm=self.arm, state=state, watch=self._watch)
+        self.drive = ArmDrive(
+            cell=cell.devices, arm=self.arm, state=state, watch=self._watch, arithmetic=CompiledArm
+        )
 
     def _watch(self, period: ServoPeriod) -> None:
         self.ticks.append(period.sensed.time)

@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 from msgspec import UNSET
 
+from handeye.cell.compiled_arm import CompiledArm
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.diagnostics import quoted
 from handeye.core.entries import PLANNED
@@ -77,6 +78,7 @@ class RunningPlan(RunningSystem):
             search=around.parts.search or spiral,
             without=frozenset(setup.without),
             vision=around.vision,
+            arithmetic=CompiledArm,
         )
         self.context.drive.halt, self.context.drive.watch = around.halt, around.watch
         self.executor = Executor(run=self.context)
@@ -229,7 +231,7 @@ class RunningPlan(RunningSystem):
             return 0.0
         before = self.time
         try:
-            measured = measure_joints(self._cell.devices, self.arm, self.state.drive, self._halt)
+            measured = measure_joints(self._cell.devices, self.arm, self.state.drive, self._halt, CompiledArm)
             self.state.drive.friction, self.state.drive.links = measured.friction, measured.links
         except (FrictionUnknown, PhysicsFailed) as error:
             self.state.unable = str(error)
@@ -252,7 +254,7 @@ class RunningPlan(RunningSystem):
         cell, drive = self._cell.devices, self.state.drive
         try:
             self.state.calibration = calibrate_camera(
-                cell, self.arm, drive, eye.drawing, eye.looks, self._halt, self._viewed
+                cell, self.arm, drive, eye.drawing, eye.looks, self._halt, self._viewed, CompiledArm
             )
             self.state.lens = eye.looks[-1].lens
         except (CalibrationFailed, PhysicsFailed) as error:

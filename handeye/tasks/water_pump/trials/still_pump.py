@@ -9,6 +9,7 @@ import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.camera import CameraState, SimulatedCamera, make_renderer, true_camera
+from handeye.cell.compiled_arm import CompiledArm
 from handeye.cell.keyframe import body_pose
 from handeye.core.pose import Array, Pose, planar
 from handeye.core.record import Vector3
@@ -150,9 +151,9 @@ def by_lamp(still: StillPump, renderer: str) -> Calibration:
     """
     cell = build_cell(still.world, camera=renderer)
     drive = DriveState.holding(cell.devices.sense(), STANFORD)
-    found = measure_joints(cell.devices, STANFORD, drive)
+    found = measure_joints(cell.devices, STANFORD, drive, arithmetic=CompiledArm)
     drive.friction, drive.links = found.friction, found.links
-    calibration = calibrate_camera(cell.devices, STANFORD, drive, DRAWING, LOOKS)
+    calibration = calibrate_camera(cell.devices, STANFORD, drive, DRAWING, LOOKS, arithmetic=CompiledArm)
     state = cell.truth.states["camera"]
     assert isinstance(state, CameraState)
     still.camera.restore(state)
