@@ -63,7 +63,7 @@ def _carried(setup: Setup, folder: Path) -> Costs:
     cost, _ = carry_out(setup, folder=folder, calibrate=False)
     records = cost.spent.components()["records"]
     return {
-        ("carried out", "cpu_s"): cost.spent.work_cpu_s - records,
+        ("executed", "cpu_s"): cost.spent.work_cpu_s - records,
         ("trace and checkpoints written", "cpu_s"): records,
     }
 
@@ -75,7 +75,7 @@ def _recorded(folder: Path) -> Costs:
     return {
         ("trace opened", "cpu_s"): _cpu_s(lambda: read_trace(file)),
         ("trace compared, as `verify` does", "cpu_s"): _cpu_s(lambda: first_difference(trace, other)),
-        ("events told, motion and forces as arrays", "cpu_s"): _cpu_s(
+        ("events as text, motion and forces as arrays", "cpu_s"): _cpu_s(
             lambda: (account(trace.events), trace.motion, trace.forces())
         ),
         ("trace on disk", "mib"): _mib([file]),
@@ -89,7 +89,7 @@ def cells(number: int) -> Costs:
     gc.collect()  # cells of before
     seconds = _cpu_s(lambda: _in_turn([Runner(Checkpoint(setup=setup)) for _ in range(number)]))
     peak = peak_memory_mib()
-    cost: Costs = {("built, and a program carried out", "cpu_s"): seconds}
+    cost: Costs = {("built, and a program executed", "cpu_s"): seconds}
     return cost if peak is None else {**cost, ("memory of the process", "mib"): peak}
 
 

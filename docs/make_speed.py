@@ -43,9 +43,9 @@ def _worlds(found: dict[str, Any]) -> str:
         "work",
         "referee",
         "physics alone",
-        "times physics",
-        "without pictures",
-        "the same, bit for bit",
+        "ratio",
+        "ratio without pictures",
+        "identical to the run",
     ]
     return _table(head, [_world(world) for world in found["worlds"]])
 
@@ -85,11 +85,11 @@ def _totals(found: dict[str, Any]) -> str:
         ["start of the process", f"{found['start_cpu_s']:.1f} CPU s"],
         ["planning", f"{found['planning_cpu_s']:.1f} CPU s"],
         ["accepted", f"{found['accepted']} of {len(worlds)}"],
-        ["accepted pumps an hour of one processor", f"{found['accepted_per_core_hour']:.0f}"],
-        ["simulated in a CPU s of work", f"{found['simulated_s_per_cpu_s']:.1f} s"],
-        ["memory at most", "not measured" if memory is None else f"{memory:.0f} MiB"],
+        ["accepted pumps per processor hour", f"{found['accepted_per_core_hour']:.0f}"],
+        ["simulated time per CPU second of work", f"{found['simulated_s_per_cpu_s']:.1f} s"],
+        ["greatest memory", "not measured" if memory is None else f"{memory:.0f} MiB"],
         [
-            "what measuring took, a world",
+            "cost of measuring, per world",
             f"{sum(world['account_cpu_s'] for world in worlds) / len(worlds):.2f} CPU s",
         ],
     ]
@@ -105,7 +105,7 @@ def growth(found: dict[str, Any]) -> str:
 
 def _grown(of: str, grown: Sequence[dict[str, Any]]) -> str:
     """A table of what was measured at the same sizes, with what one more costs from the least to the largest."""
-    head = [of, *(f"{size:,}" for size in grown[0]["sizes"]), "power", "each more"]
+    head = [of, *(f"{size:,}" for size in grown[0]["sizes"]), "power", "for each more"]
     return _table(head, [_one(each) for each in grown])
 
 

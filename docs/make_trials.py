@@ -38,9 +38,9 @@ BEGIN, END = "<!-- Below: docs/make_trials.py -->\n", "<!-- Above: docs/make_tri
 COLUMNS: Final = ("seed", "verdict", "stage", "cause", "arm_s", "cpu_s", "events")
 PROGRAM: Final = "water_pump"
 """Whose plan `handeye trials assembly` takes where it is given none."""
-PAIRED: Final = """The same worlds in pairs, something left out or another program:
+PAIRED: Final = """Pairs of batches in the same worlds, one with a sense left out or with another program:
 
-| batch | beside | assembled | beside it | only here | only beside it | p | noticed | silent | unfinished | arm | p |
+| batch | compared to | assembled | there | only here | only there | p | noticed | silent | unfinished | arm | p |
 |---|---|---|---|---|---|---|---|---|---|---|---|"""
 FACTS: Final = ("command", "commit", "code", "plan", "worlds", "versions", "renderer")
 """What stands above the trials of a batch."""
@@ -231,13 +231,14 @@ def _failures(batches: Sequence[Batch]) -> Iterator[str]:
         failed = [trial for trial in batch.trials if trial["verdict"] != "assembled"]
         if not failed:
             continue
-        yield f"Not assembled of `{batch.facts['command']}`:\n"
+        yield f"Failures of `{batch.facts['command']}`:\n"
         causes = Counter(map(_why, failed))
         for (stage, verdict, cause), count in causes.most_common():
             mine = (stage, verdict, cause)
             seeds = [trial["seed"] for trial in failed if _why(trial) == mine]
             more = "" if count <= 3 else ", ..."
-            yield f"- {stage}: {verdict}, {cause} ({count}: {', '.join(seeds[:3])}{more})"
+            worlds = "1 world: seed" if count == 1 else f"{count} worlds: seeds"
+            yield f"- {stage}: {verdict}, `{cause}` ({worlds} {', '.join(seeds[:3])}{more})"
         yield ""
 
 
