@@ -6,7 +6,7 @@
 >>> run.completed
 True
 
-Names are loaded when they are first used, so that the import itself costs next to nothing.
+Names are loaded on first use, so `import handeye` itself takes only milliseconds.
 """
 
 TYPE_CHECKING = (
@@ -110,7 +110,7 @@ _HOMES = {
     "plan": "handeye.api.plans",
     "scripts": "handeye.api.provided",
 }
-"""The module that each name comes from."""
+"""The module that defines each public name."""
 _MODULES = ("tasks", "trials", "vision")
 
 if not TYPE_CHECKING:  # who could not tell a wrong name otherwise
@@ -132,5 +132,5 @@ if not TYPE_CHECKING:  # who could not tell a wrong name otherwise
 
 
 def __dir__() -> list[str]:
-    """Names that are here, loaded or not."""
+    """All public names, loaded or not, and the module's special names."""
     return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

@@ -1,14 +1,18 @@
-"""The way in: `handeye`, and `python -m handeye`."""
+"""Entry point of the commands `handeye` and `python -m handeye`."""
 
 import os
 import signal
 
 ALLOCATIONS = 100_000
-"""Objects between two collections of garbage: with Python's 700, they take a tenth of the time of a short command."""
+"""Object allocations between two garbage collections. With Python's default of 700, collections take a tenth of the
+time of a short command.
+"""
 
 
 def main() -> None:
-    """Run the command line; Ctrl-C ends it while it is still being imported too, and is ignored once it is over."""
+    """Run the command line. Ctrl-C ends the program even while modules are being imported, and is ignored once the
+    command has finished.
+    """
     _hear(signal.SIGINT)  # before anything is imported
     import atexit
     import gc
@@ -28,7 +32,7 @@ def main() -> None:
 
 
 def _hear(number: int) -> bool:
-    """Have a signal end the program at once, unless it is ignored, as after `nohup`."""
+    """Make a signal end the program at once; return False if the signal is ignored, as it is after `nohup`."""
     if signal.getsignal(number) == signal.SIG_IGN:
         return False
     signal.signal(number, lambda *_: os._exit(130))

@@ -48,33 +48,36 @@ def begin(
     """Begin a run, or resume one; it pauses before its first step, or before a stage.
 
     Args:
-        script: what `handeye.plan` takes, or a plan; by default the script of the task. Or a saved state: a
-            checkpoint, or the folder of a run, which means its newest checkpoint.
-        seed: draws the world, 0 by default.
-        at: the first stage: its name, a unique part of its name, or its number from 1. The stages before it run first,
-            from the nearest checkpoint if there is a folder of a run.
-        world: the world, instead of a seed.
-        camera: how to render pictures: `gl` (OpenGL), `ray` (ray casting, everywhere the same) or `auto`; or a class
-            or function that takes a copy of the scene (`mujoco.MjModel`) and returns an object whose `render(data,
-            view)` computes the light on the target, shape (256, 333), with 1 for white in full light.
-        search: the places that a `SEARCH` tries, instead of its square spiral: a function from the number of a place,
-            from 0, to x and y in steps of the search (table coordinates). It is called once for each number, and again
-            after the run is resumed, and must then return the same. A search ends with error 6 if the function returns
-            None or raises StopIteration, and after the number of places of the `SEARCH`, 49 by default; a search
-            `ALONG` a line uses its own places. Tries are events `SearchAdvanced`, and `run.state.memory.place` is the
-            current number.
-        referee: a function from the truth of the cell to findings by name; or only limits for findings of the task's
-            referee, such as `{"screws_clamp": 60}`, each in the unit of its finding. To judge a kept run again, use
-            `handeye.begin(folder, referee=...).result`.
-        judge: have the referee judge the end; by default if one is given, or if the run began so.
-        taught: as for `handeye.plan`.
-        task: name of the task; by default that of the plan, program, run or world, else the water pump.
-        out: folder for plan, events, trace, checkpoints, pictures and result; nothing else is written. To continue in
-            the folder of a run, give it here as well.
-        overwrite: a run that is in that folder may be lost.
+        script: a script or plan, as for `handeye.plan`; by default the script of the task. Or a saved state to
+            resume: a checkpoint, or the folder of a run, which stands for the newest checkpoint in it.
+        seed: seed from which the world is generated; 0 by default.
+        at: the stage before which the run pauses: its name, a unique part of its name, or its number from 1.
+            Earlier stages are executed first; if `script` is the folder of a run, from the nearest checkpoint.
+        world: a world, instead of a seed.
+        camera: renderer of the TV camera: `gl` (OpenGL), `ray` (ray casting, the same on every computer) or `auto`;
+            or a class or function that takes a copy of the scene (`mujoco.MjModel`) and returns a renderer. The
+            renderer's method `render(data, view)` computes the light on the camera's target, shape (256, 333); 1 is
+            a white surface in full light.
+        search: a search pattern that replaces the square spiral of `SEARCH`: a function that takes the number of a
+            place, from 0, and returns its x and y, in search steps, table coordinates. It is called once for each
+            number; after a resume it is called again and must return the same values. The search ends with error 6
+            when the function returns None or raises StopIteration, or when it has tried the number of places that
+            the `SEARCH` allows, 49 by default. A search `ALONG` a line does not use the function. Each try is an
+            event `SearchAdvanced`, and `run.state.memory.place` is the number of the current place.
+        referee: a function that takes the true state of the cell and returns findings by name; or limits for
+            findings of the task's referee, such as `{"screws_clamp": 60}`, each in the unit of the finding. To
+            judge a kept run again, use `handeye.begin(folder, referee=...).result`.
+        judge: whether the referee judges the run when it ends; by default True if a referee is given, or if the
+            resumed run was started with one.
+        taught: taught positions, as for `handeye.plan`.
+        task: name of the task; by default the task of the given plan, program, run or world, else the water pump.
+        out: folder for plan, events, trace, checkpoints, pictures and result; without it, nothing is written. To
+            resume a run in the same folder, give the folder here as well as in `script`.
+        overwrite: replace a run that is already in that folder.
 
-    Limits are kept with the run. Code that replaces a part cannot be kept: checkpoints, trace and result name it,
-    `handeye resume` and `handeye trace verify` refuse such a run, and it is taken up here with a part of the same name.
+    Limits are saved with the run. Python code (`search`, `camera`, `referee`) cannot be saved; checkpoints, trace
+    and result hold only the name of the function or class. `handeye resume` and `handeye trace verify` refuse such
+    a run; `handeye.begin` resumes it if it is given code of the same name.
 
     Raises:
         ScriptError: the script has errors.
@@ -125,16 +128,17 @@ def assemble(
     overwrite: bool = False,
     on_stop: str = "abort",
 ) -> Run:
-    """Run a script to its end, and have the referee judge the result: what `handeye assemble` does.
+    """Run a script to its end and have the referee judge the result, like the command `handeye assemble`.
 
     Args:
-        on_stop: what to do when the program calls the operator: `abort`; `retry:N`: the stage again, N times at
-            most; or `unwind`: the arm undoes its work in that stage, and the program repeats the stage, once for each.
+        on_stop: what to do when the program calls the operator: `abort` ends the run; `retry:N` repeats the stage,
+            at most N times; `unwind` has the arm undo its work in that stage and repeats the stage, once for each
+            stage.
 
     The other arguments are those of `handeye.begin`.
 
     Returns:
-        the closed run; its `assembled`, `completed`, `result`, `events` have the outcome.
+        the closed run; `assembled`, `completed`, `result` and `events` give the outcome.
 
     Raises:
         ScriptError: the script has errors.
@@ -164,7 +168,9 @@ def assemble(
 
 
 def _rule(on_stop: object) -> Operator:
-    """The operator of a given name; raises InvalidInput if it is unknown or would have to ask a person."""
+    """The operator for a value of `on_stop`; raises InvalidInput if the value is unknown or the operator would have
+    to ask a person.
+    """
     operator = None
     with suppress(InvalidInput):  # whose sentence speaks of the command line
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
@@ -174,7 +180,7 @@ def _rule(on_stop: object) -> Operator:
 
 
 def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
-    """A folder for a run that begins in this way. Raises InvalidInput if it cannot be used."""
+    """Create the folder for a run that begins in state `state`. Raises InvalidInput if the folder cannot be used."""
     try:
         return open_new(path, state, overwrite=overwrite)
     except HoldsRun:
@@ -186,7 +192,7 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
 
 
 def _built(start: Start, parts: Parts, keeping: RunEnding) -> Run:
-    """The run, ready for its first step; a new folder is dropped again if its cell cannot be built."""
+    """Build the run, ready for its first step; a newly created folder is deleted if the cell cannot be built."""
     folder, state = keeping.folder, start.state
 
     def looking(runner: Runner) -> Sequence[Observer]:

@@ -1,4 +1,4 @@
-"""Diagnostics for Python programs: with their places, and a readable display."""
+"""Diagnostics for Python programs, with their place in the script and a readable display."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ from handeye.core.source import Source
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Diagnostic:
-    """One error or warning in a script; `print` shows it with its line.
+    """One error or warning in a script; `print` shows the diagnostic with its line of the script.
 
     >>> try:
     ...     handeye.plan("OPNE 1\\n")
@@ -37,7 +37,7 @@ class Diagnostic:
 
     @classmethod
     def of(cls, found: diagnostics.Diagnostic, source: Source) -> Self:
-        """The diagnostic of a source, with its place."""
+        """Make a `Diagnostic` from one that the compiler reports, with its place in the source."""
         span = found.primary.span
         text, offset = source.find(span.start)
         line, column = text.position(offset)
@@ -55,7 +55,7 @@ class Diagnostic:
 
 
 class ScriptError(InvalidInput):
-    """A script has errors, so it has no plan; `str` shows all of them with their lines.
+    """Raised when a script has errors and cannot be planned; `str` shows all of the errors with their lines.
 
     >>> try:
     ...     handeye.plan("OPEN 1\\nMOVE NOWHERE\\n")
@@ -65,12 +65,14 @@ class ScriptError(InvalidInput):
     """
 
     diagnostics: tuple[Diagnostic, ...]
-    """Errors and warnings, in the order of the text."""
+    """Errors and warnings, in the order of the script."""
 
     def __init__(self, found: Iterable[Diagnostic]) -> None:
         self.diagnostics = tuple(found)
         super().__init__("\n\n".join(map(str, self.diagnostics)))
 
     def _render_traceback_(self) -> list[str]:
-        """The traceback for a notebook: the errors with their places in the script, without handeye's own frames."""
+        """The traceback that notebooks show: the errors with their places in the script, without handeye's own
+        stack frames.
+        """
         return str(self).splitlines()

@@ -1,4 +1,6 @@
-"""Replaceable parts as the caller gives them: checked, and wrapped so that their results are checked as well."""
+"""Checks the parts that a caller replaces (search pattern, camera, referee), and wraps them so that their results
+are checked too.
+"""
 
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -23,8 +25,8 @@ Code = TypeVar("Code", bound=Callable[..., Any])
 
 
 def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
-    """Parts of a run that replace handeye's own; raises InvalidInput if one cannot be called, or its name is
-    unknown.
+    """Collect the parts of a run that replace handeye's own; raises InvalidInput if a part cannot be called, or if
+    the name of the camera is unknown.
     """
     if isinstance(camera, str):
         if camera not in CAMERAS:
@@ -40,13 +42,13 @@ def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
 
 
 def limits_of(given: Referee | Limits | None) -> dict[str, float] | None:
-    """Limits given instead of a referee, or None; raises InvalidInput if one is not a number."""
+    """Limits given in place of a referee, else None; raises InvalidInput if a limit is not a number."""
     return checked_limits(given) if isinstance(given, Mapping) else None
 
 
 def referee_of(given: Referee | Limits | None) -> Referee | None:
-    """A referee that is not the task's own, if any; raises InvalidInput if it is neither a referee nor a table of
-    limits.
+    """The caller's referee, or None for the task's own; raises InvalidInput if the argument is neither a referee
+    nor a table of limits.
     """
     if given is None or isinstance(given, Mapping):
         return None
@@ -76,7 +78,7 @@ def _checked_search(search: SearchPattern) -> SearchPattern:
 
 
 def _checked_place(name: str, number: int, given: object) -> tuple[float, float]:
-    """Raises InvalidInput if a search did not return a place."""
+    """Check the place that a search pattern returned; raises InvalidInput if it is not a pair of numbers."""
     try:
         x, y = (float(each) for each in np.asarray(given, dtype=object))
     except (TypeError, ValueError):
@@ -87,6 +89,6 @@ def _checked_place(name: str, number: int, given: object) -> tuple[float, float]
 
 
 def _named(wrapped: Code, code: Any) -> Code:
-    """Code under the name of other code."""
+    """Give wrapped code the name of the caller's code."""
     wrapped.__module__, _, wrapped.__qualname__ = name_of(code).partition(".")
     return wrapped

@@ -1,4 +1,4 @@
-"""Plans: a script's motions and actions as a value with a readable display."""
+"""Plans for Python programs: the motions and actions of a script, with a readable display."""
 
 import os
 from collections.abc import Sequence
@@ -29,7 +29,9 @@ from handeye.runs.scripts import plan_script, plan_text, program_named
 
 @dataclass(frozen=True, kw_only=True)
 class FlowDrawing:
-    """The steps of a plan, and the edges from one to the next, in sequence or on an error. Notebooks draw it."""
+    """A drawing of a plan's flow: its steps, and the edges to the next step, in sequence or after an error.
+    Notebooks show it.
+    """
 
     svg: str  # the drawing, as `handeye inspect --graph svg` writes it
     about: str  # what it shows, in words
@@ -42,14 +44,16 @@ class FlowDrawing:
 
 
 def flow_drawing(plan: planfile.Plan, stage: int | None = None) -> FlowDrawing:
-    """The flow of a plan, or of one stage, by its number from 1."""
+    """Draw the flow of a plan, or of one stage, given by its number from 1."""
     graph = flow(plan, stage)
     of = graph.name if stage is None else f"{graph.name}, {graph.stages[stage - 1]}"
     return FlowDrawing(svg=flow_svg(graph), about=f"flow of {of}: {counted(len(graph.nodes), 'step')}")
 
 
 def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic], flow: FlowDrawing | None) -> str:
-    """The stages of a plan with their times, the warnings about its script, and its flow."""
+    """An HTML page for notebooks: the stages of a plan with their times, the warnings about its script, and its
+    flow.
+    """
     longest = max((stage.seconds for stage in found.stages), default=0.0) or 1.0
     steps = sum(len(stage.steps) for stage in found.stages)
     said = (
@@ -66,17 +70,17 @@ def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic], flow: FlowDr
 
 
 DRAWN: Final = 30
-"""Number of steps up to which a notebook shows the flow of a plan; for a longer plan use `flow(stage)`."""
+"""Greatest number of steps for which a notebook shows the flow of a plan; for a longer plan use `flow(stage)`."""
 FileName = str | os.PathLike[str]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """A compiled script, with its motions for one arm.
+    """A compiled script with the planned motions for one arm.
 
-    Two plans are equal if they do the same, except for rounding of computed numbers.
+    Two plans are equal if their steps and motions agree, apart from the rounding of computed numbers.
 
-    A notebook shows its stages, their times, the warnings about the script, and its flow if it is short.
+    A notebook shows the stages with their times, the warnings about the script and, for a short plan, the flow.
 
     >>> plan = handeye.plan('STAGE "a hand"\\nOPEN 1\\nOPEN 2\\n')
     >>> plan
@@ -87,54 +91,57 @@ class Plan:
 
     record: planfile.Plan  # all of it, as it is on disk, in SI units
     diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
-    """Warnings about its script; none if the plan was read from a file."""
+    """Warnings about the script; empty if the plan was read from a file."""
 
     @property
     def name(self) -> str:
-        """Name of its program: the name of the script's file."""
+        """Name of the program: the name of the script's file without its ending."""
         return self.record.program.name
 
     @property
     def stages(self) -> tuple[InspectedStage, ...]:
-        """Its stages: `number` from 1, `name`, `seconds` of planned motion, and `steps`."""
+        """Stages of the plan, each with `number` from 1, `name`, `seconds` of planned motion, and `steps`."""
         return Several(self._laid_open.stages)
 
     @property
     def steps(self) -> tuple[InspectedStep, ...]:
-        """Its steps in the order of the text: `step`, its number; `line`, `text`, `seconds`, `conditions`, `next`."""
+        """Steps of the plan in the order of the script, each with `step` (its number), `line`, `text`, `seconds`,
+        `conditions` and `next`.
+        """
         return Several(step for stage in self.stages for step in stage.steps)
 
     @property
     def seconds(self) -> float:
-        """Seconds of planned motion, each step counted once, without fingers and pictures."""
+        """Duration of all planned motions, s, each step counted once, without finger motions and pictures."""
         return self._laid_open.seconds
 
     @property
     def digest(self) -> str:
         """Sixteen hexadecimal digits that identify the plan in runs and traces, the same on every processor.
 
-        They depend on script, taught positions, arm, task and planner, not on the computed motions.
+        The digest depends on script, taught positions, arm, task and planner, but not on the computed motions.
         """
         return plan_digest(self.record)
 
     def save(self, path: FileName) -> Path:
-        """Write it as a JSON file, which `handeye run` and `handeye.plan` read.
+        """Write the plan as a JSON file, which `handeye run` and `handeye.plan` can read.
 
         Returns:
             the file.
 
         Raises:
-            InvalidInput: it cannot be written there, or the file exists and is not a plan.
+            InvalidInput: the file cannot be written, or it exists and is not a plan.
         """
         file = given_file(path, "the destination of a plan must be a file")
         write_plan(file, self.record)
         return file
 
     def flow(self, stage: str | int | None = None) -> FlowDrawing:
-        """Draw its steps, and the edges from one to the next: in sequence, and (red) on an error.
+        """Draw the steps of the plan, and the edges from each step to the next: in sequence, or (red) after an
+        error.
 
         Args:
-            stage: only this stage: its number from 1, its name, or a unique part of its name.
+            stage: draw only this stage: its number from 1, its name, or a unique part of its name.
 
         Raises:
             InvalidInput: there is no such stage.
@@ -169,18 +176,19 @@ Planned = Plan | planfile.Plan  # a plan, or its record
 
 
 def plan(script: FileName | Planned, *, taught: FileName | None = None, task: str | None = None) -> Plan:
-    """Compile and plan a script; nothing moves.
+    """Compile a script and plan its motions; nothing is simulated.
 
     Args:
-        script: a file (`.al`), with its taught file (`.toml`) next to it; or the name of a program of a task, if there
-            is no such file; or a text, which is a `str` with a line end in it; or a saved plan, whose name ends in
-            .json.
-        taught: positions (in, deg) of the script: a TOML file, or the text of one. A text has none by default.
-        task: name of the task, which decides the arm; by default that of the plan or the program, else the water
-            pump.
+        script: a file (`.al`) with its taught file (`.toml`) next to it; the name of an included program, if no
+            file has that name; the text of a script, which is a `str` that contains a line end; or a saved plan, a
+            file that ends in .json.
+        taught: taught positions of the script (in, deg): a TOML file, or the text of one. By default the text of a
+            script has none.
+        task: name of the task, which determines the arm; by default the task of the plan or the included program,
+            else the water pump.
 
     Raises:
-        ScriptError: the script has errors; they are its `diagnostics`.
+        ScriptError: the script has errors; the exception's `diagnostics` list them.
         InvalidInput: a file cannot be read, or its contents cannot be used.
 
     >>> handeye.plan("MOVE P\\nOPEN 2\\n", taught="[positions]\\nP = { at = [25, 38, 6, 90, 90, 0] }\\n").seconds > 1
@@ -209,14 +217,14 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
 
 
 def _for_task(made: Plan, task: str | None) -> Plan:
-    """The plan itself; raises InvalidInput if it is for another task than the given one."""
+    """Return the plan; raises InvalidInput if it is for another task than `task`."""
     if task not in (None, made.record.task):
         raise BadArgument(f"the plan is for the task {quoted(made.record.task)}, not for {quoted(str(task))}")
     return made
 
 
 def _check_untaught(made: object, taught: object) -> None:
-    """Raises InvalidInput if taught positions are given for a finished plan."""
+    """Raises InvalidInput if taught positions are given together with a finished plan."""
     if taught is not None:
         raise BadArgument(f"{made} is a plan, which already has its positions; leave out taught=...")
 

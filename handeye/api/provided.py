@@ -7,6 +7,6 @@ from handeye.core.resources import demo as demo_folder
 from handeye.core.resources import plans
 
 scripts: Final[Path] = plans()
-"""Folder of the included scripts and their taught files: `handeye.scripts / "water_pump.al"`."""
+"""Folder of the included scripts and their taught files, for example `handeye.scripts / "water_pump.al"`."""
 demo: Final[Path] = demo_folder()
-"""Folder of an included recorded run, thinned to a few servo periods a second: `handeye.open(handeye.demo)`."""
+"""Folder of an included recorded run, thinned to a few servo periods per second: `handeye.open(handeye.demo)`."""

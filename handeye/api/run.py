@@ -1,4 +1,4 @@
-"""A run controlled from Python: step, go back, and read its state."""
+"""A run controlled from Python: step it, go back, and read its state."""
 
 import os
 from collections.abc import Callable
@@ -50,7 +50,7 @@ Place = str | int
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunEnding:
-    """Settings for the end of a run."""
+    """Settings for the end of a run: its folder, its referee, and the meter of computing time."""
 
     folder: RunFolder | None
     judged: bool
@@ -59,11 +59,13 @@ class RunEnding:
 
 
 class Run:
-    """A run of a plan in a world, which pauses where you ask; `handeye.begin` begins one.
+    """A run of a plan in a world, which pauses where you ask; `handeye.begin` starts a run.
 
-    Methods that move it return the `State` in which it pauses, which says why. As a context manager it closes itself.
+    Methods that advance the run return the `State` in which it pauses; `State.why` is the reason for the pause.
+    Used as a context manager, the run is closed at the end of the block.
 
-    `CLOSE .5` needs a part at least half an inch thick: on an empty hand it calls the operator.
+    `CLOSE .5` expects a part at least half an inch thick between the fingers; with an empty hand it calls the
+    operator.
 
     >>> with handeye.begin("OPEN 1\\nL1: CLOSE .5\\nOPEN 2\\n", camera="ray") as run:
     ...     state = run.until("L1")
@@ -74,7 +76,7 @@ class Run:
     """
 
     def __init__(self, stepper: Stepper, keeping: RunEnding, why: str) -> None:
-        """Use `handeye.begin`."""
+        """Not for callers: use `handeye.begin`."""
         self._stepper, self._session = stepper, stepper.session
         self._runner, self._keeping = stepper.session.runner, keeping
         self._why: str | None = why
@@ -85,7 +87,7 @@ class Run:
     # -- running --------------------------------------------------------------------------------------
 
     def step(self, n: int = 1) -> State:
-        """Do the next `n` steps, or fewer if something stops the run.
+        """Execute the next `n` steps, or fewer if a breakpoint, a call of the operator or the end stops the run.
 
         Raises:
             InvalidInput: the run cannot continue, or `n` is not a whole number of 1 or more.
@@ -93,11 +95,11 @@ class Run:
         return self._go(steps=given_count(n, "steps"))
 
     def until(self, place: Place | None = None) -> State:
-        """Run to a place, or to the end; a breakpoint or a call of the operator also stops the run.
+        """Run to a place, or without one to the end; a breakpoint or a call of the operator pauses the run earlier.
 
         Args:
-            place: a stage, by its name or a unique part of it; a label; an instruction (`"AOJ"`: the next step
-                that begins with it); a line (58, `"pins.al:3"`); or `"error:23"`: after the step that raises it.
+            place: a stage, by its name or a unique part of it; a label; an instruction (`"AOJ"`: the next step that
+                begins with it); a line (58, `"pins.al:3"`); or `"error:23"`: after the step that raises it.
 
         Raises:
             InvalidInput: the run cannot continue, there is no such place, or the run cannot reach it from here.
@@ -110,13 +112,16 @@ class Run:
         return self._go(stops)
 
     def back(self, steps: Place = 1) -> State:
-        """Go back to before some steps: arm, parts, program and clock; the events of these steps are dropped.
+        """Restore the run to its state before the last steps: arm, parts, program and clock; the events of these
+        steps are dropped.
 
         Args:
-            steps: the number of steps; or a stage, by its name or a part of it: back to where it last began.
+            steps: how many steps to go back; or a stage, by its name or a part of the name: back to the latest
+                beginning of that stage.
 
         Raises:
-            InvalidInput: the run has not reached it, or its state then is no longer kept.
+            InvalidInput: the run has not done that many steps or not reached that stage, or the state of that time
+                is no longer kept.
         """
         self._check_open()
         if isinstance(steps, str):
@@ -133,17 +138,19 @@ class Run:
         return self._stand("went back")
 
     def undo(self, steps: Place = 1) -> State:
-        """Have the arm undo its work, the last step first, under guards; the program can continue from there.
+        """Have the arm undo its work with guarded motions, the last step first; the program can then continue from
+        there.
 
-        `back` resets the simulator; here the arm moves, as it would on a real machine. The undone steps stay in the
-        events. If something resists, or the hand holds something else than it did then, the program calls the operator.
+        `back` resets the simulator; `undo` moves the arm, as on a real machine. The undone steps stay in the
+        events. If a motion meets unexpected resistance, or the hand does not hold what it held at that step, the
+        program calls the operator.
 
         Args:
-            steps: the number of executed steps to undo; or a stage, by its name or a part of it: to where it last
-                began.
+            steps: how many executed steps to undo; or a stage, by its name or a part of the name: undo to the
+                latest beginning of that stage.
 
         Raises:
-            InvalidInput: fewer steps were executed, or the run cannot continue.
+            InvalidInput: the run has executed fewer steps, or cannot continue.
 
         >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
         >>> run.until().why
@@ -164,7 +171,7 @@ class Run:
         return self._stand(reason(self._session.have_undone(left)))
 
     def dismantle(self) -> State:
-        """Have the arm undo all its work; the run then ends, and `result.apart` has the referee's verdict.
+        """Have the arm undo all its work. The run then ends, and `result.apart` gives the referee's verdict on it.
 
         Raises:
             InvalidInput: there is nothing to undo.
@@ -175,10 +182,10 @@ class Run:
         return self._stand(reason(pause))
 
     def break_at(self, place: Place) -> Break:
-        """Pause at a place whenever the run reaches it; places are those of `until`.
+        """Set a breakpoint: the run pauses whenever it reaches a place, given as for `until`.
 
         Returns:
-            the breakpoint and its `number`, with which `run.say("delete 1")` removes it.
+            the breakpoint; its `number` is used to remove it: `run.say("delete 1")`.
 
         Raises:
             InvalidInput: there is no such place, or the run is closed.
@@ -187,15 +194,15 @@ class Run:
         return self._session.add_break(given_place(place))
 
     def say(self, line: str) -> Answer:
-        """Give a command of the stepper (`handeye run --step`), such as `"show force"`, `"set saved H 0 0 .1"`,
-        `"retry"`.
+        """Execute a command of the stepper (`handeye run --step`), such as `"show force"`, `"set saved H 0 0 .1"`
+        or `"retry"`.
 
         Returns:
-            the answer as a record; `print` shows it as the stepper does. A wrong command changes nothing, and its
-            answer has the reason in `error`.
+            the answer as a record; `print` shows it as the stepper does. A wrong command changes nothing; `error`
+            of the answer gives the reason.
 
         Raises:
-            InvalidInput: the line is not a text, or the run is closed.
+            InvalidInput: the line is not a string, or the run is closed.
 
         >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
         >>> print(run.say("show gap"))
@@ -217,10 +224,10 @@ class Run:
         return self._stand(reason(self._session.go(stops or [], steps)))
 
     def reach(self, stage: int) -> State:
-        """Run until a stage, given by its index, is about to begin; a run already there stays.
+        """Run until just before a stage, given by its index from 0; do nothing if the run is already there.
 
         Raises:
-            InvalidInput: the run never reaches it, or stopped before it; the run is then closed.
+            InvalidInput: the run ended or stopped before that stage; the run is then closed.
         """
         name = self._runner.listing.stages[stage]
         begins = AtStage(stage=stage, name=name)
@@ -238,7 +245,7 @@ class Run:
         return state
 
     def attend(self, operator: Operator) -> State:
-        """Run to the end, with a person or a rule to answer calls of the operator."""
+        """Run to the end; `operator`, a person or a rule, answers the program's calls of the operator."""
         self._check_open()
         try:
             pause = attend(self._runner, operator, [], self._session.kept)
@@ -268,28 +275,30 @@ class Run:
 
     @property
     def events(self) -> tuple[AnyEvent, ...]:
-        """All events that were not undone, as records of `handeye.program.events`."""
+        """All events except those of steps undone by `back`, as records of `handeye.program.events`."""
         return Several(self._runner.events)
 
     @property
     def picture(self) -> NDArray[np.uint8] | None:
-        """The last picture that the program took, shape (256, 333), 0 (black) to 15; None if it took none."""
+        """The last picture that the program took, shape (256, 333), from 0 (black) to 15 (white); None if it has
+        taken none.
+        """
         name = last_picture(self._runner)
         return None if name is None else self._runner.system.shots[name].picture.copy()
 
     @property
     def ended(self) -> bool:
-        """True if no step is possible unless the operator answers, or the run goes back."""
+        """True if the run cannot continue unless the operator answers or the run goes back."""
         return self._runner.ended
 
     @property
     def out(self) -> Path | None:
-        """The folder that keeps the run."""
+        """The folder in which the run is kept; None if there is none."""
         return None if self._keeping.folder is None else self._keeping.folder.path
 
     @property
     def trace(self) -> Trace:
-        """The trace of the run, once it is closed.
+        """The trace of the closed run.
 
         Raises:
             InvalidInput: the run has no folder, or is not closed.
@@ -312,18 +321,18 @@ class Run:
 
     @property
     def completed(self) -> bool:
-        """True if the program ended, or the arm finished undoing what it was asked to."""
+        """True if the program ended, or if the arm finished the requested undoing."""
         return self.result.completed
 
     @property
     def assembled(self) -> bool | None:
-        """True if the referee finds the work right; None if it was not asked, or not yet."""
+        """True if the referee accepts the work, False if not; None if the referee has not judged it."""
         return self.result.assembled
 
     # -- keeping --------------------------------------------------------------------------------------
 
     def checkpoint(self, path: str | os.PathLike[str] | None = None) -> Path:
-        """Save the present state: `handeye.begin` and `handeye resume` continue from it.
+        """Save the present state as a checkpoint, from which `handeye.begin` and `handeye resume` can continue.
 
         Args:
             path: the file to write; by default a new one in the folder of the run.
@@ -332,7 +341,8 @@ class Run:
             the file.
 
         Raises:
-            InvalidInput: it cannot be written, the run is closed, or it has no folder and no file is named.
+            InvalidInput: the file cannot be written, the run is closed, or no file is given for a run without a
+                folder.
         """
         self._check_open()
         kept = self._runner.checkpoint()
@@ -349,18 +359,18 @@ class Run:
     def export(
         self, path: str | os.PathLike[str], *, part: str | None = None, overwrite: bool = False
     ) -> "Export":
-        """Export the present cell to other programs, whether the run is closed or not.
+        """Export the present state of the cell to other programs; the run may be open or closed.
 
         Args:
             path: a folder, for a scene that plain MuJoCo can load; or a file that ends in .glb, for solids.
-            part: which solids: `cell`, the default, or `pump`.
+            part: the solids to export: `cell` (the default) or `pump`.
             overwrite: replace an existing export.
 
         Returns:
             a record of the written files, with remarks; an unfinished run is marked as such.
 
         Raises:
-            InvalidInput: it cannot be written there, there is no such part, or the run has no cell.
+            InvalidInput: the export cannot be written there, there is no such part, or the run has no cell.
 
         >>> run = handeye.begin("OPEN 1\\n", camera="ray")
         >>> run.export(folder).moment
@@ -369,7 +379,9 @@ class Run:
         return exported(path, lambda: present_state(self._runner), part, overwrite=overwrite)
 
     def close(self) -> None:
-        """End the run, and complete its folder: trace, pictures, result, and a checkpoint if it can continue."""
+        """End the run and complete its folder: trace, pictures, result and, if the run could continue, a
+        checkpoint.
+        """
         if self._closed is not None:
             return
         folder = self._keeping.folder
@@ -382,7 +394,7 @@ class Run:
                 folder.close()
 
     def _ended(self, make: Callable[..., Result], **more: Any) -> Result:
-        """The result of the run as it now pauses."""
+        """Make the result of the run in its present state."""
         keeping, pause = self._keeping, self._session.pause
         if self._broken is not None and pause.kind == "break":
             pause = msgspec.structs.replace(pause, met=self._broken)
@@ -422,13 +434,13 @@ class Run:
 
 
 def _too_many(steps: int, done: int, how: str) -> Refused:
-    """The error for undoing more steps than were done or executed."""
+    """The error for asking to undo more steps than the run has done or executed."""
     left = f"only {done} {'has' if done == 1 else 'have'}" if done else "none has"
     return Refused(f"{counted(steps, 'step')} cannot be undone: {left} been {how}")
 
 
 def reason(pause: Pause) -> str:
-    """Why a run pauses, as the second half of a sentence."""
+    """The reason for a pause, as the second half of a sentence."""
     if isinstance(pause.met, AfterSteps):
         return f"paused after {counted(pause.met.count, 'step')}"
     said = pause_sentence(pause)

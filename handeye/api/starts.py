@@ -1,4 +1,4 @@
-"""The start of a run: the beginning of a plan, or a saved state."""
+"""The start of a run: a plan from its beginning, or a saved state."""
 
 import os
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ from handeye.runs.systems import listing_of
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunRequest:
-    """Run options that the caller set; None: unset."""
+    """The options of a run that the caller set; None means not set."""
 
     seed: object
     world: object
@@ -42,12 +42,14 @@ class RunRequest:
 
     @property
     def of_task(self) -> str | None:
-        """Name of the task given, or of the given world's; None if neither was given."""
+        """Name of the requested task, or the task of the requested world; None if neither was given."""
         return self.world.task if self.task is None and isinstance(self.world, World) else self.task
 
     @property
     def spec(self) -> WorldSpec | None:
-        """The requested world, if any; raises InvalidInput if there is none, or seed and world are both given."""
+        """The requested world, or None; raises InvalidInput if the world is invalid, or if seed and world are both
+        given.
+        """
         if self.world is None:
             return None if self.seed is None else WorldSpec(seed=checked_seed(self.seed))
         if self.seed is not None:
@@ -62,7 +64,7 @@ class RunRequest:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Start:
-    """The start of a run."""
+    """A start state, the folder to write to, and the CPU time spent on planning."""
 
     state: Checkpoint
     folder: RunFolder | None = None
@@ -77,7 +79,7 @@ def start_of(
     taught: FileName | None,
     out: FileName | None,
 ) -> Start:
-    """The start of a run; takes the arguments of `handeye.begin` and raises InvalidInput as it does."""
+    """Find the start of a run from the arguments of `handeye.begin`; raises InvalidInput for the same reasons."""
     if isinstance(script, (str, os.PathLike)) and _is_kept(script):
         if taught is not None:
             raise Refused("a resumed run already has its positions; leave out taught=...")
@@ -102,13 +104,15 @@ def start_of(
 
 
 def _is_kept(given: FileName) -> bool:
-    """True if a name is that of a checkpoint, or of the folder of a run."""
+    """True if a name is that of a checkpoint or of a run's folder."""
     name = os.fspath(given)
     return bool(name) and "\n" not in name and (name.endswith(ENDING) or os.path.isdir(name))
 
 
 def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
-    """The state in a checkpoint, the newest of a folder, or the one nearest before a stage; raises InvalidInput."""
+    """Read the state in a checkpoint, or in a folder the newest state or the one nearest before a stage; raises
+    InvalidInput if there is none.
+    """
     path = given_file(given, "resume a run from a file or a folder")
     start = open_again(path)[1] if path.is_dir() else read_checkpoint(path)
     if at is not None and path.is_dir():
@@ -120,7 +124,9 @@ def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
 
 
 def _again(given: FileName, wanted: RunRequest) -> Start:
-    """The folder of a run and its newest state, to continue in the same folder; raises InvalidInput."""
+    """Open the folder of a run with its newest state, to resume in the same folder; raises InvalidInput if that is
+    impossible.
+    """
     path = given_file(given, "resume a run from a folder")
     folder, start, _ = open_again(path)
     if has_ended(path, start, judged=start.setup.judged):
@@ -134,7 +140,7 @@ def _again(given: FileName, wanted: RunRequest) -> Start:
 
 
 def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
-    """Raises InvalidInput unless a run has the requested plan, world and camera."""
+    """Raises InvalidInput unless a run was begun with the requested plan, world and camera."""
     require(begun.system, "python", str(path))
     if wanted.of_task not in (None, begun.task):
         told = f"{quoted(begun.task)}, not of {quoted(str(wanted.of_task))}"
@@ -146,7 +152,7 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
 
 
 def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
-    """The checkpoint with the caller's parts from here on, which its setup and first event name."""
+    """The checkpoint with the caller's parts from now on; its setup and first event name them."""
     if not wanted.replaced and not wanted.judged and wanted.limits is None:
         return start
     setup = start.setup
@@ -166,7 +172,7 @@ def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
 
 
 def _with_referee(setup: Setup, wanted: RunRequest) -> Setup:
-    """The checkpoint, to be judged by the caller's code or limits instead of its former referee."""
+    """The setup of a run, to be judged by the caller's referee or limits instead of those it began with."""
     if "referee" in wanted.replaced:
         return msgspec.structs.replace(setup, limits={})
     if wanted.limits is None:

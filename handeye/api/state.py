@@ -1,4 +1,4 @@
-"""The state of a paused run, for Python programs: SI units, read-only arrays."""
+"""The state of a paused run, for Python programs, in SI units and read-only arrays."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
@@ -15,7 +15,9 @@ from handeye.runs.runner import Runner
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Memory:
-    """The program's memory; differences and places are in the frame W."""
+    """The program's memory: raised error, saved differences, counters, measured parts and place of the search;
+    lengths in m, in table frame W.
+    """
 
     error: int | None  # the error that was raised and that the next step may test
     saved: Mapping[str, Array]  # differences that `SAVE` saved, shape (3,), m
@@ -29,7 +31,8 @@ class Memory:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class State:
-    """The place at which a run is paused, and the arm by its own sensors. States are equal if all fields are.
+    """The state in which a run is paused: its place in the program, and the arm as measured by its own sensors. Two
+    states are equal if all fields are equal.
 
     >>> state = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray").step()
     >>> state
@@ -47,10 +50,12 @@ class State:
     text: str | None  # its statement, without the `STOP` or what else modifies it
     why: str  # why the run pauses, in words
     joints: Array
-    """Joint positions, shape (n,), rad, and m for prismatic joints (joint 3 of the Stanford arm)."""
+    """Joint positions, shape (n,): rad, or m for prismatic joints (joint 3 of the Stanford arm)."""
     gap: float  # between the fingers, m
     hand: Pose
-    """X_WT, shape (4, 4), m: midway between the finger tips, z along the approach, y along the finger line."""
+    """X_WT, the pose of the hand, shape (4, 4), m: origin midway between the finger tips, z along the approach, y
+    along the finger line.
+    """
     force: Array  # force that the hand exerts on the world, as it was last estimated, in W, shape (3,), N
     memory: Memory
 
@@ -104,7 +109,7 @@ def _values(record: State | Memory) -> dict[str, object]:
 
 
 def _same(one: object, other: object) -> bool:
-    """True if two values are equal, arrays number by number."""
+    """True if two values are equal; arrays are compared element by element."""
     if isinstance(one, Mapping) and isinstance(other, Mapping):
         return one.keys() == other.keys() and all(_same(one[name], other[name]) for name in one)
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
@@ -120,13 +125,13 @@ def _kept(values: Array) -> Array:
 
 
 class Answer(Reply, frozen=True, kw_only=True):
-    """A reply of the stepper; `print` shows it as the stepper does."""
+    """A reply of the stepper; `print` shows it like the stepper."""
 
     def __str__(self) -> str:
-        """The answer as lines of text."""
+        """The reply as lines of text."""
         return as_text(self)
 
 
 def answer(reply: Reply) -> Answer:
-    """A reply that prints itself."""
+    """Make a reply printable."""
     return Answer(**{field: getattr(reply, field) for field in reply.__struct_fields__})

@@ -1,4 +1,4 @@
-"""Traces for Python programs: opened, filmed, and shown in a notebook.
+"""Traces for Python programs: read, made into videos, and shown in notebooks.
 
 >>> trace = handeye.open("out")
 >>> trace.joints[trace.times > 100.0]    # positions by the sensors, later than 100 s; shape (n, 6)
@@ -30,12 +30,14 @@ _WITHOUT: Final = "A notebook shows the report without photographs; trace.frame(
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trace(recorded.Trace):
-    """A trace that was read and is valid. What is computed from its messages is computed once.
+    """The recording of a run, read from a file and checked. Values computed from the recording are computed once
+    and kept.
 
-    Times are seconds since the program began, as everywhere: in events, tables, pages and commands. The calibration of
-    the camera before that is not recorded; `head.prepared` is its duration. There are n servo periods, sixty a second,
-    and m joints. Reading raises `InvalidInput` if a message does not fit its channel. A notebook shows its report with
-    a 3D replay; `frame` returns a picture.
+    Times are in seconds since the program began, as in events, tables, pages and commands. The preparation before
+    that, in which the camera is calibrated, is not recorded; `head.prepared` is its duration, s. In the shapes of
+    arrays, n is the number of servo periods, sixty per second, and m the number of joints. Reading raises
+    `InvalidInput` if a message does not match its channel. A notebook shows the run's report with a 3D replay;
+    `frame` returns one picture.
     """
 
     def video(
@@ -52,22 +54,24 @@ class Trace(recorded.Trace):
         captions: bool = False,
         overwrite: bool = False,
     ) -> "Video":
-        """Make a video of the run: an animated WebP or a WebM, by the ending of its name.
+        """Make a video of the run: an animated WebP or a WebM, according to the ending of `path`.
 
-        Long waits for the camera's mechanism are cut. Nothing is simulated. It needs OpenGL.
+        The video is drawn from the recording, without simulating the run again. It needs OpenGL. Long waits for the
+        camera's mechanism are cut.
 
         Args:
             camera: `orbit` moves around the cell, `follow` moves close to the hand; or a camera of the scene.
-            seconds: its length, 14 by default; short stages play slower so that each can be seen.
-            speed: instead of a length: how many times faster than the run.
+            seconds: length of the video, s, 14 by default; short stages are played more slowly, so that each can be
+                seen.
+            speed: instead of `seconds`: factor by which the video is faster than the run.
             first: the first stage: its number, its name, or part of its name.
             last: the last stage.
             captions: show stage and clock, and pause at each picture that the program takes.
             overwrite: replace an existing video.
 
         Raises:
-            InvalidInput: as `frame`; there is no such stage, or nothing was recorded there; the length or speed is not
-                possible; or it cannot be written there.
+            InvalidInput: for the reasons given at `frame`; or there is no such stage, nothing was recorded in it,
+                the length or speed is not possible, or the video cannot be written.
         """
         from handeye.core.arguments import given_file
         from handeye.video.making import make_video
@@ -84,7 +88,7 @@ class Trace(recorded.Trace):
             raise CannotWrite(f"{file} already exists; overwrite=True replaces it") from None
 
     def _repr_html_(self) -> str:
-        """The report in its own frame, with its size, or why there is none."""
+        """The report of the run in an HTML frame, with its size, or the reason why there is none."""
         try:
             file = _report(self)
         except InvalidInput as fault:
@@ -97,7 +101,7 @@ def open(path: str | os.PathLike[str]) -> Trace:
     """Read the trace of a run that has ended: a `trace.mcap`, or the folder of the run.
 
     Raises:
-        InvalidInput: it cannot be read, or is not a valid trace.
+        InvalidInput: the file cannot be read, or is not a valid trace.
 
     >>> run = handeye.assemble(script="OPEN 1\\n", camera="ray", out=folder)
     >>> handeye.open(folder).head.program
@@ -121,11 +125,11 @@ def _report(trace: Trace) -> bytes:
 def compare(
     a: str | os.PathLike[str] | recorded.Trace, b: str | os.PathLike[str] | recorded.Trace
 ) -> Comparison:
-    """Compare two recorded runs, step by step; `print` shows what `handeye compare` prints.
+    """Compare two recorded runs step by step; `print` shows the comparison like the command `handeye compare`.
 
     Args:
         a: the folder of a run that has ended, a `trace.mcap`, or an open trace.
-        b: likewise.
+        b: the other run, likewise.
 
     Raises:
         InvalidInput: a run cannot be read, or cannot be compared.

@@ -1,4 +1,4 @@
-"""Worlds for Python programs."""
+"""Worlds for Python programs: work cells with particular errors, generated from seeds."""
 
 import os
 from collections.abc import Iterable, Mapping
@@ -25,10 +25,10 @@ if TYPE_CHECKING:
 
 
 class World:
-    """A world: the places of all parts, and every error, generated from a seed. Equal worlds are the same to the last
-    digit.
+    """A work cell with its particular errors: the positions of all parts and the errors of all devices, generated
+    from a seed. Equal worlds have exactly equal values.
 
-    Its quantities, their names and their units are those that `handeye world` lists: `values`, `quantities`.
+    `values` and `quantities` give the quantities of the world, with the names and units that `handeye world` lists.
 
     >>> world = handeye.World(seed=3, level="high", without=["arm.offset"], set={"arm.friction": 0})
     >>> world
@@ -48,24 +48,24 @@ class World:
         faults: Iterable[str] = (),
         task: str = tasks.DEFAULT,
     ) -> None:
-        """Choose a world.
+        """Generate a world.
 
         Args:
             seed: seed of the world, a whole number from 0 to 2^53 - 1.
-            level: size of its errors: `low` is half of `nominal`, `high` twice.
+            level: size of the errors: `low` is half of `nominal`, `high` is twice `nominal`.
             without: quantities and groups (`arm`, `arm.offset`, `arm.offset.3`) to leave at their nominal values.
-            set: values of quantities, or of all quantities of a group: a number in the unit of the quantity, or a text
-                with a unit, such as `".3 in"`. The quantities of a group may differ in their units: a number for
-                `arm.friction` is N m for revolute joints, and N for the prismatic one.
-            scale: factors on errors, in addition to the level, by the names of quantities or groups, or `unsourced`
-                for all whose sizes have no source.
-            faults: faults, as `handeye faults --list` shows them: `NAME` or `NAME=VALUE`, with `@N` after it to begin
-                at stage N of the program.
-            task: name of its task.
+            set: values of quantities or of groups. A value is a number in the unit of the quantity, or a text with
+                a unit, such as `".3 in"`. For a group, every quantity gets the value, each in its own unit: a
+                number for `arm.friction` is in N m for revolute joints and in N for the prismatic joint.
+            scale: factors by which errors are multiplied, in addition to the level, by the names of quantities or
+                groups; `unsourced` stands for all quantities whose size has no source.
+            faults: faults to inject, from the list that `handeye faults --list` prints: `NAME` or `NAME=VALUE`;
+                `@N` after it makes the fault begin at stage N of the program.
+            task: name of the task.
 
         Raises:
-            InvalidInput: there is no such seed, level, quantity, fault, unit or value; the message suggests the
-                nearest.
+            InvalidInput: a seed, level, quantity, fault, unit or value does not exist; the message suggests the
+                nearest name.
         """
         number = checked_seed(seed)
         if not isinstance(level, str) or level not in SPREADS:
@@ -90,22 +90,22 @@ class World:
 
     @property
     def spec(self) -> WorldSpec:
-        """The world as a run records it, in SI units."""
+        """The world in SI units, in the form that runs record."""
         return self._spec
 
     @property
     def task(self) -> str:
-        """Name of the task whose cell it is."""
+        """Name of the task that the cell is for."""
         return self._task
 
     @property
     def seed(self) -> int:
-        """The seed."""
+        """Seed from which the world was generated."""
         return self.spec.seed
 
     @cached_property
     def values(self) -> Mapping[str, float]:
-        """The value of each quantity by its name, each in its own unit."""
+        """The value of each quantity, by name, in the quantity's unit."""
         drawn, table = self._table.draw(self.spec), self._table.quantities
         return MappingProxyType(
             Named((name, value / table[name].measure.size) for name, value in drawn.values.items())
@@ -113,7 +113,9 @@ class World:
 
     @cached_property
     def quantities(self) -> tuple[QuantityReport, ...]:
-        """Each quantity with its `name`, `value`, `unit` and `source`, which says what it is."""
+        """All quantities, each with `name`, `value`, `unit` and `source`; `source` describes the quantity and gives
+        the origin of its size.
+        """
         return Several(report(self._table, self._table.draw(self.spec)).quantities)
 
     def __getitem__(self, name: str) -> float:
@@ -125,7 +127,7 @@ class World:
         return self.values[self._quantity(name)]
 
     def unit(self, name: str) -> str:
-        """The unit of a quantity; empty for a plain number.
+        """The unit of a quantity; empty if the quantity is a plain number.
 
         Raises:
             InvalidInput: there is no such quantity; the message suggests the nearest.
@@ -135,18 +137,18 @@ class World:
     def export(
         self, path: str | os.PathLike[str], *, part: str | None = None, overwrite: bool = False
     ) -> "Export":
-        """Export the cell of this world, at its start, to other programs.
+        """Export the cell of this world, in its initial state, to other programs.
 
         Args:
             path: a folder, for a scene that plain MuJoCo opens; or a file that ends in .glb, for solids.
-            part: what of the solids: `cell`, as by default, or `pump`.
-            overwrite: an export that is in the folder may be replaced.
+            part: the solids to export: `cell` (the default) or `pump`.
+            overwrite: replace an existing export.
 
         Returns:
             a record of the written files, with remarks.
 
         Raises:
-            InvalidInput: it cannot be written there, or there is no such part.
+            InvalidInput: the export cannot be written there, or there is no such part.
         """
         return exported(path, lambda: initial_state(self.spec, self._task), part, overwrite=overwrite)
 
@@ -155,7 +157,7 @@ class World:
         return page(heading(repr(self)), table(("quantity", "value", "unit", ""), rows))
 
     def _quantity(self, name: str) -> str:
-        """The name of one quantity."""
+        """Check the name of a quantity; raises InvalidInput if it does not exist."""
         if not isinstance(name, str):
             raise BadArgument(f"give a quantity by its name, not by {name!r}")
         found = self._table.select(name, self.spec.overrides.set)

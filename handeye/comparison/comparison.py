@@ -1,4 +1,4 @@
-"""The comparison of two runs as facts, from which text, JSON and page are made."""
+"""The comparison of two runs as data, from which text, JSON and page are made."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -31,11 +31,12 @@ _DRAWN: Final = "as drawn"
 
 
 class Condition(Record, frozen=True, kw_only=True):
-    """A condition in which two runs differ."""
+    """A condition, such as the seed, in which two runs differ."""
 
     what: str
-    """`task`, `plan`, `arm`, `camera`, `seed` and other words of the world, the names of quantities that were set,
-    `version of ...`, `own ...`."""
+    """Name of the condition: `task`, `plan`, `arm`, `camera`, `seed` or another setting of the world, the name of a
+    set quantity, `version of ...`, or `own ...`.
+    """
     a: str
     b: str
 
@@ -74,7 +75,7 @@ def _world(begun: RunStarted) -> Iterator[tuple[str, str]]:
 
 
 def _fault(task: Task | None, world: WorldSpec, fault: Fault) -> str:
-    """A fault as on the command line, where its task is known."""
+    """A fault as it is typed on the command line, if its task is known."""
     catalogue = None if task is None else task.faults(world)
     return str(fault) if catalogue is None or fault.name not in catalogue.kinds else catalogue.written(fault)
 
@@ -92,7 +93,7 @@ class ComparedRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stages:
-    """The same stage in two runs; None where it was not reached."""
+    """A stage in both runs; None for a run that did not reach it."""
 
     name: str
     a: StageFigures | None
@@ -100,21 +101,23 @@ class Stages:
 
     @property
     def seconds(self) -> tuple[float | None, float | None]:
-        """Its duration in both runs, s."""
+        """Duration of the stage in each run, s."""
         a, b = (None if each is None else each.seconds for each in (self.a, self.b))
         return a, b
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Comparison(Brief):
-    """Two runs beside each other."""
+    """The comparison of two runs, A and B."""
 
     a: ComparedRun
     b: ComparedRun
     measures: Measures  # Units of the first difference in text
     conditions: tuple[Condition, ...]
     thinned: bool
-    """A trace is thinned to some of its servo periods, whose sensor values are then not compared."""
+    """True if a trace is thinned to some of its servo periods; sensor values of servo periods are then not
+    compared.
+    """
     first: First | None
     parted: Divergence | None
     searches: tuple[Searches, ...]  # Places that each search tried
@@ -124,7 +127,7 @@ class Comparison(Brief):
 
     @property
     def same(self) -> bool:
-        """True if nothing that was recorded of both differs."""
+        """True if no recorded value differs."""
         return self.first is None
 
     def __str__(self) -> str:
@@ -134,7 +137,7 @@ class Comparison(Brief):
 
 
 def comparison(a: RecordedRun, b: RecordedRun) -> Comparison:
-    """Compare two runs; raises an InvalidInput if one follows no plan, or its trace cannot be understood."""
+    """Compare two runs; raises InvalidInput if a run follows no plan, or if its trace is not valid."""
     for run in (a, b):
         name = run.trace.name
         require(run.trace.head.system, "compare", name)
@@ -172,7 +175,7 @@ def _compared(run: RecordedRun) -> ComparedRun:
 
 
 def as_json(found: Comparison) -> dict[str, Any]:
-    """A comparison as data."""
+    """A comparison as data for JSON."""
     first, parted = found.first, found.parted
     told = {
         "same": found.same,

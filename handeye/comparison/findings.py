@@ -1,4 +1,4 @@
-"""Steps of two runs side by side: corrections they made, ends of their guarded motions, their searches."""
+"""Corrections, guarded motions and searches of two runs, side by side."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal
@@ -15,7 +15,7 @@ from handeye.trace.account import ASTRAY
 
 
 class Correction(Record, frozen=True, kw_only=True):
-    """A difference that was saved, or a part that was seen."""
+    """A correction of a run: a saved difference, or a part that was seen."""
 
     place: Place
     kind: Literal["saved", "seen"]
@@ -25,21 +25,21 @@ class Correction(Record, frozen=True, kw_only=True):
 
 
 class Corrections(Record, frozen=True, kw_only=True):
-    """The same correction in two runs; None: not made."""
+    """The same correction in two runs; None for a run that did not make it."""
 
     a: Correction | None
     b: Correction | None
 
     @property
     def apart(self) -> float | None:
-        """Distance between the two, m; None: there are not both."""
+        """Distance between the two corrections, m; None if one of them is missing."""
         if self.a is None or self.b is None or len(self.a.at) != len(self.b.at):
             return None
         return float(np.linalg.norm(np.subtract(self.b.at, self.a.at)))
 
     @property
     def alike(self) -> bool:
-        """True if they are too close to mention, or only one was made."""
+        """True if the two corrections are too close to report, or if only one was made."""
         return self.apart is None or self.apart <= ASTRAY
 
 
@@ -59,7 +59,7 @@ def _found(each: CarriedOut) -> Iterator[Correction]:
 
 
 class Stop(Record, frozen=True, kw_only=True):
-    """The end of a guarded motion."""
+    """The end of a guarded motion: the guard that tripped, and its value."""
 
     place: Place
     guard: GuardKind | None  # The guard that ended it; None: none did
@@ -67,14 +67,14 @@ class Stop(Record, frozen=True, kw_only=True):
 
 
 class Stops(Record, frozen=True, kw_only=True):
-    """The same guarded motion in two runs; None: not reached."""
+    """The same guarded motion in two runs; None for a run that did not reach it."""
 
     a: Stop | None
     b: Stop | None
 
     @property
     def alike(self) -> bool:
-        """True if both ended by the same guard, or by none; or only one run reached it."""
+        """True if both motions were ended by the same guard, or by none; or if only one run reached the motion."""
         return len({side.guard for side in (self.a, self.b) if side is not None}) == 1
 
 
@@ -101,14 +101,14 @@ class Search(Record, frozen=True, kw_only=True):
 
 
 class Searches(Record, frozen=True, kw_only=True):
-    """The same search in two runs; None: not reached."""
+    """The same search in two runs; None for a run that did not reach it."""
 
     a: Search | None
     b: Search | None
 
     @property
     def alike(self) -> bool:
-        """True if both tried the same number of places; or only one run reached it."""
+        """True if both searches tried the same number of places; or if only one run reached the search."""
         sides = self.a, self.b
         return len({(side.places, side.exhausted) for side in sides if side is not None}) == 1
 
@@ -120,7 +120,7 @@ def searches(runs: TwoRuns) -> tuple[Searches, ...]:
 
 
 def _searches(steps: Sequence[CarriedOut]) -> Mapping[Turn, Search]:
-    """The searches of a run, by the turns of the steps that set them up."""
+    """The searches of a run, by the turn of the step that started each."""
     found: dict[Turn, Search] = {}
     turn: Turn | None = None
     for each in steps:
@@ -134,7 +134,7 @@ def _searches(steps: Sequence[CarriedOut]) -> Mapping[Turn, Search]:
 
 
 def _gone_on(search: Search, event: AnyEvent) -> Search:
-    """The search after an event."""
+    """A search as updated by an event."""
     match event:
         case SearchAdvanced():
             return replace(search, places=event.count + 1, last=event.offset)

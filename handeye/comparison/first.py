@@ -1,4 +1,4 @@
-"""The first difference of two runs: the step, the quantity, and both values."""
+"""The first difference between two runs: step, quantity, and both values."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -30,14 +30,14 @@ from handeye.trace.records import RawMessage
 from handeye.trace.trace import Trace
 
 OF_A_PERIOD: Final = (JOINTS, HAND, MACHINES, FRAMES)
-"""Channels recorded in each servo period."""
+"""Channels that are recorded in every servo period."""
 _SAID_TWICE: Final = (LOG, SCENE)
-"""Channels that say nothing of their own: sentences of events, and how bodies look."""
+"""Channels that only repeat other channels: sentences of events, and the appearance of bodies."""
 
 
 @dataclass(frozen=True, slots=True)
 class StepMessage:
-    """A message, with its event if it holds one."""
+    """A message of a trace within a step, with its event if it contains one."""
 
     message: RawMessage
     event: AnyEvent | None
@@ -46,7 +46,7 @@ class StepMessage:
 
 @dataclass(slots=True)
 class Stretch:
-    """The first recorded difference within the same step, if any."""
+    """The messages recorded during one step, or before the first step."""
 
     started: StepStarted | None  # None: before the first step
     begin: int  # ns
@@ -58,11 +58,12 @@ class Stretch:
 
 
 def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[Stretch]:
-    """The stretches of a trace. The stage that a step begins, and the poses of everything then, belong to that step.
+    """Split a trace into stretches, one per step. If a step begins a stage, the stage event and the poses recorded
+    at that moment belong to the step.
 
     Args:
-        unseen: leave out what was recorded beside that many events, from the first on.
-        periods: with what was recorded of each servo period.
+        unseen: number of events, from the first on, whose accompanying messages are left out.
+        periods: include the messages of each servo period.
     """
     stretch = Stretch(None, trace.messages[0].time)
     waiting: list[tuple[RawMessage, AnyEvent | None]] = []
@@ -96,7 +97,7 @@ EVENT: Final = ("event",)  # The quantity that differs if the next events differ
 def _differing(
     one: StepMessage | None, other: StepMessage | None, arm: ArmModel | None
 ) -> QuantityDifference | None:
-    """The difference of two messages."""
+    """The difference between two messages; None if they agree."""
     if one is None or other is None or one.message.topic != other.message.topic:
         a, b = (each.message if each and each.message.topic == FRAMES else None for each in (one, other))
         return differing(a, b, arm) or QuantityDifference(quantity=EVENT, a=_kind(one), b=_kind(other))
@@ -114,7 +115,9 @@ def _times_differ(one: StepMessage, other: StepMessage) -> QuantityDifference | 
 
 
 def _events_differ(one: AnyEvent, other: AnyEvent) -> QuantityDifference | None:
-    """The difference of two events, except in the numbers of steps, which another program counts differently."""
+    """The difference between two events; step numbers are not compared, because another program numbers its steps
+    differently.
+    """
     if type(one) is not type(other):
         return QuantityDifference(quantity=EVENT, a=type(one).__name__, b=type(other).__name__)
     if isinstance(one, StepFinished | OperatorAnswered) and isinstance(
@@ -129,7 +132,7 @@ def _kind(told: StepMessage | None) -> str | None:
 
 
 def _next(told: Sequence[StepMessage], number: int) -> AnyEvent | None:
-    """The next event; None: a servo period comes first."""
+    """The next event; None if a message of a servo period comes first."""
     for each in told[number:]:
         if each.event is not None or each.message.topic in OF_A_PERIOD:
             return each.event
@@ -138,26 +141,28 @@ def _next(told: Sequence[StepMessage], number: int) -> AnyEvent | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class First:
-    """The first difference."""
+    """The first difference between two runs."""
 
     a: Place | None  # The present step; None before the first one, or after the run's end
     b: Place | None  # that of the second run
     period: int | None = None  # The servo period of the step, from 1; None: it is of none
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """The next events, if they are what differs; None: the step went on, or the run ended."""
+    """The next event of each run, if the events are what differs; None for a run in which the step continued or the
+    run ended.
+    """
 
     @property
     def place(self) -> Place | None:
-        """The present step of the first run, or of the second where the first has ended."""
+        """The present step of the first run; if the first run has ended, that of the second."""
         return self.a or self.b
 
 
 def first_difference(runs: TwoRuns) -> First | None:
-    """The first difference of two runs, step beside step; None: none in what was recorded of both.
+    """Find the first difference between two runs, step by step; None if everything recorded agrees.
 
-    Times count from the beginning of each step: a run that was late in one step is not late in all that follow. Raises
-    BadFile if a message of a trace is not what its channel says.
+    Times are compared from the beginning of each step, so that a delay in one step does not make all later steps
+    differ. Raises BadFile if a message of a trace does not match its channel.
     """
     both = runs.a.trace, runs.b.trace
     unseen = max(trace.unseen for trace in both)
@@ -173,7 +178,7 @@ def first_difference(runs: TwoRuns) -> First | None:
 
 
 def _other_step(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | None:
-    """The difference between the steps that two runs do; None: none."""
+    """The difference between the next steps of the two runs; None if they are the same step."""
     here, there = (None if stretch is None else stretch.started for stretch in (a, b))
     if here is None and there is None:  # before the first step
         return None
@@ -196,7 +201,7 @@ def _place(run: RecordedRun, started: StepStarted | None) -> Place | None:
 
 
 def _recorded_otherwise(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | None:
-    """The first difference between recordings of the same step; None if there is none."""
+    """The first difference between two recordings of the same step; None if they agree."""
     assert a is not None
     assert b is not None
     task = known(runs.a.trace.head.task)

@@ -1,4 +1,4 @@
-"""The page of two runs: both views under one slider, differences, and both runs step by step."""
+"""The page for two runs: both 3D views under one slider, the differences, and both runs step by step."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -47,7 +47,9 @@ Animations = tuple[Animation, Animation]
 
 
 def comparison_page(a: RecordedRun, b: RecordedRun, found: Comparison, animated: Animations | str) -> bytes:
-    """The page of two runs, or instead of their animations a sentence; the same bytes for the same traces."""
+    """Make the page for two runs; `animated` has the animations, or the reason why there are none. Equal traces
+    give equal bytes.
+    """
     way = course(TwoRuns(a, b))
     views, lacking = ((), animated) if isinstance(animated, str) else (animated, "")
     scripts = [*([player.script()] if views else []), _own("page.js")]
@@ -86,7 +88,7 @@ def _header(found: Comparison, way: Course) -> Markup:
 
 
 def _turn(found: Comparison, way: Course) -> Iterator[Markup]:
-    """The divergence: a link to its step, and what each run did next."""
+    """The divergence: a link to its step, and the next action of each run."""
     if found.parted is None:
         return
     turnings = found.parted.a, found.parted.b
@@ -97,7 +99,7 @@ def _turn(found: Comparison, way: Course) -> Iterator[Markup]:
 
 
 def _opening(found: Comparison, way: Course) -> float:
-    """The moment at which the page opens, s of the course: just after the divergence; 0 if there is none."""
+    """The time at which the page opens, s on the common timeline: just after the divergence; 0 if there is none."""
     if found.parted is None:
         return 0.0
     turnings = found.parted.a, found.parted.b
@@ -112,13 +114,13 @@ def _own(name: str) -> str:
 
 
 SIDES: Final = (("A", "a"), ("B", "b"))
-"""Letters of the runs, as shown and as used in names of elements."""
+"""Letters of the runs, for display and in the names of HTML elements."""
 _SPEEDS: Final = (1, 4, 16, 64)
 _USUAL: Final = 4
 
 
 def view(way: Course, lacking: str, opening: float = 0.0) -> Iterator[Markup]:
-    """Both views, and the controls of both; or a note on what is `lacking`."""
+    """Both views with their controls; or, if the animations are `lacking`, the reason."""
     if lacking:
         yield element("p", f"There is no 3D view: {lacking}", class_="missing")
     yield element("div", *(_side(letter, name) for letter, name in SIDES), class_="sides")
@@ -151,7 +153,7 @@ def _side(letter: str, name: str) -> Markup:
 
 
 def moments(way: Course) -> Markup:
-    """Data for the script of the page: where both runs stand, leg by leg."""
+    """Data for the page's script: the position of both runs at each leg of the timeline."""
     legs = [[leg.begin, leg.a, leg.b, *map(_line, leg.places)] for leg in way.legs]
     return element(
         "script", json_markup([*legs, [way.end, way.a, way.b, "", ""]]), id="moments", type="application/json"
@@ -169,7 +171,7 @@ Found = TypeVar("Found", Search, Stop, Correction)
 
 
 def sections(found: Comparison, way: Course) -> Iterator[Markup]:
-    """All sections; each finding links to its step."""
+    """All sections of the page; each finding links to its step."""
     yield section("differences", "First difference", *_differences(found, way))
     searches = [_row(way, each.a, each.b, search_words, alike=each.alike) for each in found.searches]
     stops = [_row(way, each.a, each.b, stop_words, alike=each.alike) for each in found.stops]
@@ -207,7 +209,7 @@ def _differences(found: Comparison, way: Course) -> Iterator[Markup]:
 def _row(
     way: Course, a: Found | None, b: Found | None, words: Callable[[Found], str], *, alike: bool
 ) -> list[Markup]:
-    """A step, and the findings of both runs there; a difference stands out."""
+    """A row for a step with the findings of both runs; a row with a difference is highlighted."""
     here, there = (None if side is None else side.place for side in (a, b))
     link = _link(way, here, there, place_words(here or there))
     place = link if alike else element("b", link)
@@ -218,7 +220,7 @@ def _row(
 
 
 def _link(way: Course, a: Place | None, b: Place | None, words: str) -> Markup:
-    """A link to a step of the first run, or else of the second."""
+    """A link to a step of the first run, or of the second if the first has none."""
     if a is not None:
         return to_moment(way.at(a, 0), words)
     return element("span", words) if b is None else to_moment(way.at(b, 1), words)

@@ -1,4 +1,4 @@
-"""Which step of one run is which of another, and where both stood in a course of the two side by side."""
+"""Pairs the steps of two runs, and puts both runs on one timeline."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -19,7 +19,7 @@ from handeye.trace.stages import DoneStep, done_steps
 
 
 class Place(Record, frozen=True, kw_only=True):
-    """A step as it was carried out."""
+    """A step as it was executed."""
 
     stage: str
     step: int
@@ -30,19 +30,19 @@ class Place(Record, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """Its line, as messages give it: `12`, or `pins.al:12`."""
+        """The line of the step as messages write it: `12`, or `pins.al:12`."""
         return line_name(self.line, self.file)
 
 
 @lru_cache(maxsize=4)
 def listing_of(run: RecordedRun) -> Listing:
-    """Stages and steps of a run's program."""
+    """Stages and steps of the program of a run."""
     system, trace = system_named(run.trace.head.system), run.trace
     return system.listing(system.decode(trace.plan, f"the plan in {trace.name}"))
 
 
 def _aligned_texts(before: Sequence[str], after: Sequence[str]) -> Sequence[Pair]:
-    """Steps of equal texts as pairs, in the order of both."""
+    """Pairs of steps with equal texts, in the order of both programs."""
     pairs: list[Pair] = []
     for what, a, b, c, d in SequenceMatcher(None, before, after, autojunk=False).get_opcodes():
         if what == "equal":
@@ -53,7 +53,7 @@ def _aligned_texts(before: Sequence[str], after: Sequence[str]) -> Sequence[Pair
 
 
 def place_of(run: RecordedRun, started: StepStarted) -> Place:
-    """The place of a step that was begun."""
+    """The place in the script of a step that was begun."""
     program = listing_of(run)
     return Place(
         stage=program.stages[program.steps[started.step].stage],
@@ -79,30 +79,32 @@ class CarriedOut:
 
     @property
     def step(self) -> StepFacts:
-        """Its step in the program."""
+        """The step in the program."""
         return listing_of(self.run).steps[self.done.started.step]
 
     @property
     def place(self) -> Place:
-        """Its place."""
+        """The place in the script."""
         return place_of(self.run, self.done.started)
 
 
 @dataclass(frozen=True, eq=False)
 class TwoRuns:
-    """Two runs, and the pairs of their steps."""
+    """Two runs, with their steps paired."""
 
     a: RecordedRun
     b: RecordedRun
 
     @property
     def thinned(self) -> bool:
-        """True if a trace holds some of its servo periods only, so that these cannot be compared."""
+        """True if a trace has only some of its servo periods, so that servo periods cannot be compared."""
         return self.a.trace.thinned or self.b.trace.thinned
 
     @cached_property
     def pairs(self) -> Sequence[Pair]:
-        """Step numbers in each program, in text order; None without a counterpart."""
+        """Pairs of step numbers of the two programs, in the order of the text; None for a step without a
+        counterpart.
+        """
         before, after = (listing_of(run).steps for run in (self.a, self.b))
         if before == after:
             return [(n, n) for n in range(len(before))]
@@ -112,12 +114,12 @@ class TwoRuns:
 
     @property
     def planned(self) -> bool:
-        """True if both follow plans of motions."""
+        """True if both runs follow plans of motions."""
         return all("plans" in entry_named(run.trace.head.system).can for run in (self.a, self.b))
 
     @cached_property
     def numbers(self) -> tuple[Mapping[int, int], Mapping[int, int]]:
-        """For each program, pair numbers by step."""
+        """For each program, the number of the pair by the number of the step."""
         a, b = (
             {step: number for number, pair in enumerate(self.pairs) if (step := pair[side]) is not None}
             for side in (0, 1)
@@ -125,12 +127,12 @@ class TwoRuns:
         return a, b
 
     def are_beside(self, a: int, b: int) -> bool:
-        """True if steps of the two programs, by their numbers, are a pair."""
+        """True if step `a` of the first program and step `b` of the second are a pair."""
         return self.numbers[0][a] == self.numbers[1][b]
 
     @cached_property
     def carried_out(self) -> tuple[tuple[CarriedOut, ...], tuple[CarriedOut, ...]]:
-        """Executed steps of each run, in order."""
+        """The executed steps of each run, in order."""
         return tuple(_turns(self.a, self.numbers[0])), tuple(_turns(self.b, self.numbers[1]))
 
 
@@ -145,7 +147,9 @@ def _turns(run: RecordedRun, numbers: Mapping[int, int]) -> Iterator[CarriedOut]
 
 
 def side_by_side(a: Mapping[Turn, Fact], b: Mapping[Turn, Fact]) -> Iterator[tuple[Fact | None, Fact | None]]:
-    """Facts on the same execution in two runs, in script order; None where one is missing."""
+    """Facts about the same executed step in both runs, in the order of the script; None for a run without that
+    fact.
+    """
     for turn in sorted({*a, *b}):
         yield a.get(turn), b.get(turn)
 
@@ -155,19 +159,21 @@ _BEFORE: Final = -1  # pair number for the time before the first step
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Leg:
-    """A segment in which both runs did the same step, or one did a step and the other waited."""
+    """A segment of the timeline in which both runs did the same step, or one run did a step and the other waited."""
 
     begin: float  # s of the course
     a: float
-    """Position of the first run at that moment, s since its start; it advances evenly to that of the next leg."""
+    """Time of the first run at the beginning of the leg, s since the run began; it advances evenly to that of the
+    next leg.
+    """
     b: float
     places: tuple[Place | None, Place | None]
-    """The step of each run; None while it waits, or has not begun."""
+    """The step of each run; None while the run waits, or before it begins."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Course:
-    """The timeline of two runs."""
+    """The common timeline of two runs."""
 
     legs: tuple[Leg, ...]
     end: float  # s of the course
@@ -175,13 +181,13 @@ class Course:
     b: float
 
     def at(self, place: Place, side: int) -> float:
-        """Start of a step of a run (0: the first), s of the timeline."""
+        """Time on the common timeline, s, at which a step of a run begins (`side` 0: first run, 1: second)."""
         return next(leg.begin for leg in self.legs if leg.places[side] == place)
 
 
 @dataclass(frozen=True, slots=True)
 class _TimedStep:
-    """A step of a run, with its times."""
+    """A step of a run with its begin and end times, s."""
 
     place: Place | None
     begin: float
@@ -189,7 +195,7 @@ class _TimedStep:
 
 
 def course(runs: TwoRuns) -> Course:
-    """Align two runs step by step: a common step takes as long as the longer one."""
+    """Align two runs step by step: a step that both did takes as long as the longer of the two."""
     a, b = (_done(run, steps) for run, steps in zip((runs.a, runs.b), runs.carried_out, strict=True))
     legs: list[Leg] = []
     time, at = 0.0, (a[0].begin, b[0].begin)
@@ -202,7 +208,9 @@ def course(runs: TwoRuns) -> Course:
 
 
 def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
-    """Steps of a run, preceded by the time before; each lasts until the next begins."""
+    """Steps of a run with their times, preceded by the time before the first step; each step lasts until the next
+    begins.
+    """
     begun = [each.place for each in steps]
     times = [*(place.time for place in begun), run.ends]
     first = _TimedStep(None, min(run.begins, times[0]), times[0])
@@ -212,7 +220,7 @@ def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
 def _side_by_side(
     runs: TwoRuns, a: Sequence[_TimedStep], b: Sequence[_TimedStep]
 ) -> Iterator[tuple[_TimedStep | None, _TimedStep | None]]:
-    """Pairs of steps, and between them those of one run alone, the first run's before the other's."""
+    """Pairs of steps in order; between them, the steps that only one run did, those of the first run first."""
     one, other = ([_BEFORE, *(each.turn[0] for each in steps)] for steps in runs.carried_out)
     for tag, i, j, k, m in SequenceMatcher(None, one, other, autojunk=False).get_opcodes():
         if tag == "equal":

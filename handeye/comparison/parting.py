@@ -1,4 +1,4 @@
-"""The divergence of two runs: the first event after which they no longer do the same."""
+"""The divergence of two runs: the first event after which their courses differ."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from handeye.report.recorded import RecordedRun
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DecidingEvent:
-    """An event that decides the course of a run."""
+    """An event that decides the further course of a run."""
 
     place: Place | None  # The step under way, or done last; None: before the first one
     event: AnyEvent
@@ -21,20 +21,20 @@ class DecidingEvent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Divergence:
-    """The first event at which the courses of two runs differ."""
+    """The first event at which the courses of two runs differ, in each run; None for a run that ended."""
 
     a: DecidingEvent | None  # Where the first run stood, and what happened next; None: it has ended before
     b: DecidingEvent | None
 
     @property
     def place(self) -> Place | None:
-        """The step under way in the first run, or its last; in the second run, if the first has ended."""
+        """The step under way in the first run; if the first run has ended, the step of the second run."""
         turning = self.a or self.b
         return None if turning is None else turning.place
 
 
 def parting(runs: TwoRuns) -> Divergence | None:
-    """The divergence of two runs; None if they do not diverge.
+    """Find the divergence of two runs; None if they do not diverge.
 
     The course consists of the steps and of the events that decide them: tripped guards, raised errors, answers to
     tests, and user commands.
@@ -55,14 +55,14 @@ def _turnings(run: RecordedRun) -> Iterator[DecidingEvent]:
 
 
 def _alike(runs: TwoRuns, a: AnyEvent, b: AnyEvent) -> bool:
-    """True if two events lead the same way."""
+    """True if two events lead to the same further course."""
     if isinstance(a, StepStarted) and isinstance(b, StepStarted):
         return runs.are_beside(a.step, b.step)
     return type(a) is type(b) and _decides(a) == _decides(b)
 
 
 def _decides(event: AnyEvent) -> Any:
-    """The part of an event that decides how a run goes on; None if it has none."""
+    """The part of an event that decides the further course of a run; None if the event has no such part."""
     match event:
         case happened.StepStarted():
             return event.step

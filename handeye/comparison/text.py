@@ -1,4 +1,4 @@
-"""The comparison of two runs in words, and as text, in the arm language's units."""
+"""The comparison of two runs as text, in the units of the arm language."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Final
@@ -37,7 +37,7 @@ _UNITS: Final[Mapping[GuardKind, str]] = {
 
 
 def same_words(found: Comparison) -> str:
-    """A sentence that two runs are the same, and how exactly."""
+    """A sentence that says that two runs are equal, and how exactly this was compared."""
     return (
         "Both runs recorded the same events."
         if found.thinned
@@ -58,18 +58,18 @@ def heading_words(found: Comparison) -> str:
 
 
 def run_words(run: ComparedRun) -> str:
-    """A run, and its outcome."""
+    """A run and its outcome, in words."""
     return f"{run.name}: {run.program}, {run.world}, {run.seconds:.1f} s: {_CAME_TO[run.came_to]}"
 
 
 def moment_words(first: First) -> str:
-    """The step of a difference, and the servo period."""
+    """The step and servo period of a difference, in words."""
     period = "" if first.period is None else f", servo period {first.period}"
     return f"{place_words(first.place)}{period}"
 
 
 def first_words(first: First, measures: Measures) -> tuple[str, ...]:
-    """The differing quantity with both values, or the next events of both."""
+    """The differing quantity with both values, or the next event of each run."""
     if first.differing.quantity == EVENT:
         return f"A: {_next(first.next[0])}", f"B: {_next(first.next[1])}"
     one, other = values_text(first.differing, measures)
@@ -81,7 +81,7 @@ def _next(event: AnyEvent | None) -> str:
 
 
 def turning_words(turning: DecidingEvent | None) -> str:
-    """A run's next deciding event, in words."""
+    """The deciding event of a run, in words."""
     if turning is None:
         return "has finished"
     if isinstance(turning.event, StepStarted):
@@ -97,7 +97,7 @@ def place_words(place: Place | None) -> str:
 
 
 def search_words(search: Search) -> str:
-    """The number of places a search tried."""
+    """The number of places that a search tried, in words."""
     return counted(search.places, "place") + (", all of them" if search.exhausted else "")
 
 
@@ -137,7 +137,9 @@ def comparison_text(found: Comparison) -> list[str]:
 
 
 def _conditions(differing: Sequence[Condition]) -> Iterator[str]:
-    """Conditions that differ; the runs are compared as far as they go."""
+    """The conditions that differ, as lines of text; if the plans differ, a note that only common steps are
+    compared.
+    """
     for each in differing:
         if each.what == "plan":
             yield "The plans differ: the runs are compared where they do the same steps. `handeye diff` compares plans."
@@ -183,7 +185,7 @@ def _corrected(found: Sequence[Corrections]) -> Iterator[str]:
 
 
 def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Corrections]) -> Iterator[str]:
-    """The number of findings in both runs, and how many are alike; nothing if there are none."""
+    """A line with the number of findings in both runs, and how many are alike; nothing if there are none."""
     both = [each for each in found if each.a is not None and each.b is not None]
     if found:
         counts = sum(each.b is None for each in found), sum(each.a is None for each in found)
@@ -195,7 +197,7 @@ def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Correctio
 
 
 def _took(found: Comparison) -> Iterator[str]:
-    """A row for each stage and for all: simulated seconds of both, and B's excess."""
+    """A row for each stage and for the total: simulated seconds of both runs, and the excess of run B."""
     wide = max(map(len, ("Seconds", *(stage.name for stage in found.stages))))
     yield f"{'Seconds':{wide}}{'A':>9}{'B':>9}{'B - A':>9}"
     for stage in found.stages:

@@ -1,4 +1,4 @@
-"""Compares two plans: aligns their steps, and says what differs in stages, steps, positions, parts and motions."""
+"""Compares two plans: pairs their steps, and finds the differences in stages, steps, positions, parts and motions."""
 
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
@@ -21,10 +21,10 @@ Pair = tuple[int | None, int | None]  # numbers of a step before and after; None
 
 
 def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
-    """Every step of both programs once, in text order.
+    """Pair the steps of two programs; each step occurs once, in the order of the text.
 
-    Identical steps are matched first. Between two such matches, steps are paired by their statements, then by the kind
-    of their operation: a step counts as changed rather than as removed and added.
+    Identical steps are matched first. Between two matches, steps are paired by their statements, then by the kind
+    of their operation, so that a changed step does not count as one removed and one added.
     """
     keys = (
         lambda step: f"{one_line(step.text)} {does(step)}",
@@ -37,7 +37,7 @@ def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
 def _matched(
     before: Sequence[Step], after: Sequence[Step], old: range, new: range, keys: tuple[Any, ...]
 ) -> Iterator[Pair]:
-    """Pairs of a stretch of each program by the first key, and of the rest by the other keys."""
+    """Match two ranges of steps by the first key; between the matches, by the remaining keys."""
     if not keys or not old or not new:
         yield from ((number, None) for number in old)
         yield from ((None, number) for number in new)
@@ -52,7 +52,9 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """True if edges to `old` and `new` lead to one place, past removed steps to what follows; None is the end."""
+    """True if edges to steps `old` and `new` lead to the same step, skipping removed and added steps; None is the
+    end of the program.
+    """
     at = _pair_of(pairs, 0, old)
     if at < len(pairs) and pairs[at][1] is not None:
         return pairs[at][1] == new
@@ -60,12 +62,12 @@ def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool
 
 
 def _pair_of(pairs: Sequence[Pair], side: int, number: int | None) -> int:
-    """Index of the pair with a step of one side; past the last for the end of the program."""
+    """Index of the pair that contains step `number` on one side; for the end of the program, the number of pairs."""
     return next((at for at, pair in enumerate(pairs) if pair[side] == number is not None), len(pairs))
 
 
 def _survivor(pairs: Sequence[Pair], at: int) -> int | None:
-    """The first index from `at` on whose step is in both programs."""
+    """The first index from `at` on of a pair with a step in both programs; None if there is none."""
     return next((place for place in range(at, len(pairs)) if None not in pairs[place]), None)
 
 
@@ -81,7 +83,9 @@ _LEAST_TURN: Final = 1e-6  # rad; the precision of an arc cosine near 1
 
 
 class PlaceChange(Record, frozen=True, kw_only=True):
-    """A position or part added, removed, moved or changed: by `shift` (m, table or part axes) and `turn` (rad)."""
+    """A position or part that was added, removed, moved or changed; `shift` (m) and `turn` (rad) give the move, in
+    axes of the table or of the part.
+    """
 
     kind: Literal["added", "removed", "moved", "changed"]
     what: Literal["position", "part"]
@@ -91,7 +95,7 @@ class PlaceChange(Record, frozen=True, kw_only=True):
 
 
 def place_changes(before: Program, after: Program) -> list[PlaceChange]:
-    """Changes of positions and parts."""
+    """List the changes of positions and parts between two programs."""
     found = [
         _placed("part", n, before.parts.get(n), after.parts.get(n)) for n in {**before.parts, **after.parts}
     ]
@@ -123,7 +127,7 @@ def _placed(
 
 
 def _part(place: Position | Part) -> str | None:
-    """The part that a position belongs to."""
+    """The part to which a position belongs; None if it belongs to none."""
     return place.of if isinstance(place, Position) else None
 
 
@@ -135,19 +139,21 @@ _ALIKE = 1e-9  # m, rad or s; smaller differences of motions are rounding
 
 
 class MotionChange(Record, frozen=True, kw_only=True):
-    """A change of a motion."""
+    """A change of a planned motion: its duration, s, and the end position of its joints."""
 
     before: float | None  # planned duration, s; None if there was no motion
     after: float | None
     joint: int | None = None
-    """The joint, from 1, whose end has moved farthest in terms of time; None if ends agree, or the arms differ."""
+    """The joint, from 1, whose end position changed most, measured in travel time; None if the ends agree, or the
+    arms differ.
+    """
     name: str = ""
     kind: Literal["revolute", "prismatic"] | None = None
     moved: float = 0.0  # displacement of that joint's end, rad or m
 
 
 class StepChange(Record, frozen=True, kw_only=True):
-    """A step added, removed, changed, or with another motion only (`replanned`)."""
+    """A step that was added, removed or changed, or of which only the motion changed (`replanned`)."""
 
     kind: Literal["added", "removed", "changed", "replanned"]
     before: int | None
@@ -161,7 +167,7 @@ class StepChange(Record, frozen=True, kw_only=True):
 
 
 class Difference(Record, frozen=True, kw_only=True):
-    """All differences between two plans; empty if they do the same."""
+    """All differences between two plans; empty if both plans do the same."""
 
     heads: tuple[tuple[str, str, str], ...]  # arm, speed and the like: what, before, after
     stages_removed: tuple[str, ...]
@@ -172,7 +178,7 @@ class Difference(Record, frozen=True, kw_only=True):
 
     @property
     def same(self) -> bool:
-        """True if both plans do the same, whatever their comments say."""
+        """True if both plans do the same; comments do not count."""
         return not (self.heads or self.stages_removed or self.stages_added or self.places or self.steps)
 
 
@@ -246,7 +252,7 @@ def _change(
 
 
 def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
-    """Differences of two steps apart from their targets: what, before, after."""
+    """Differences between two paired steps, without their branch targets: subject, before, after."""
     texts = [one_line(step.text) for step in (one, other)]
     guards = ["; ".join(conditions(step.operation)) or "none" for step in (one, other)]
     if texts[0] != texts[1]:
@@ -261,7 +267,7 @@ def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
 
 
 def _alike(one: Record, other: Record) -> bool:
-    """True if two records are the same except for the last digits of numbers."""
+    """True if two records agree, apart from the last digits of their numbers."""
     return alike(msgspec.to_builtins(one), msgspec.to_builtins(other))
 
 

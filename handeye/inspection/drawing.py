@@ -30,7 +30,7 @@ _STYLE: Final = (
 
 
 def flow_svg(graph: Flow) -> str:
-    """The SVG of a graph."""
+    """Draw a flow graph as SVG."""
     placed = layout(graph)
     width, height = max(placed.width, 660), placed.height + _MARGIN
     out = [
@@ -110,7 +110,7 @@ def _label(route: Route) -> str:
 
 
 def _path(points: tuple[Point, ...]) -> str:
-    """Path through points with rounded corners."""
+    """The SVG path through points, with rounded corners."""
     out = [f"M{points[0][0]:g} {points[0][1]:g}"]
     for before, here, after in zip(points, points[1:], points[2:], strict=False):
         (x1, y1), (x2, y2) = _towards(here, before), _towards(here, after)
@@ -119,7 +119,7 @@ def _path(points: tuple[Point, ...]) -> str:
 
 
 def _towards(here: Point, there: Point) -> Point:
-    """The end of the rounding of a corner, towards another point."""
+    """The point between two corners at which the rounding of the first one ends."""
     dx, dy = there[0] - here[0], there[1] - here[1]
     size = abs(dx) + abs(dy)
     share = min(RADIUS, size / 2) / size if size else 0.0

@@ -25,7 +25,7 @@ class Node:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlowEdge:
-    """An edge to the next step, or None for the end, if `error` was raised."""
+    """An edge to the next step, or None for the end of the program; `error`: taken if this error was raised."""
 
     start: int
     end: int | None
@@ -34,7 +34,9 @@ class FlowEdge:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Flow:
-    """The graph of a plan, or of one stage, whose outgoing edges end in steps that are left out."""
+    """The graph of a plan, or of one stage. Edges that leave the stage end in steps of `outside`, which are not
+    drawn.
+    """
 
     name: str
     stages: tuple[str, ...]  # of the whole plan
@@ -44,7 +46,7 @@ class Flow:
 
 
 def flow(plan: Plan, stage: int | None = None) -> Flow:
-    """The graph of a plan, or of one stage, by its number from 1."""
+    """Make the graph of a plan, or of one stage, given by its number from 1."""
     steps = plan.program.steps
     shown = [n for n, step in enumerate(steps) if stage in (None, step.stage + 1)]
     edges = [edge for number in shown for edge in _edges(number, steps[number])]

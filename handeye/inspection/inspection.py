@@ -1,7 +1,7 @@
 """A plan as data and text: stages and steps, durations, guards, and what each step depends on.
 
-A step depends on what is measured at run time: parts seen, saved positions and differences, a search. For each step the
-possible newest measurements are computed over all paths through the graph, loops and error edges included.
+A step depends on measurements at run time: parts seen, saved positions and differences, a search. The newest
+measurements that can hold at a step are computed over all paths through the graph, including loops and error edges.
 """
 
 from typing import Final, Literal, get_args
@@ -23,7 +23,7 @@ Newest = dict[Key, frozenset[int]]  # steps that may have made each measurement 
 
 
 class Dependence(Record, frozen=True, kw_only=True):
-    """A measurement that a step depends on."""
+    """A run-time measurement that a step depends on."""
 
     kind: Measured
     name: str  # empty for a search
@@ -33,7 +33,7 @@ class Dependence(Record, frozen=True, kw_only=True):
 
 
 def dependences(program: Program) -> tuple[tuple[Dependence, ...], ...]:
-    """Dependences of each step, in order."""
+    """The dependences of each step, in the order of the steps."""
     newest = _newest(program)
     kept = program.written("position")
     return tuple(
@@ -52,7 +52,9 @@ def _dependence(program: Program, key: Key, level: bool, steps: frozenset[int]) 
 
 
 def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
-    """Values that a motion or look needs, and whether only horizontally; `kept` are positions that a HERE defines."""
+    """Measured values that a motion or look needs; the flag is True if only their horizontal part is needed.
+    `kept`: positions defined by `HERE`.
+    """
     found: list[tuple[Key, bool]] = []
     for kind, name, level in operation.reads if operation.family in ("motion", "sight") else ():
         if kind in ("difference", "search"):
@@ -69,7 +71,7 @@ def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[
 
 
 def _newest(program: Program) -> list[Newest]:
-    """The newest measurements before each step."""
+    """The newest measurements that can hold before each step."""
     graph = Graph(program.steps)
     measured = [
         [(kind, use.name) for use in step.operation.writes for kind in _MEASURED if kind == use.kind]
@@ -92,49 +94,51 @@ def _newest(program: Program) -> list[Newest]:
 
 
 class InspectedStep(Record, frozen=True, kw_only=True):
-    """A step, by its number in the plan."""
+    """A step of a plan, by its number."""
 
     step: int
     file: str = ""
-    """The required file of its line; empty: the script itself."""
+    """The required file that contains the line; empty: the script itself."""
     line: int
     text: str
-    """Its statement. `conditions` (`STOP`, `FORCE`) and `depends` (`RESTORE`) say what modifies it."""
+    """The statement of the step. `conditions` and `depends` cover the modifiers before it, such as `STOP`, `FORCE`
+    and `RESTORE`.
+    """
     operation: str
-    """Name on disk."""
+    """Name of the operation in the plan file."""
     seconds: float | None
-    """Planned duration of its motion; None if it has none."""
+    """Planned duration of the motion, s; None if the step has no motion."""
     guards: Guards
-    """Guards that end it, SI."""
+    """Guards that end the motion, in SI units."""
     press: Vector3 | None
-    """Force it exerts, N, table coordinates."""
+    """Force that the hand exerts, N, table coordinates."""
     conditions: tuple[str, ...]
-    """Guards and exerted force, in words and units of the language."""
+    """Guards and exerted force, in the words and units of the language."""
     depends: tuple[Dependence, ...]
     error: int | None
-    """The error it tests for."""
+    """The error that the step tests for."""
     raised: int | None
-    """The step that follows if that error was raised."""
+    """The step that follows if that error was raised; None: the end of the program, or no test."""
     counter: str | None = None
-    """The counter it counts down."""
+    """The counter that the step counts down."""
     positive: int | None = None
     """The step that follows while the counter is positive."""
     next: int | None
-    """The step that follows in the other case; None ends the program."""
+    """The step that follows in all other cases; None ends the program."""
 
 
 class InspectedStage(Record, frozen=True, kw_only=True):
-    """A stage, by its number from 1."""
+    """A stage of a plan, by its number from 1."""
 
     number: int
     name: str
     seconds: float
-    """Planned motion, each step counted once."""
+    """Duration of the planned motions, s, each step counted once."""
     steps: tuple[InspectedStep, ...]
 
 
 class Inspection(Record, frozen=True, kw_only=True):
-    """A plan laid open."""
+    """The contents of a plan, as data."""
 
     name: str
     version: int
@@ -146,7 +150,7 @@ class Inspection(Record, frozen=True, kw_only=True):
 
 
 def inspection(plan: Plan) -> Inspection:
-    """A plan laid open."""
+    """Make the contents of a plan, as data."""
     depends = dependences(plan.program)
     steps = [_step(plan, number, depends[number]) for number in range(len(plan.program.steps))]
     stages = []
@@ -160,7 +164,7 @@ def inspection(plan: Plan) -> Inspection:
 
 
 def inspection_text(found: Inspection, stage: int | None = None) -> list[str]:
-    """A plan as lines of text; only one stage, by its number from 1, if given."""
+    """The contents of a plan as lines of text, or of one stage, given by its number from 1."""
     count = counted(sum(len(s.steps) for s in found.stages), "step")
     out = [
         f"{one_line(found.name)}, planned for the {found.arm} arm at {found.speed:g} of its speed: "

@@ -1,8 +1,9 @@
 """Layout of a flow graph: positions of steps, and routes of edges, in pixels, y downwards.
 
-Stages stand side by side on shelves, their steps from top to bottom; a long one has several columns, broken outside
-loops. Edges to the step below are short and straight. Those that go back run on the left of their column, those that
-skip steps on its right, each in a lane of its own; edges to another column go round the top.
+Stages stand side by side in rows, called shelves; the steps of a stage run from top to bottom. A long stage has
+several columns, and no loop is split between two columns. Edges to the step below are short and straight. Edges
+that go back run left of their column, edges that skip steps run right of it, each in a separate lane; edges to
+another column run over the top.
 """
 
 from collections.abc import Sequence
@@ -25,7 +26,7 @@ MIN_REST: Final = 0.35  # fraction of a column that justifies another one
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Column:
-    """Steps one below the other, with lanes by edge, from 0 next to the steps."""
+    """Steps one below the other, with the lane of each edge, from 0 next to the steps."""
 
     nodes: tuple[Node, ...]
     back: dict[FlowEdge, int]  # on the left
@@ -57,7 +58,7 @@ def height(node: Node) -> float:
 
 
 def columns(nodes: Sequence[Node], edges: Sequence[FlowEdge]) -> list[Column]:
-    """The steps of a stage in columns of about equal height, broken outside loops."""
+    """Split the steps of a stage into columns of about equal height, but no loop between two columns."""
     total = sum(height(node) + GAP for node in nodes)
     goal = total / max(1, round(total / COLUMN_HEIGHT + 0.2))
     left = total
@@ -82,7 +83,7 @@ def columns(nodes: Sequence[Node], edges: Sequence[FlowEdge]) -> list[Column]:
 
 
 def _lanes(column: Sequence[Node], edges: Sequence[FlowEdge], side: str) -> dict[FlowEdge, int]:
-    """Lanes of edges within a column that go back, or skip steps; short ones inside."""
+    """Assign lanes to the edges of a column that go back or skip steps; short edges get the inner lanes."""
     place = {node.step: at for at, node in enumerate(column)}
     found = []
     for edge in edges:
@@ -112,7 +113,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StepBox:
-    """A placed step; x, y is the upper left corner."""
+    """The box of a step; x, y is its upper left corner."""
 
     node: Node
     x: float
@@ -122,7 +123,9 @@ class StepBox:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Route:
-    """An edge's polyline: to the step below, back, past steps, to another column, or out of the drawing."""
+    """The polyline of an edge: down to the next step, back, past steps (skip), to another column (over), or out of
+    the drawing.
+    """
 
     edge: FlowEdge
     points: tuple[Point, ...]
@@ -155,7 +158,7 @@ class Layout:
 
 @dataclass(slots=True, kw_only=True)
 class _Shelves:
-    """Places stages side by side, starting a new shelf when there is no room."""
+    """Places stages side by side, and starts a new shelf when the row is full."""
 
     edges: tuple[FlowEdge, ...]
     boxes: dict[int, StepBox] = field(default_factory=dict)
@@ -169,7 +172,7 @@ class _Shelves:
     tallest: float = 0.0  # on the present shelf
 
     def add(self, stage: int, nodes: list[Node]) -> None:
-        """Place a stage."""
+        """Place one stage."""
         parts = columns(nodes, self.edges)
         width = sum(part.width for part in parts)
         if self.x > FRAME and self.x + width > SHELF_WIDTH:
@@ -221,7 +224,7 @@ def _beside(edge: FlowEdge, lane: int, side: Literal["back", "skip"], boxes: dic
 def _plain(
     edge: FlowEdge, boxes: dict[int, StepBox], borders: dict[int, tuple[float, float, float]]
 ) -> Route:
-    """The route of an edge down, to another column, or out."""
+    """The route of an edge that leads down, to another column, or out of the drawing."""
     one, other = boxes[edge.start], None if edge.end is None else boxes.get(edge.end)
     middle, bottom, y = one.x + WIDTH / 2, one.y + one.height, one.y + one.height * 0.62
     right = one.x + WIDTH

@@ -1,1 +1,1 @@
-"""The referee: its measurements on the truth, and its findings. Each task defines what is right, and why."""
+"""The referee: measurements on the simulator's true state, and findings. Each task defines which results are right."""

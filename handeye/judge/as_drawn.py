@@ -1,4 +1,6 @@
-"""Which parts of a scene differ from their drawing, and in what; looks and sleep do not count."""
+"""Finds the parts of a scene that differ from the original model, and in which properties; colours and sleep
+settings do not count.
+"""
 
 from collections.abc import Iterator, Mapping
 from typing import Final
@@ -31,10 +33,11 @@ _PHYSICS: Final = (
 
 
 def altered(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> dict[str, list[str]]:
-    """Which of some bodies differ from their drawing, each with the kinds of figures that differ.
+    """Find the bodies of `model` that differ from the original model `drawn`, each with the kinds of figures that
+    differ.
 
-    `parts`, shape (nbody,), has the bodies that count. Figures count wherever they differ at all: a scene is made the
-    same to the byte whenever it is made.
+    The mask `parts`, shape (nbody,), selects the bodies to compare. Any difference counts, however small, because a
+    scene is built identically to the byte each time.
     """
     if any(getattr(model, count) != getattr(drawn, count) for count in (*_COUNTS.values(), "nmeshvert")):
         return {"the scene": ["number of things in it"]}
@@ -45,7 +48,7 @@ def altered(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> dict[s
 
 
 def told(differing: Mapping[str, list[str]]) -> str:
-    """What differs, in words: `rotor (joint, place), gasket (shape)`."""
+    """The differences in words: `rotor (joint, place), gasket (shape)`."""
     return ", ".join(f"{part} ({', '.join(kinds)})" for part, kinds in differing.items())
 
 
@@ -65,7 +68,7 @@ def _differences(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> I
 
 
 def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
-    """Names of the figures that count, each with the body that each of its rows belongs to."""
+    """Names of the model fields to compare, each with the body to which each row of the field belongs."""
     bodies = {
         "body": np.arange(drawn.nbody, dtype=np.int32), "jnt": drawn.jnt_bodyid, "dof": drawn.dof_bodyid,
         "geom": drawn.geom_bodyid, "site": drawn.site_bodyid, "eq": _bonded(drawn), "actuator": _driven(drawn),
@@ -84,7 +87,9 @@ def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
 
 
 def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
-    """Names of the figures that count and belong to no one body; corners of meshes are judged by their shapes."""
+    """Names of the model fields to compare that belong to no single body; vertices of meshes are compared by shape
+    instead.
+    """
     for field in dir(drawn):
         kind, _, what = field.partition("_")
         if what and kind in _SHARED and what not in _LOOKS and field != "mesh_vert":
@@ -92,7 +97,9 @@ def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
 
 
 def _bonded(drawn: mujoco.MjModel) -> NDArray[np.int32]:
-    """The body of the first of two things that each equality binds; the world if it has none."""
+    """The body of the first of the two objects that each equality constraint binds; the world body if the
+    constraint names none.
+    """
     of_joint = drawn.eq_type == mujoco.mjtEq.mjEQ_JOINT
     of_body = drawn.eq_objtype == mujoco.mjtObj.mjOBJ_BODY
     first = np.where(of_joint | of_body, drawn.eq_obj1id, 0)
@@ -100,7 +107,7 @@ def _bonded(drawn: mujoco.MjModel) -> NDArray[np.int32]:
 
 
 def _driven(drawn: mujoco.MjModel) -> NDArray[np.int32]:
-    """The body that each drive moves; -1 where it moves a tendon."""
+    """The body that each actuator moves; -1 if it moves a tendon."""
     kinds, bodies = mujoco.mjtTrn, np.full(drawn.nu, -1, np.int32)
     for kind, owners in (
         (kinds.mjTRN_JOINT, drawn.jnt_bodyid),
@@ -113,7 +120,7 @@ def _driven(drawn: mujoco.MjModel) -> NDArray[np.int32]:
 
 
 def _meshes(model: mujoco.MjModel, drawn: mujoco.MjModel) -> Mask:
-    """Which meshes have other corners, shape (nmesh,)."""
+    """The meshes whose vertices differ, as a mask of shape (nmesh,)."""
     mesh = np.repeat(np.arange(drawn.nmesh), drawn.mesh_vertnum)
     other = np.zeros(drawn.nmesh, bool)
     other[mesh[(model.mesh_vert != drawn.mesh_vert).any(axis=1)]] = True
@@ -121,7 +128,7 @@ def _meshes(model: mujoco.MjModel, drawn: mujoco.MjModel) -> Mask:
 
 
 def _owner(drawn: mujoco.MjModel, field: str, row: int, body: int) -> str:
-    """Name of the body, or of the shape that is fixed to the world itself."""
+    """Name of the body, or of the geom if it is fixed to the world body."""
     if body == 0 and field.startswith("geom"):
         return drawn.geom(row).name or "the cell"
     return drawn.body(body).name

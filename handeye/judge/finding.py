@@ -1,4 +1,4 @@
-"""Findings of the referee, as facts."""
+"""Findings of the referee, as data."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -9,7 +9,7 @@ Relation = Literal["at most", "at least"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
-    """A measured value against its limit.
+    """A measured value and its limit; `ok` if the value is within the limit.
 
     >>> finding = handeye.at_most(0.3, 0.2, "mm", "gap under the head")
     >>> finding.ok, finding.limited(0.5).ok
@@ -26,17 +26,17 @@ class Finding:
 
     @property
     def refuses(self) -> bool:
-        """True if it makes the work wrong."""
+        """True if the finding makes the work wrong."""
         return not self.ok and not self.caution
 
     def limited(self, limit: float) -> "Finding":
-        """The same measurement with another limit, in the same unit; beyond it, the work is wrong."""
+        """The same measurement with another limit, in the same unit; a value beyond it makes the work wrong."""
         ok = self.value <= limit if self.relation == "at most" else self.value >= limit
         return replace(self, limit=limit, ok=ok, caution=False)
 
     @property
     def beyond(self) -> float:
-        """Distance of the value beyond its limit, in `unit`; negative within it."""
+        """Amount by which the value exceeds its limit, in `unit`; negative if it is within the limit."""
         return self.value - self.limit if self.relation == "at most" else self.limit - self.value
 
 
@@ -44,7 +44,8 @@ Findings = Mapping[str, Finding]  # by the names of the points
 
 
 def at_most(value: float, limit: float, unit: str, subject: str, *, caution: bool = False) -> Finding:
-    """A finding that is right up to `limit`; beyond it, a `caution` only warns.
+    """A finding that is right if the value is at most `limit`; with `caution`, a greater value only gives a
+    warning.
 
     >>> handeye.at_most(0.1, 0.2, "mm", "gap under the head").ok
     True
@@ -53,7 +54,7 @@ def at_most(value: float, limit: float, unit: str, subject: str, *, caution: boo
 
 
 def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
-    """A finding that is right from `limit` on.
+    """A finding that is right if the value is at least `limit`.
 
     >>> handeye.at_least(70, 40, "N", "weakest clamp").ok
     True
@@ -62,7 +63,7 @@ def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
 
 
 def worse(one: Findings, other: Findings) -> Findings:
-    """The worse finding on each point of two inspections."""
+    """For each name, the worse of the findings of two inspections."""
     return {
         name: max(found, other[name], key=lambda finding: (not finding.ok, finding.beyond))
         for name, found in one.items()
@@ -70,7 +71,7 @@ def worse(one: Findings, other: Findings) -> Findings:
 
 
 def all_right(findings: Findings) -> bool:
-    """True if no finding makes the work wrong; without any finding, nothing is right."""
+    """True if there are findings and none of them makes the work wrong."""
     return bool(findings) and not any(finding.refuses for finding in findings.values())
 
 

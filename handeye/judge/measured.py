@@ -1,4 +1,4 @@
-"""Measurements on the simulator's state; none of them changes it."""
+"""Measurements on a copy of the simulator's state."""
 
 import copy
 from collections.abc import Sequence
@@ -14,10 +14,10 @@ from handeye.judge.finding import Finding, at_most
 
 
 class SettledState:
-    """A copy of a cell's state: as at the end, or settled."""
+    """A copy of a cell's state, as the run left it, or after it has settled."""
 
     def __init__(self, truth: Truth, settle: float = 0.0) -> None:
-        """Copy the state, wake all bodies and let some time pass (s)."""
+        """Copy the state, wake all bodies and simulate `settle` seconds."""
         self.model, self.data = truth.copy()
         self.drawn = truth.drawn  # the scene at its start, to compare with
         self._start = mujoco.MjData(truth.drawn)
@@ -34,14 +34,15 @@ class SettledState:
         return inverse(self.pose(other)) @ self.pose(body)
 
     def from_site(self, body: str, site: str) -> float:
-        """Distance of a body from where a site was at first, m."""
+        """Distance of a body from the initial position of a site, m."""
         there = self._start.site_xpos[self.drawn.site(site).id]
         return float(np.linalg.norm(self.pose(body)[:3, 3] - there))
 
     def strayed(self, bodies: Sequence[str], places: Sequence[str]) -> float:
-        """Greatest distance of the bodies from their places, m; a place is where a body of `places` was at first.
+        """Greatest distance of the bodies from their places, m; the places are the initial positions of the bodies
+        named in `places`.
 
-        Any body may have any place, but each place takes one only: nearest first.
+        Any body may take any place, but each place takes one body; the nearest pairs are assigned first.
         """
         firsts = self._start.xpos[[self.drawn.body(name).id for name in places]]
         now = np.reshape([self.pose(name)[:3, 3] for name in bodies], (-1, 3))
@@ -54,13 +55,13 @@ class SettledState:
         return farthest
 
     def turned(self, body: str) -> float:
-        """Angle of a body from its first orientation, rad."""
+        """Angle between a body's present and initial orientation, rad."""
         number = self.model.body(body).id
         R = self._start.xmat[number].reshape(3, 3).T @ self.data.xmat[number].reshape(3, 3)
         return acos(max(-1.0, min(1.0, (float(np.trace(R)) - 1) / 2)))
 
     def speed(self, body: int) -> float:
-        """Greatest speed of any point of a body, at most, m/s."""
+        """Upper bound of the speed of any point of a body, m/s."""
         model, data, found = self.model, self.data, np.zeros(6)
         mujoco.mj_objectVelocity(model, data, int(mujoco.mjtObj.mjOBJ_BODY), body, found, 0)
         mine = np.flatnonzero(model.geom_bodyid == body)
@@ -75,7 +76,7 @@ class SettledState:
         return float(mujoco.mj_geomDistance(self.model, self.data, *ids, 0.5, ends))
 
     def nearest(self, geoms: NDArray[np.intp], others: NDArray[np.intp], most: float) -> float:
-        """Least distance between two groups of geoms, m; what is farther apart counts as `most`."""
+        """Least distance between two groups of geoms, m, but at most `most`."""
         model, ends = self.model, np.zeros(6)
         between = self.data.geom_xpos[geoms][:, None] - self.data.geom_xpos[others]
         reach = model.geom_rbound[geoms][:, None] + model.geom_rbound[others]
@@ -86,7 +87,9 @@ class SettledState:
         )
 
     def overlaps(self, solid: NDArray[np.bool_]) -> tuple[NDArray[np.int32], Array]:
-        """Pairs of `solid` geoms of different bodies that overlap, whatever contact bits they have, and how deep, m."""
+        """Pairs of `solid` geoms that belong to different bodies and overlap, whatever their contact bits, and the
+        depth of each overlap, m.
+        """
         model = copy.deepcopy(self.model)
         for field in (model.geom_contype, model.geom_conaffinity):
             field[:] = solid
@@ -100,15 +103,15 @@ class SettledState:
 
 
 def mm(value_m: float, limit_mm: float, subject: str) -> Finding:
-    """A length that may reach a limit."""
+    """A finding for a length in m, against an upper limit in mm."""
     return at_most(value_m * 1e3, limit_mm, "mm", subject)
 
 
 def deg(value_rad: float, limit_deg: float, subject: str) -> Finding:
-    """An angle that may reach a limit."""
+    """A finding for an angle in rad, against an upper limit in degrees."""
     return at_most(degrees(value_rad), limit_deg, "deg", subject)
 
 
 def tilt(X: Pose) -> float:
-    """Angle between a frame's z and the vertical, rad."""
+    """Angle between the z axis of a frame and the vertical, rad."""
     return acos(max(-1.0, min(1.0, float(X[2, 2]))))

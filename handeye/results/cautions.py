@@ -1,4 +1,4 @@
-"""Cautions on resuming a run: why its result may differ."""
+"""Warnings about a resumed run: why its result may differ from that of an uninterrupted run."""
 
 from collections.abc import Iterator
 
@@ -11,7 +11,9 @@ from handeye.trace.sentences import renderer_name
 
 
 def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
-    """Sentences on how a resumed run differs from its start, and on what it could not keep."""
+    """Sentences on the differences between a resumed run and its start, and on the parts of its state that could
+    not be saved.
+    """
     if runner.system.unkept is not None:
         yield f"the camera calibration was not kept for other runs: {runner.system.unkept}"
     begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
@@ -29,7 +31,7 @@ def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
 
 
 def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
-    """Sentences on what the folder of a resumed run has lost, and on what it cannot protect."""
+    """Sentences on the files that the folder of a resumed run has lost, and on those that it cannot protect."""
     if folder.unlocked:
         yield unguarded(folder.path, folder.unlocked)
     if folder.lost:

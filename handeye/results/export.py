@@ -1,4 +1,4 @@
-"""Exports for other programs: files written to a given place, with a record that describes them."""
+"""Exports for other programs: files in a given place, with a record that describes them."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -32,14 +32,16 @@ EXPORT: Final = FolderKind(
 
 
 def scene_files(exhibit: ExportedState) -> dict[str, bytes]:
-    """The files of an export by name, the same bytes for the same state; raises InvalidInput if there is no scene."""
+    """The files of an MJCF export, by name; the same state gives the same bytes. Raises InvalidInput if the cell
+    has no scene.
+    """
     scene = task(exhibit.task).exported(exhibit.world, exhibit.truth, exhibit.moment)
     files = mjcf_files(scene.spec, _MARK, told(exhibit))
     return {README: _readme(exhibit, scene.about).encode(), **files}
 
 
 def told(exhibit: ExportedState) -> dict[str, str]:
-    """Metadata for the files of an exhibit, by name."""
+    """Metadata for the files of an export, by name."""
     return {
         "moment": exhibit.moment,
         "shows": shows(exhibit),
@@ -49,7 +51,7 @@ def told(exhibit: ExportedState) -> dict[str, str]:
 
 
 def shows(exhibit: ExportedState) -> str:
-    """The subject of an exhibit, as part of a sentence."""
+    """The subject of an export, as part of a sentence."""
     world = f"the world of {exhibit.world}"
     if exhibit.moment == "drawn":
         return f"{world} at its start"
@@ -82,7 +84,9 @@ Made with {made}.
 GLB: Final = Kind("GLB file", rb"glTF", ending=".glb")
 WHOLE: Final = "cell"
 TOLERANCE: Final = 0.01
-"""Tolerated share of a mass: a cylinder is a prism of 64 sides in the file, .2 per cent lighter."""
+"""Tolerated relative error of a mass: in the file, a cylinder is a prism of 64 sides, which is .2 per cent lighter.
+
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,11 +97,11 @@ class ExportedSolids:
     solids: int
     open: tuple[str, ...]  # names of bodies whose surface is not closed
     weighed: tuple[WeighedBody, ...]
-    """Bodies of known density."""
+    """Bodies of known density, with both their masses."""
 
 
 def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
-    """The solids of an export; the same bytes for the same state; raises InvalidInput if there is no such part."""
+    """The solids of an export; the same state gives the same bytes. Raises InvalidInput if there is no such part."""
     exported = task(exhibit.task).exported(exhibit.world, exhibit.truth, exhibit.moment)
     parts = {**exported.parts, WHOLE: None}
     if part not in parts:
@@ -113,7 +117,7 @@ def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
 
 
 def checks(exported: ExportedSolids) -> Iterator[str]:
-    """Remarks on the solids, a line each."""
+    """Remarks on the exported solids, one line each."""
     count = counted(exported.solids, "solid")
     yield f"{count}, not closed: {', '.join(exported.open)}" if exported.open else f"{count}, all closed"
     right = [body for body in exported.weighed if agrees(body)]
@@ -127,7 +131,7 @@ def checks(exported: ExportedSolids) -> Iterator[str]:
 
 
 def agrees(body: WeighedBody) -> bool:
-    """Check the mass of a body in the model against its volume."""
+    """True if the mass of a body by volume and density agrees with its mass in the model, within `TOLERANCE`."""
     return abs(body.mass - body.mass_there) <= TOLERANCE * body.mass_there
 
 
@@ -136,11 +140,11 @@ def _names(bodies: Iterable[WeighedBody]) -> str:
 
 
 Shown = Callable[[], ExportedState]
-"""Makes the export; it takes a while, so it is called after the destination has been checked."""
+"""Makes the state to export. Making it takes a while, so it is called only after the destination has been checked."""
 
 
 class Weight(Record, frozen=True, kw_only=True):
-    """The weight of a body of known metal, kg."""
+    """The mass of a body of known metal, kg, by its volume and in the simulator's model."""
 
     body: str
     by_volume: float
@@ -148,26 +152,28 @@ class Weight(Record, frozen=True, kw_only=True):
 
 
 class Export(Record, frozen=True, kw_only=True):
-    """An export that was written."""
+    """A record of an export that was written."""
 
     path: str
     format: Literal["mjcf", "glb"]
     moment: MomentKind
-    """`drawn` before the first step, `final` after the end of the program, `unfinished` in between."""
+    """`drawn` (the initial state), `final` (after the end of the program) or `unfinished` (in between)."""
     shows: str
-    """Caption."""
+    """Caption of the export."""
     world: WorldSpec
     solids: int | None = None
-    """Number of solids; None if it is not a GLB file."""
+    """Number of solids; None if the export is not a GLB file."""
     open: tuple[str, ...] = ()
-    """Names of those whose surface is not closed."""
+    """Names of the solids whose surface is not closed."""
     weights: tuple[Weight, ...] = ()
     remarks: tuple[str, ...] = ()
-    """Remarks on the solids, a line each."""
+    """Remarks on the solids, one line each."""
 
 
 def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:
-    """Write the folder of a scene; raises InvalidInput if there is no scene, or it cannot be written there."""
+    """Write a scene for MuJoCo to a folder; raises InvalidInput if the cell has no scene, or the folder cannot be
+    written.
+    """
     check_folder(path, EXPORT, overwrite=overwrite)
     exhibit = shown()
     write_folder(path, scene_files(exhibit))
@@ -177,7 +183,9 @@ def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:
 
 
 def export_glb(path: Path, shown: Shown, *, part: str = WHOLE, overwrite: bool = False) -> Export:
-    """Write the solids of a cell, or of a part of it; raises InvalidInput if they cannot be written there."""
+    """Write the solids of a cell, or of a part of it, as a GLB file; raises InvalidInput if the file cannot be
+    written.
+    """
     check_place(path, GLB, overwrite=overwrite)
     exhibit = shown()
     made = exported_solids(exhibit, part)
@@ -198,7 +206,9 @@ def export_glb(path: Path, shown: Shown, *, part: str = WHOLE, overwrite: bool =
 
 
 def export(path: Path, shown: Shown, *, part: str | None, overwrite: bool) -> Export:
-    """Write solids to a file that ends in .glb, else a scene to a folder; raises InvalidInput if that is impossible."""
+    """Write solids if the path ends in .glb, else a scene for MuJoCo to a folder; raises InvalidInput if that is
+    impossible.
+    """
     if path.suffix == GLB.ending:
         return export_glb(path, shown, part=WHOLE if part is None else part, overwrite=overwrite)
     if part is not None:

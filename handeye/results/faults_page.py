@@ -13,27 +13,27 @@ from handeye.core.faults import Catalogue, ExpectedDetection, FaultKind, Size
 
 
 class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
-    """A fault of a catalogue."""
+    """A fault of a task's catalogue."""
 
     name: str
     meaning: str
     size: Size | None  # None: it has no value
     from_start: bool  # It can be there only from the beginning
     usual_stage: int | None
-    """Number of the stage at which it begins by default; None: it is present from the start."""
+    """Number of the stage at which the fault begins by default; None: it is present from the start."""
     expected: ExpectedDetection
     must: str  # What must happen with it, a sentence
     matrix: bool
 
 
 class FaultsReport(msgspec.Struct, frozen=True, kw_only=True):
-    """Faults of a catalogue."""
+    """Some or all faults of a task's catalogue."""
 
     faults: tuple[FaultReport, ...]
 
 
 def report(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> FaultsReport:
-    """Some faults of a catalogue."""
+    """Make the report on some faults of a catalogue."""
     return FaultsReport(faults=tuple(_reported(kind, catalogue) for kind in kinds))
 
 
@@ -43,7 +43,7 @@ def faults_json(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> bytes:
 
 
 def faults_page(catalogue: Catalogue, kinds: Sequence[FaultKind], columns: int) -> RenderableType:
-    """Faults of a catalogue, for a terminal `columns` wide."""
+    """Some faults of a catalogue, as a page for a terminal `columns` wide."""
     found = report(catalogue, kinds).faults
     parts: list[RenderableType] = []
     for device, faults in groupby(found, lambda fault: fault.name.split(".")[0]):
@@ -75,7 +75,7 @@ def _reported(kind: FaultKind, catalogue: Catalogue) -> FaultReport:
 
 
 def _must(expected: ExpectedDetection) -> str:
-    """The expected detection of a fault, as a sentence."""
+    """A sentence that says how a fault must be detected."""
     errors = " or ".join(f"{number} ({ERRORS[number]})" for number in expected.errors)
     ways = [
         *(["before the first stage"] if expected.at_setup else []),

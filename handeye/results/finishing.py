@@ -1,4 +1,4 @@
-"""The end of a run, or a pause in it: account, verdict, pictures and result, in its folder."""
+"""Ends or pauses a run: writes account, verdict, pictures and result to its folder."""
 
 import msgspec
 from msgspec import UNSET
@@ -18,7 +18,9 @@ from handeye.runs.runner import Runner
 def outcome(
     runner: Runner, pause: Pause, meter: Meter, *, judged: bool, referee: Referee | None = None
 ) -> Result:
-    """The result of a paused run; `judged`: if it has ended, the referee, by default the task's, judges it."""
+    """Make the result of a paused run. If `judged` and the run has ended, a referee judges it; by default the
+    task's referee.
+    """
     asked = judged and pause.kind != "break" and runner.system.cell is not None
     found = findings(runner, pause, referee) if asked else None
     built = runner.system.built() if asked and runner.undone else {}
@@ -39,9 +41,11 @@ def finished(
     referee: Referee | None = None,
     folder: RunFolder | None = None,
 ) -> Result:
-    """Finish a run, unless it only pauses; its result, which is kept in its folder with the pictures.
+    """Finish a run, unless it only pauses, and return its result; result and pictures are written to the run's
+    folder.
 
-    The result is written last: if it exists, so does everything else. Raises InvalidInput if it cannot be written.
+    The result is written last: if it exists, all other files exist too. Raises InvalidInput if a file cannot be
+    written.
     """
     if pause.kind != "break":
         runner.finish()
@@ -54,7 +58,9 @@ def finished(
 def keep_outcome(
     folder: RunFolder, runner: Runner, pause: Pause, result: Result, *, photographs: bool = True
 ) -> None:
-    """Close the folder of a run with its pictures and its result; raises InvalidInput if they cannot be written."""
+    """Write pictures and result to the folder of a run, and close the folder; raises InvalidInput if that is
+    impossible.
+    """
     folder.close()
     keep_pictures(folder.path / PICTURES, runner, photographs=photographs)
     for name, data in runner.kind.files(runner, pause, result).items():

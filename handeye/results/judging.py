@@ -1,4 +1,4 @@
-"""Have the referee judge a finished run."""
+"""Calls the referee to judge a run."""
 
 from collections.abc import Callable, Mapping
 from math import isfinite
@@ -15,9 +15,11 @@ Limits = Mapping[str, float]  # Limits of findings by their names, each in the u
 
 
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
-    """Findings of a referee, by default the task's with the limits of the run; none before the program's end.
+    """Findings of a referee, by default the task's referee with the limits of the run; empty before the end of the
+    program.
 
-    After the arm has undone everything: whether all parts are back in place, and taught positions are as at first.
+    If the arm has undone all its work, the findings say whether all parts are back in place and the taught
+    positions are unchanged.
     """
     if pause.kind != "end":
         return {}
@@ -30,12 +32,12 @@ def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Fi
 
 
 def findings_so_far(runner: Runner) -> Findings:
-    """The referee's findings on the present work, finished or not."""
+    """Findings of the task's referee on the present state of the work, finished or not."""
     return runner.task.judge(runner.cell.truth)
 
 
 def checked_findings(referee: str, findings: object) -> Findings:
-    """The findings of a caller's own referee; raises InvalidInput if they are not findings."""
+    """Check what a caller's own referee returned; raises InvalidInput if it is not findings by name."""
     if not isinstance(findings, Mapping) or not all(
         isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
     ):
@@ -46,7 +48,7 @@ def checked_findings(referee: str, findings: object) -> Findings:
 
 
 def checked_limits(limits: Limits) -> dict[str, float]:
-    """The given limits as floats; raises InvalidInput for an unknown name or a limit that is not a number."""
+    """The given limits as floats; raises InvalidInput if a name is unknown or a limit is not a number."""
     checked: dict[str, float] = {}
     for name, limit in limits.items():
         if not isinstance(name, str):
@@ -58,13 +60,13 @@ def checked_limits(limits: Limits) -> dict[str, float]:
 
 
 def check_limits(runner: Runner) -> None:
-    """Check that each limit has a finding, before the run and not at its end; raises InvalidInput."""
+    """Check, before a run begins, that each limit belongs to a finding; raises InvalidInput if one does not."""
     if runner.setup.limits:
         limited(runner.task.judge(runner.cell.truth), runner.setup.limits)
 
 
 def limited(findings: Findings, limits: Limits) -> Findings:
-    """Findings against other limits; raises InvalidInput if there is no finding of the name of a limit."""
+    """Findings judged by other limits; raises InvalidInput if a limit belongs to no finding."""
     found = dict(findings)
     for name, limit in limits.items():
         if name not in found:

@@ -1,4 +1,4 @@
-"""The result of a run, or its progress so far, read from its folder, which is not changed."""
+"""The result of a run, or its progress so far, read from its folder without changing the folder."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -41,7 +41,7 @@ class KeptRun:
 
 
 def kept_run(path: Path) -> KeptRun:
-    """A run as its folder records it; raises InvalidInput if it cannot be read, or the run has not begun."""
+    """Read a run from its folder; raises InvalidInput if the folder cannot be read, or the run has not begun."""
     check_holds_run(path)
     faults = []
     if (path / RESULT).exists():
@@ -60,7 +60,7 @@ def kept_run(path: Path) -> KeptRun:
 
 
 def _readable_events(path: Path) -> list[AnyEvent]:
-    """The events in the folder of a run; none if they cannot be read."""
+    """The events in the folder of a run; empty if they cannot be read."""
     try:
         return effective(read_events(path / EVENTS, growing=True))
     except InvalidInput:
@@ -68,7 +68,7 @@ def _readable_events(path: Path) -> list[AnyEvent]:
 
 
 def _belongs(result: Result, events: Sequence[AnyEvent]) -> bool:
-    """True if a result can belong to the run of these events: program, task and world agree."""
+    """True if a result can belong to the run with these events: program, task and world agree."""
     begun = next((event for event in events if isinstance(event, RunStarted)), None)
     return begun is None or (
         (result.program, result.task, result.world, result.seed)
@@ -77,10 +77,11 @@ def _belongs(result: Result, events: Sequence[AnyEvent]) -> bool:
 
 
 def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
-    """True if the run in a folder has ended and left a result, with the referee's verdict if `judged`.
+    """True if the run in a folder has ended and its result is there; if `judged`, the result must contain the
+    referee's verdict.
 
     Args:
-        newest: its newest checkpoint.
+        newest: the newest checkpoint in the folder.
     """
     if not newest.ended or not (path / RESULT).exists():
         return False
@@ -94,7 +95,9 @@ def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
 
 
 def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> KeptRun:
-    """A run without a result, from its events; `faults` are already known."""
+    """Make the record of a run that has no result, from its events; `faults` are the flaws already found in the
+    folder.
+    """
     begun, last = events[0], events[-1]
     if not isinstance(begun, RunStarted):
         raise BadFile(f"{path / EVENTS} is an event list without the start of a run")
@@ -138,7 +141,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
 
 
 def _host(path: Path) -> tuple[HostSeconds, list[str]]:
-    """The host time of a run, as far as recorded, and the flaws of the record."""
+    """The host time of a run as far as it was recorded, and the flaws of that record."""
     try:
         return read_host_seconds(path / HOST) or HostSeconds(), []
     except InvalidInput as fault:
@@ -146,13 +149,13 @@ def _host(path: Path) -> tuple[HostSeconds, list[str]]:
 
 
 def _call(events: Sequence[AnyEvent]) -> OperatorCalled | None:
-    """The call of the operator that a run stands at."""
+    """The call of the operator at which a run has stopped; None if it has not stopped at one."""
     standing = [event for event in events if not isinstance(event, StageFinished | RunFinished)]
     return standing[-1] if standing and isinstance(standing[-1], OperatorCalled) else None
 
 
 def _message(events: Sequence[AnyEvent], call: OperatorCalled | None) -> str:
-    """The status of a run without a result, as a sentence without a full stop."""
+    """The state of a run without a result, as a sentence without a full stop."""
     last = events[-1]
     when = f"at {last.time:.1f} s"
     if call is not None:

@@ -15,9 +15,9 @@ from handeye.tasks import known, known_any
 from handeye.tasks.interface import HistoricalTiming, Words
 
 TimingRow = tuple[str, float, float | None]
-"""Name, seconds here, and seconds in the period; None: not reported."""
+"""A row of the timing table: name, seconds in this run, and seconds in 1973; None: not reported."""
 _NEUTRAL = Words(done="The referee accepts the result.", product="the work")
-"""Words for a task that is known only to the program that began the run."""
+"""Words for a task that is defined only in the Python program that began the run."""
 _MARK = {
     "done": ("✓", "green"),
     "under way": ("▸", "yellow"),
@@ -29,7 +29,9 @@ _MARK = {
 
 
 def page(result: Result) -> RenderableType:
-    """Stages, times of a run that is over, calibration of the camera, findings of the referee, and the verdict."""
+    """The result as a page: stages, times of an ended run, calibration of the camera, findings of the referee, and
+    verdict.
+    """
     result = printable(result)
     parts: list[RenderableType] = [stages(result)]
     if not result.paused:
@@ -42,7 +44,7 @@ def page(result: Result) -> RenderableType:
 
 
 def short_page(result: Result) -> RenderableType:
-    """The verdict, and a line each on stages, time, referee and computer."""
+    """The result in short: the verdict, and one line each on stages, time, referee and computer."""
     result = printable(result)
     table = Table(box=None, show_header=False, pad_edge=False)
     table.add_column("", style="dim")
@@ -71,7 +73,7 @@ def _short_rows(result: Result) -> Iterator[tuple[str, str]]:
 
 
 def _remarks(result: Result, *, short: bool = False) -> Iterator[RenderableType]:
-    """Sentences on faults, settings and doubts, and on what the operator did."""
+    """Sentences on faults, settings, warnings, and actions of the operator."""
     for told in told_faults(result):
         yield Text(f"broken: {told}", "yellow")
     for name, limit in (result.limits or {}).items():
@@ -86,14 +88,14 @@ def _remarks(result: Result, *, short: bool = False) -> Iterator[RenderableType]
 
 
 def told_faults(result: Result) -> Iterator[str]:
-    """The faults that a run was given, each as it would be typed."""
+    """The faults injected in a run, each in the form in which it is typed."""
     task = known(result.task)
     for fault in result.world.faults:
         yield str(fault) if task is None else task.faults(result.world).written(fault)
 
 
 def printable(result: Result) -> Result:
-    """A result whose texts cannot control a terminal, whatever their origin."""
+    """The result without control characters in its texts, whatever their origin, so that none reaches the terminal."""
 
     def made(value: object) -> object:
         match value:
@@ -109,7 +111,7 @@ def printable(result: Result) -> Result:
 
 
 def stages(result: Result) -> Table:
-    """The stages with status and arm time."""
+    """A table of the stages, with status and arm time."""
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
     table.add_column("stage")
@@ -123,7 +125,7 @@ def stages(result: Result) -> Table:
 
 
 def timing(result: Result) -> Table:
-    """The timing table; next to that of 1973, if the program was timed then."""
+    """The timing table, with a column for 1973 if the program was timed then."""
     t, then = result.timing, period(result)
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("", "here", "" if then is None else str(then.year)):
@@ -138,7 +140,7 @@ def timing(result: Result) -> Table:
 
 
 def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
-    """Rows of the timing table: computing time, between rows of simulated time."""
+    """Rows of the timing table: rows of simulated time, between two of computing time."""
     t = result.timing
     if t.planning_cpu_s:  # the plan may have been there already
         yield "planning phase (CPU)", t.planning_cpu_s, then.get("planning")
@@ -148,7 +150,7 @@ def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
 
 
 def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
-    """Name, simulated seconds, and seconds in 1973, if known; the sum is of both parts."""
+    """Rows of simulated time: name, seconds, and seconds in 1973, if known; the last row is the sum of both parts."""
     t, sees = result.timing, result.camera.used
     if t.friction_s:
         yield "joint friction", t.friction_s, None
@@ -164,7 +166,7 @@ def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]
 
 
 def period(result: Result) -> HistoricalTiming | None:
-    """The times of the period, if they belong to this program; at that time nothing was undone."""
+    """The times of 1973, if they belong to this program and nothing was undone in the run; else None."""
     if result.apart is not UNSET:
         return None
     task = known(result.task)
@@ -173,7 +175,7 @@ def period(result: Result) -> HistoricalTiming | None:
 
 
 def camera(result: Result) -> Text:
-    """Line on the camera: renderer, and accuracy of the calibration."""
+    """A line on the camera: renderer, and accuracy of the calibration."""
     seen = result.camera
     if seen.residual_in is None:
         return Text(f"camera: {seen.renderer}; not used", "dim")
@@ -184,7 +186,7 @@ def camera(result: Result) -> Text:
 
 
 def clock(seconds: float) -> str:
-    """Minutes and seconds, or seconds with a sensible number of digits."""
+    """A duration as minutes and seconds, or as seconds with a sensible number of digits."""
     if seconds >= 60:
         whole = round(seconds)
         return f"{whole // 60}:{whole % 60:02d} min"
@@ -192,7 +194,7 @@ def clock(seconds: float) -> str:
 
 
 def referee(result: Result) -> Table:
-    """The referee's measurements on the finished work, and after it was undone."""
+    """A table of the referee's measurements on the finished work, and on the parts after the work was undone."""
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
     table.add_column("referee")
@@ -214,7 +216,7 @@ def _mark(check: Check) -> Text:
 
 
 def verdict(result: Result) -> Text:
-    """The last word."""
+    """The verdict on the run, the last line of the page."""
     if result.paused:
         return Text(f"{result.message[:1].upper()}{result.message[1:]}.", "bold")
     if not result.completed:

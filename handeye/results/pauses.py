@@ -9,7 +9,7 @@ from handeye.runs.advance import AnyStop, Pause
 
 
 def pause_sentence(pause: Pause) -> str:
-    """Say why a run pauses, without a full stop."""
+    """The reason why a run pauses, as a sentence without a full stop."""
     if pause.met is not None:
         return _met(pause.met)
     if pause.kind == "panic":
@@ -20,7 +20,7 @@ def pause_sentence(pause: Pause) -> str:
 
 
 def stop_name(stop: AnyStop) -> str:
-    """Name a stop condition as users do: `line 58`, `label L1`, `AOJ`, `stage 4, ...`, `error 23`."""
+    """The name of a stop condition, as users write it: `line 58`, `label L1`, `AOJ`, `stage 4, ...`, `error 23`."""
     match stop:
         case stops.AtLine():
             return f"line {line_name(stop.line, stop.file)}"

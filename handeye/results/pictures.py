@@ -1,4 +1,6 @@
-"""The pictures that a run leaves: those the program took, with its findings, and the end."""
+"""The pictures in a run's folder: those that the program took, with the detected features, and photographs of the
+end.
+"""
 
 from contextlib import suppress
 from pathlib import Path
@@ -22,14 +24,16 @@ _QUALITY: Final = 70
 
 
 def annotated_png(system: RunningSystem, name: str) -> bytes:
-    """A picture with its findings, as a PNG file; raises InvalidInput if they are too far outside to be drawn."""
+    """A picture with the detected features drawn in, as a PNG file; raises InvalidInput if they lie too far outside
+    the picture.
+    """
     done, data = cv2.imencode(".png", _annotated(system, name))
     assert done
     return data.tobytes()
 
 
 def annotated_webp(system: RunningSystem, name: str) -> bytes:
-    """The annotated picture as a small WebP file, for pages."""
+    """A picture with the detected features drawn in, as a small WebP file for pages."""
     image = _annotated(system, name)
     high = round(_WIDE * image.shape[0] / image.shape[1])
     small = cv2.resize(image, (_WIDE, high), interpolation=cv2.INTER_AREA)
@@ -46,7 +50,9 @@ def _annotated(system: RunningSystem, name: str) -> NDArray[np.uint8]:
 
 
 def keep_pictures(folder: Path, runner: Runner, *, photographs: bool = True) -> None:
-    """Write the program's pictures, and where OpenGL can take them photographs of the cell; raises InvalidInput."""
+    """Write the program's pictures and, where OpenGL is available, photographs of the cell; raises InvalidInput if
+    they cannot be written.
+    """
     try:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
     except OSError as error:

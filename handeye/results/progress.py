@@ -30,7 +30,9 @@ _CALIBRATING: Final = "calibrating: view {} of {}"
 
 
 class Progress(Observer):
-    """Shows calibration, stage, statement and time of a run; without a terminal it prints one line a stage."""
+    """Shows calibration, stage, statement and time of a run in a progress bar; without a terminal, it prints one
+    line per stage.
+    """
 
     def __init__(self, stages: tuple[str, ...], console: Console) -> None:
         self._stages = stages
@@ -58,7 +60,7 @@ class Progress(Observer):
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """Hide the bar while the operator is asked."""
+        """Hide the progress bar while the operator is asked."""
         shown = self._bar.live.is_started
         self._bar.stop()
         try:
@@ -68,14 +70,14 @@ class Progress(Observer):
                 self._bar.start()
 
     def viewed(self, number: int, views: int) -> None:
-        """Begin view `number` of the `views` in which the camera is calibrated."""
+        """Show that the camera takes calibration view `number` of `views`."""
         said = _CALIBRATING.format(number, views)
         self._bar.update(self._task, description=said, completed=number - 1, total=views)
         if number == 1:
             self._line("", "calibrating the camera")
 
     def goes_on(self, stage: str) -> None:
-        """Begin in the midst of a stage."""
+        """Continue the bar in the middle of a stage, for a resumed run."""
         number = self._stages.index(stage)
         self._bar.update(
             self._task, description=escape(stage), text="", completed=number, total=len(self._stages)
@@ -99,13 +101,15 @@ class Progress(Observer):
             self._bar.update(self._task, clock=clock)
 
     def _line(self, clock: str, text: str) -> None:
-        """Print a line where there is no terminal."""
+        """Print a line if standard error is not a terminal."""
         if not self._console.is_terminal:
             self._console.print(f"{clock:>8}  {text}", markup=False)
 
 
 def _columns(width: int, longest: int) -> Iterator[ProgressColumn]:
-    """Columns that fit on a line of `width` characters: time and stage always, then a bar, then the statement."""
+    """Columns that fit on a line of `width` characters: always time and stage, then, if there is room, a bar and
+    the statement.
+    """
 
     def text(form: str, columns: int, style: str = "none") -> TextColumn:
         column = Column(no_wrap=True, overflow="ellipsis", min_width=columns, max_width=columns)

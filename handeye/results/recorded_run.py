@@ -13,7 +13,7 @@ from handeye.trace.trace import Trace
 
 
 def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> RecordedRun:
-    """A run from its trace, with the other files of its folder (`run`)."""
+    """Make a recorded run from its trace and the other files of its folder `run`."""
     result, remarks = _result(run)
     task = known(trace.head.task)
     views = () if task is None else task.photographs
@@ -24,7 +24,7 @@ def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> RecordedRun:
 
 
 def _result(run: Path) -> tuple[Result | None, tuple[str, ...]]:
-    """The result in the folder of a run, if there is one, and what is wrong with it."""
+    """The result in the folder of a run, or None, and the flaws of that file."""
     if not (run / RESULT).is_file():
         return None, ()
     try:

@@ -19,7 +19,9 @@ Status = Literal["done", "under way", "skipped", "stopped", "not reached", "undo
 
 
 class Stage(Record, frozen=True, kw_only=True):
-    """A stage of the program; `arm_s` is simulated seconds without those in which the arm waited for the camera."""
+    """A stage of the program; `arm_s` is its simulated time, s, without the time in which the arm waited for the
+    camera.
+    """
 
     name: str
     status: Status
@@ -27,54 +29,58 @@ class Stage(Record, frozen=True, kw_only=True):
 
 
 class Timing(Record, frozen=True, kw_only=True):
-    """Times of a run, simulated and computing; no field adds one to the other.
+    """Simulated time and computing time of a run; no field mixes the two.
 
-    Equal runs have equal simulated seconds. Fields that end in `_cpu_s` (CPU seconds) or `_wall_s` (wall-clock
-    seconds) are computing time, differ each time, and are summed over all sessions of a resumed run.
+    Equal runs have equal simulated times. Fields that end in `_cpu_s` (CPU seconds) or `_wall_s` (wall-clock
+    seconds) are computing times, which differ each time. For a resumed run they are summed over all sessions.
     """
 
     friction_s: float
-    """Simulated: the arm measured the friction of its joints, before the working phase."""
+    """Simulated: measuring the friction of the arm's joints, before the working phase."""
     calibration_s: float
-    """Simulated: the camera was calibrated, before the working phase."""
+    """Simulated: calibrating the camera, before the working phase."""
     manipulation_s: float
-    """Simulated: the working phase without the time in which the arm waited for the camera."""
+    """Simulated: the working phase, without the time in which the arm waited for the camera."""
     lens_s: float
-    """Simulated: the arm waited for lens change, aim, focus and pictures."""
+    """Simulated: time in which the arm waited for lens change, aim, focus and pictures."""
     overlapped_s: float
-    """Simulated: in addition, the camera's mechanism was busy while the arm moved."""
+    """Simulated: time in which the camera's mechanism was busy while the arm moved; already contained in
+    `manipulation_s`.
+    """
     working_s: float
-    """Simulated: the working phase, which is manipulation and lens."""
+    """Simulated: the working phase, the sum of `manipulation_s` and `lens_s`."""
     planning_cpu_s: float
-    """0: the plan existed already."""
+    """Computing time for planning; 0 if the plan existed already."""
     vision_cpu_s: float
     run_cpu_s: float
     run_wall_s: float
-    """From when the command was loaded, or the call from Python, to the verdict; including waiting for the user."""
+    """From loading the command, or the call from Python, to the verdict, including the time spent waiting for the
+    user.
+    """
     real_time_factor: float
-    """Simulated seconds, including set-up, per second of `run_wall_s`; differs each time."""
+    """Simulated seconds, including preparation, per second of `run_wall_s`; differs each time."""
     host_from_step: int
-    """Steps done before computing time was counted; 0: it covers the whole run."""
+    """Number of steps done before computing time was recorded; 0: the computing times cover the whole run."""
 
 
 class Check(Record, frozen=True, kw_only=True):
-    """One finding of the referee, as results keep it: a `Finding` with its sentence."""
+    """A finding of the referee as a result stores it: a `Finding` with its sentence."""
 
     ok: bool
     subject: str
     value: float
-    """In `unit`, as `limit`; null in JSON: it is not finite."""
+    """The measured value, in `unit`, like `limit`. JSON has null for a value that is not finite."""
     relation: Relation
     limit: float
     unit: str
     sentence: str
     """The finding as a sentence, without the value."""
     caution: bool = False
-    """If not `ok`, this is only a warning: the work may still be right."""
+    """True if a failed check is only a warning: the work may still be right."""
 
     @classmethod
     def of(cls, found: Finding) -> "Check":
-        """A finding with its sentence."""
+        """Make a check from a finding."""
         return cls(
             ok=found.ok,
             subject=found.subject,
@@ -88,56 +94,58 @@ class Check(Record, frozen=True, kw_only=True):
 
     @property
     def refuses(self) -> bool:
-        """True if it makes the work wrong."""
+        """True if the finding makes the work wrong."""
         return not self.ok and not self.caution
 
     @property
     def told(self) -> str:
-        """The finding as a sentence."""
+        """The finding as a sentence, with the value."""
         return f"{self.sentence}: {self.value:.3g}"
 
     def limited(self, limit: float) -> "Check":
-        """The same measurement with another limit, in the same unit; beyond it, the work is wrong."""
+        """The same measurement with another limit, in the same unit; a value beyond it makes the work wrong."""
         facts = {name: getattr(self, name) for name in self.__struct_fields__ if name != "sentence"}
         return Check.of(Finding(**facts).limited(limit))
 
 
 class CameraReport(Record, frozen=True, kw_only=True):
-    """Report on the camera: renderer and calibration."""
+    """The camera of a run: renderer and residuals of the calibration."""
 
     renderer: str
     sightings_rms_px: dict[str, float]
-    """Residual for each lens."""
+    """RMS residual of the calibration for each lens, in pixels."""
     residual_in: float | None
-    """On the table, inches; None if the program takes no picture and did not calibrate."""
+    """RMS residual on the table, in inches; None if the camera was not calibrated, because the program takes no
+    picture.
+    """
 
     @property
     def used(self) -> bool:
-        """True if it was calibrated."""
+        """True if the camera was calibrated."""
         return self.residual_in is not None
 
 
 class Result(Record, frozen=True, kw_only=True):
     """Result of a run.
 
-    Equal runs have equal `events`. Their results differ, because `timing` includes computing time.
+    Equal runs have equal events, but their results differ in `timing`, which includes computing time.
     """
 
     assembled: bool | None
-    """The referee's verdict; None if the referee was not asked."""
+    """True if the referee accepts the work, False if not; None if the referee has not judged it."""
     completed: bool
-    """The program ended, or the arm finished undoing what it was asked to."""
+    """True if the program ended, or if the arm finished the requested undoing."""
     paused: bool
-    """The run is before its end: paused on request, interrupted, or running."""
+    """True if the run has not ended: it pauses on request, was interrupted, or is running."""
     stopped_at: str | None
     error: int | None
     message: str
     interventions: tuple[str, ...]
-    """Interventions in the run, a sentence each."""
+    """Interventions of the operator and the user, one sentence each."""
     stages: tuple[Stage, ...]
     timing: Timing
     referee: dict[str, Check]
-    """Findings by name; empty if the referee was not asked or the program did not end: see `message`."""
+    """Findings of the referee by name; empty if the referee has not judged the run, see `message`."""
     task: str
     program: str
     seed: Seed
@@ -145,39 +153,43 @@ class Result(Record, frozen=True, kw_only=True):
     camera: CameraReport
     versions: dict[str, str]
     warnings: tuple[str, ...] = ()
-    """Reasons to doubt the result, a sentence each."""
+    """Reasons to doubt the result, one sentence each."""
     limits: dict[str, float] | UnsetType = UNSET
-    """Limits given in place of the referee's own, by the names of its findings."""
+    """Limits given in place of the referee's own, by the name of the finding."""
     replaced: dict[str, str] | UnsetType = UNSET
-    """Parts replaced by the caller's code, with the names of that code."""
+    """Parts replaced by the caller's Python code, with the name of that code."""
     without: tuple[str, ...] | UnsetType = UNSET
-    """Senses that the program did without."""
+    """Senses that were switched off in the program."""
     apart: bool | UnsetType | None = UNSET
-    """After a reversal: the referee's verdict whether every part is back in place; None: not asked, or not everything
-    is undone.
+    """After all work was undone: True if the referee finds every part back in place. None: not judged, or not all
+    work was undone.
     """
     built: dict[str, Check] | UnsetType = UNSET
-    """Findings on a job's work before the job undid it; `referee` has those after."""
+    """Findings on the work of a job before the job undid it; `referee` has the findings after that."""
 
     @property
     def judged(self) -> bool | None:
-        """The referee's verdict on what was built, taken apart, or both; None if the referee was not asked."""
+        """The referee's verdict on the assembly, on the undoing, or on both; None if the referee has not judged the
+        run.
+        """
         words = [word for word in (self.assembled, self.apart) if isinstance(word, bool)]
         return all(words) if words else None
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """All findings of the referee, those on what was built first."""
+        """All findings of the referee, with the findings on the assembly before those on the undoing."""
         return (*(self.built or {}).values(), *self.referee.values())
 
     @property
     def cautions(self) -> tuple[str, ...]:
-        """The referee's warnings, which do not make the work wrong, a sentence each."""
+        """Findings that are only warnings and do not make the work wrong, one sentence each."""
         return tuple(check.told for check in self.checks if not check.ok and check.caution)
 
     @property
     def exit_code(self) -> int:
-        """0 assembled, 1 the program called the operator, 3 the program reported success and the referee disagrees."""
+        """Exit code of the command: 0 success, 1 the program called the operator, 3 the program reported success
+        but the referee disagrees.
+        """
         if self.paused:
             return 0
         if not self.completed:
@@ -186,13 +198,13 @@ class Result(Record, frozen=True, kw_only=True):
 
 
 def to_json(result: Result, *, line: bool = False) -> bytes:
-    """The result as one JSON object, indented or on one `line`, with a final newline."""
+    """The result as one JSON object, indented or, with `line`, on one line, with a final newline."""
     encoded = msgspec.json.encode(result)
     return (encoded if line else msgspec.json.format(encoded, indent=1)) + b"\n"
 
 
 def read_result(path: Path) -> Result:
-    """The result in a file; raises InvalidInput if it cannot be read, or is no result."""
+    """Read a result from a file; raises InvalidInput if the file cannot be read, or is not a result."""
     try:
         written = msgspec.json.decode(read_whole(path, _LARGEST))
         for name in ("referee", "built") if isinstance(written, dict) else ():
@@ -203,7 +215,7 @@ def read_result(path: Path) -> Result:
 
 
 def restore_figures(findings: Any) -> None:
-    """Set figures of findings to NaN where JSON has null, which means a value that is not finite."""
+    """Replace null in the figures of findings by NaN; null in JSON stands for a value that is not finite."""
     for check in findings.values() if isinstance(findings, dict) else ():
         for name in ("value", "limit"):
             if isinstance(check, dict) and name in check and check[name] is None:

@@ -1,4 +1,4 @@
-"""The result of a run, from what happened in it."""
+"""Makes the result of a run from its events."""
 
 from collections.abc import Iterable, Iterator, Sequence
 
@@ -37,7 +37,7 @@ from handeye.vision.calibration import Calibration
 def summary(
     runner: Runner, pause: Pause, *, findings: Findings | None, built: Findings, host: HostSeconds
 ) -> Result:
-    """Summarize a run; `built`: findings on what a job built before it undid it."""
+    """Make the result of a run. `built` has the referee's findings on the work of a job before the job undid it."""
     completed = pause.kind == "end"
     names = runner.listing.stages
     cell = runner.system.cell
@@ -66,7 +66,7 @@ def summary(
 
 
 def _assembled(runner: Runner, findings: Findings | None, built: Findings, *, completed: bool) -> bool | None:
-    """The referee's verdict on what was built; None if it was not asked, or the work has been undone."""
+    """The verdict on the assembly; None if the referee has not judged it, or if the work has been undone."""
     if runner.undone:
         return all_right(built) if built else None
     return None if findings is None else completed and all_right(findings)
@@ -89,7 +89,7 @@ def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
 
 
 def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:
-    """Reasons to doubt a run, a sentence each."""
+    """Reasons to doubt a run, one sentence each."""
     place = ""
     for event in events:
         if isinstance(event, RunStarted):
@@ -101,7 +101,7 @@ def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:
 
 
 def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
-    """Status and arm time of each stage: simulated seconds without the camera's mechanism."""
+    """Status and arm time of each stage; arm time is simulated time, s, without waiting for the camera's mechanism."""
     seconds = dict.fromkeys(names, 0.0)
     status: dict[str, Status] = dict.fromkeys(names, "not reached")
     here, begun, busy, now = "", 0.0, 0.0, 0.0
@@ -124,7 +124,7 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
 
 
 def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timing:
-    """Times of a run of which these events have happened; `clock` is the cell's (s)."""
+    """Times of a run from its events so far; `clock` is the present time of the cell, s."""
     prepared = sum((event.prepared for event in events if isinstance(event, RunStarted)), 0.0)
     friction = sum((event.seconds for event in events if isinstance(event, FrictionMeasured)), 0.0)
     lens = sum((event.seconds for event in events if isinstance(event, CameraBusy)), 0.0)
@@ -146,7 +146,7 @@ def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timin
 
 
 def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
-    """Time (s) for which the camera's mechanism was busy up to `clock` (s) without the arm waiting for it."""
+    """Time, s, up to `clock`, in which the camera's mechanism was busy while the arm did not wait for it."""
     ready = busy = 0.0
     for event in events:
         if isinstance(event, CameraStarted):
@@ -158,7 +158,7 @@ def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
 
 
 def camera_report(renderer: Renderer, calibration: Calibration | None) -> CameraReport:
-    """Report on a camera, with its calibration if it has one."""
+    """Report on a camera, with the residuals of its calibration if there is one."""
     residuals = {} if calibration is None else calibration.residual_px
     return CameraReport(
         renderer=renderer_name(renderer),

@@ -15,7 +15,7 @@ from handeye.core.variation import Quantity, Variation, World, WorldSpec
 
 
 class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
-    """Value of a quantity in one world. Figures are in its unit, except for `si`."""
+    """A quantity of a world, with its value. All figures are in `unit`, except `si`."""
 
     name: str
     value: float
@@ -23,7 +23,9 @@ class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
     si: float
     distribution: str
     spread: float | tuple[float, ...] | None
-    """Sigma, half range or size at the level of this world; least and greatest of a range; what a choice can be."""
+    """Size of the error at the level of this world (sigma, half range or magnitude); or least and greatest value of
+    a range; or the values of a choice.
+    """
     nominal: float
     override: Literal["off", "set"] | None
     source: str  # What it is, with others of its kind, and where that is from
@@ -37,7 +39,7 @@ class WorldReport(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def report(table: Variation, world: World) -> WorldReport:
-    """The quantities of a world, in the order of the table."""
+    """Make the report on the quantities of a world, in the order of the table."""
     return WorldReport(world=world.spec, quantities=tuple(_reported(table, world)))
 
 
@@ -95,7 +97,7 @@ def _spread(quantity: Quantity, factor: float) -> float | tuple[float, ...] | No
 
 
 def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
-    """A line of the page, or two if it is too wide; names have `width` columns."""
+    """A quantity as one line of the page, or as two if one is too short; names fill `width` columns."""
     drawn = f"({how(quantity)})" if quantity.override else how(quantity)
     row = Text(f"  {quantity.name.ljust(width)} {quantity.value:10.4g} {quantity.unit:5}")
     told = (
