@@ -96,5 +96,5 @@ def test_the_summary_counts_the_rows() -> None:
     drawn = sum("drawn" in found for found in worlds)
     nominal = sum("nominal" in found and "drawn" not in found for found in worlds)
     assert f"{fully} rows are shown fully, {len(LINES) - fully} partly." in DOC
-    assert f"{drawn} are shown in drawn worlds, {nominal} in the nominal one only" in DOC
+    assert f"{drawn} are shown in drawn worlds, {nominal} in the nominal world only" in DOC
     assert f"{len(LINES) - drawn - nominal} need none" in DOC
