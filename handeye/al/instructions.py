@@ -63,60 +63,64 @@ PLACES, TOOL, VISION, RUN = "Positions", "Tool and load", "Vision", "Order of th
 
 _MEANINGS: Final = {
     "MOVE": "go to a position: up, across and down; with DIRECT, straight there",
-    "CHANGE": "move in a straight line from the present place: direction in table coordinates, inches, inches per "
-    "second (0: the usual speed)",
-    "PLACE": "lower the hand, at most 3 in, until it meets the smallest force it can reliably feel; else error 23",
+    "CHANGE": "move in a straight line from the present place, in this direction of the table, by this distance (in), "
+    "at this speed (in/s; 0 is the usual speed)",
+    "PLACE": "lower the hand by at most 3 in, until it meets the smallest force that it can feel reliably; error 23 if "
+    "it meets none",
     "PARK": "go to the position called PARK",
-    "TURN": "move on a circle about the vertical line through a position, degrees counter-clockwise",
-    "STOP": "end the next motion when the hand presses along the vector with more than its length (oz); with a "
-    "single number (ours), when anything opposes the motion with more; or when the hand exerts more than the moment "
-    "(oz-in); else error 23",
+    "TURN": "move on a circle about the vertical line through a position, by this angle (degrees, counter-clockwise)",
+    "STOP": "end the next motion when the hand presses along this vector with more than its length (oz), or exerts "
+    "more than this moment (oz-in); a single number (ours) limits the force against the motion, in any direction; "
+    "error 23 if the motion is not stopped",
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
-    "FREE": "yield to forces along these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
-    "SPIN": "yield to moments about these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
+    "FREE": "yield to forces along these table axes during the next CHANGE: 1 (yield) or 0 for each axis, or `2 X Y`",
+    "SPIN": "yield to moments about these table axes during the next CHANGE: 1 (yield) or 0 for each axis, or `2 X Y`",
     "VIA": "pass these positions on the next MOVE, in this order, without stopping",
     "TOUCH": "end the next motion when a finger touches something: 1 is the finger on the side to which angle O "
-    "points, 2 the other, 3 either; else error 25",
-    "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); else error 24",
+    "points, 2 the other finger, 3 either finger; error 25 if neither touches anything",
+    "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); error 24 if it never does",
     "RESTORE": "shift the goal of the preceding MOVE by a saved difference; with LEVEL, only horizontally",
     "OPEN": "open or close the fingers to this gap (in)",
-    "CLOSE": "close on a part; error 2 if there is none or it is thinner than the minimum (in), 7 if thicker than "
-    "the maximum",
+    "CLOSE": "close on a part; error 2 if there is none or it is thinner than the minimum (in), error 7 if it is "
+    "thicker than the maximum (in)",
     "CENTER": "close without pushing the part: the arm moves instead; error 2 if there is none or it is thinner than "
     "the minimum (in)",
-    "SKIPE": "skip the next instruction if the last action raised this error; clears it",
-    "SKIPN": "skip the next instruction if the last action did not raise this error; clears it",
-    "SEARCH": "start a spiral search with this step (in), or a search along a line in a direction, degrees from table "
-    "x; from the present place it extends three steps to each side, four along a line, or the given number",
-    "AOJ": "go to the next place of the search (error 6: there is none) and jump back to the label",
+    "SKIPE": "skip the next instruction if the last action raised this error; the test clears the error",
+    "SKIPN": "skip the next instruction if the last action did not raise this error; the test clears the error",
+    "SEARCH": "start a search from the present place with this step (in): a spiral of three steps to each side, or, "
+    "with ALONG, a line in this direction (degrees from table x) of four steps to each side; STEPS gives another "
+    "number of steps",
+    "AOJ": "go to the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",
     "SOJG": "subtract one from a counter, and jump to the label while it is still positive",
     "JUMP": "continue at the label",
     "WAIT": "set the brakes and show the operator a text; without an operator the run ends here",
-    "UNDO": "have the arm undo its stage and start it again, once or the given number of times; then continue",
-    "TRANS": "define a hand position: x, y, z (in), angles O, A, T (degrees); in table coordinates, or in those of a "
-    "part",
-    "VECT": "define a vector for STOP, FORCE and CHANGE, in the unit of its use: ounces, ounce-inches or none; "
+    "UNDO": "have the arm undo this stage and start it again, once or the given number of times; after that, continue",
+    "TRANS": "define a hand position by x, y, z (in) and the angles O, A, T (degrees), in table coordinates or in "
+    "those of a part",
+    "VECT": "define a vector for STOP, FORCE or CHANGE, in the unit of its use: ounces, ounce-inches or none; "
     "X, Y and Z are predefined",
-    "SAVE": "save the offset of the hand from the goal of the last MOVE; after CENTER only along the finger line",
-    "HERE": "define a position as the present place of the hand; a taught position of a part stays relative to that "
-    "part",
+    "SAVE": "save the offset of the hand from the goal of the last MOVE; after CENTER, save only its component along "
+    "the finger line",
+    "HERE": "define a position as the present place of the hand; a taught position that belongs to a part stays "
+    "relative to that part",
     "WHERE": "show the place of the hand in inches and degrees, in the form of `TRANS`",
-    "TRAVEL": "check how far (in) the hand moved in the last CHANGE, PLACE or CENTER; error 8 outside the range",
-    "HEIGHT": "check how much higher (in) the last motion ended than the one before the SAVE of this name; error 9 "
-    "outside the range",
-    "TOOL": "run the screwdriver (rpm, positive drives in); 0 is off",
+    "TRAVEL": "check how far (in) the hand moved in the last CHANGE, PLACE or CENTER; error 8 if that is outside the "
+    "range",
+    "HEIGHT": "check how much higher (in) the last motion ended than the motion before the SAVE of this name; error 9 "
+    "if that is outside the range",
+    "TOOL": "run the screwdriver at this speed (rpm): a positive speed drives a screw in, 0 is off",
     "LOAD": "declare the weight in the hand (oz), so that the arm supports it",
-    "LENS": "turn the lens turret to the 25 or the 50 mm lens",
+    "LENS": "turn the lens turret to the 25 mm or the 50 mm lens",
     "AIM": "point the camera at a position or a part, and focus",
-    "LOOK": "take a picture; with HOLD, at the target voltage (the gain) of the last one",
-    "GENERAL": "find the part's outline in the picture; error 30 if it is not seen",
-    "SPECIFIC": "find the part's holes in the picture; error 31 if they are not seen",
+    "LOOK": "take a picture; with HOLD, at the target voltage (the gain) of the last picture",
+    "GENERAL": "find the part's outline in the picture; error 30 if the picture does not show it",
+    "SPECIFIC": "find the part's holes in the picture; error 31 if the picture does not show them",
     "INSPECT": "compare two pictures and check that the part is in place; error 32 if it is not",
     "MATCH": "compare two pictures and check that the part has not moved; error 33 if it has",
-    "REQUIRE": "read a file of instructions, as if its lines were here; its path is relative to this file",
+    "REQUIRE": "read a file of instructions as if its lines were here; the path is relative to this file",
     "STAGE": "begin a stage of the work; reports use this name",
-    "DEFINE": "begin a macro; each call gives operands for its parameters, if it has any; a blank line ends it",
+    "DEFINE": "begin a macro, which a blank line ends; each call gives operands for its parameters, if it has any",
 }
 _GROUPS: Final = {
     MOTIONS: ("MOVE", "CHANGE", "PLACE", "PARK", "TURN", "RESTORE"),

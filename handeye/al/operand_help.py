@@ -23,7 +23,7 @@ def takes(definition: Instruction, operand: Operand) -> str:
     }
     choices = [*(kinds[kind] for kind in operand.takes), *["`NIL`"] * operand.nil]
     said = ", or ".join(choices) or "this word"
-    counted = ", or how many axes and which, `2 X Y`" if definition.axes else ""
+    counted = ", or the number of axes and their letters, as `2 X Y`" if definition.axes else ""
     return "; ".join([said, *_limits(operand)]) + counted
 
 
@@ -34,7 +34,7 @@ def origin(definition: Instruction, operand: Operand) -> str:
 
 def part(definition: Instruction) -> str:
     """The role of an instruction, and its origin."""
-    said = f"A {definition.role.value}, {'ours' if definition.ours else 'of the period'}."
+    said = f"A {definition.role.value} {'that handeye adds' if definition.ours else 'of the period'}."
     modified = ", ".join(f"`{word}`" for word in definition.fits)
     return f"{said} Modifies {modified}." if modified else said
 
