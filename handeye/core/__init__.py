@@ -1,1 +1,1 @@
-"""Foundations of every room: units, poses, records, files, errors; imports nothing else of handeye."""
+"""Foundations used by all packages: units, poses, records, files, errors. Imports no other package of handeye."""

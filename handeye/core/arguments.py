@@ -1,4 +1,6 @@
-"""Arguments from users: checked where they come in, so that a wrong one gives a message of one sentence."""
+"""Checks arguments from users where they enter the program, so that a wrong argument gives a message of one
+sentence.
+"""
 
 import os
 from collections.abc import Iterable
@@ -11,7 +13,9 @@ from handeye.core.errors import BadArgument
 
 
 def whole(given: object) -> int | None:
-    """The argument as a plain whole number; None if it is none, as for True and False."""
+    """The argument as a plain `int`; None if it is not a whole number. True and False do not count as whole
+    numbers.
+    """
     if isinstance(given, bool) or not isinstance(given, SupportsIndex):
         return None
     try:
@@ -21,7 +25,7 @@ def whole(given: object) -> int | None:
 
 
 def given_file(given: object, what: str) -> Path:
-    """The path of a file or folder that a caller gave; `what` begins the sentence of a refusal."""
+    """The path of a file or folder that a caller gave; raises BadArgument, whose sentence begins with `what`."""
     if not isinstance(given, (str, os.PathLike)):
         raise BadArgument(f"{what}, not {given!r}")
     name = os.fspath(given)
@@ -32,7 +36,7 @@ def given_file(given: object, what: str) -> Path:
 
 
 def _check_name(name: str) -> None:
-    """Raises InvalidInput if no file can have this name: it is too long, or has a NUL in it."""
+    """Raises InvalidInput if no file can have this name, because it is too long or contains a NUL character."""
     try:
         os.lstat(name)
     except (FileNotFoundError, NotADirectoryError):
@@ -43,7 +47,7 @@ def _check_name(name: str) -> None:
 
 
 def given_names(given: object, what: str) -> tuple[str, ...]:
-    """Names that were given one after the other; a single one may stand by itself."""
+    """Check names that a caller gave as an iterable; a single name may be given by itself."""
     names = (given,) if isinstance(given, str) or not isinstance(given, Iterable) else tuple(given)
     for name in names:
         if not isinstance(name, str):
@@ -52,7 +56,7 @@ def given_names(given: object, what: str) -> tuple[str, ...]:
 
 
 def given_count(given: object, what: str) -> int:
-    """A whole number of 1 or more."""
+    """Check that an argument is a whole number of 1 or more; `what` names the argument in the error."""
     count = whole(given)
     if count is None or count < 1:
         raise BadArgument(f"{what} must be a whole number of 1 or more, not {given!r}")

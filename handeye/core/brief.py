@@ -1,4 +1,4 @@
-"""Representations (`repr`) that fit on a screen, whatever a value holds."""
+"""Representations (`repr`) that fit on a screen, however large the value is."""
 
 from collections.abc import Iterable, Mapping
 from itertools import islice
@@ -13,7 +13,7 @@ LONGEST: Final = 1200  # characters: fifteen lines of 80
 
 
 class Brief:
-    """Base of dataclasses, made with `repr=False`, whose representation is brief."""
+    """Base of dataclasses with a brief `repr`; the dataclasses are made with `repr=False`."""
 
     __slots__ = ()
 
@@ -26,7 +26,7 @@ K = TypeVar("K")
 
 
 class Several(tuple[T, ...]):
-    """A tuple whose representation is brief."""
+    """A tuple with a brief `repr`."""
 
     __slots__ = ()
 
@@ -35,7 +35,7 @@ class Several(tuple[T, ...]):
 
 
 class Named(dict[K, T]):
-    """A dictionary whose representation is brief."""
+    """A dictionary with a brief `repr`."""
 
     __slots__ = ()
 
@@ -44,8 +44,7 @@ class Named(dict[K, T]):
 
 
 def brief(value: object) -> str:
-    """The representation of a value by the fields of its records, the first items of its collections, and the shapes
-    of its arrays."""
+    """A short `repr` of a value: the fields of records, the first items of collections, and the shapes of arrays."""
     return _cut(_shown(value, _DEPTH), LONGEST)
 
 
@@ -71,7 +70,7 @@ def _shown(value: Any, depth: int) -> str:
 
 
 def _fields(kind: type) -> tuple[str, ...] | None:
-    """Names of the fields of a kind of record; None where it is none, or has a representation of its own."""
+    """Names of the fields of a record type; None if the type is no record, or defines its own `repr`."""
     own: Any = kind.__repr__
     if issubclass(kind, msgspec.Struct):
         return kind.__struct_fields__ if own in (msgspec.Struct.__repr__, Brief.__repr__) else None

@@ -1,4 +1,4 @@
-"""Every kind of diagnostic, by code."""
+"""All kinds of diagnostics, by code."""
 
 from collections.abc import Mapping
 from typing import Final, Literal
@@ -11,7 +11,7 @@ Severity = Literal["error", "warning"]
 
 
 class Code(Record, frozen=True, kw_only=True):
-    """A kind of diagnostic, with a text that causes it and the files that text requires."""
+    """A kind of diagnostic, with an example text that causes it and the files required by that text."""
 
     severity: Severity
     meaning: str

@@ -1,6 +1,7 @@
-"""Diagnostics: each one mistake in a user's text, with its place, shown in a code frame.
+"""Diagnostics: each describes one mistake in a user's text, with its place, and can be shown in a code frame.
 
-A wrong text is never an exception: checkers collect `Diagnostic`s, callers render or serialise them.
+A mistake in a text is never an exception: checkers collect `Diagnostic` values, and callers print them or convert
+them to JSON.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -17,26 +18,26 @@ LIMIT: Final = 20  # diagnostics per text
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Label:
-    """A span within one line, with a text beside it that may be empty."""
+    """A span within one line of a text, with a note to show beside it, which may be empty."""
 
     span: Span
     text: str = ""
 
 
 class SimilarName(Record, frozen=True):
-    """A known name similar to the unknown one."""
+    """Suggestion for an unknown name: a similar known name."""
 
     name: str
 
 
 class KnownNames(Record, frozen=True):
-    """All known names, if they are few and none is similar."""
+    """Suggestion for an unknown name: all known names, if they are few and none is similar."""
 
     names: tuple[str, ...]
 
 
 class MissingMark(Record, frozen=True):
-    """A missing mark after a word."""
+    """Suggestion: a mark that is missing after a word."""
 
     mark: str
 
@@ -46,7 +47,9 @@ Meant = SimilarName | KnownNames | MissingMark  # what was probably meant, for a
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Diagnostic:
-    """One mistake. `message` is one lower-case sentence, true without the frame; `meant` replaces the primary span."""
+    """One mistake in a text. `message` is one lower-case sentence that can be understood without the code frame;
+    `meant` is text to replace the primary span.
+    """
 
     code: str
     message: str
@@ -62,7 +65,7 @@ class Diagnostic:
 
     @property
     def severity(self) -> Severity:
-        """`error` or `warning`, by its code."""
+        """`error` or `warning`: `own` if set, else as the code defines."""
         return self.own or CODES[self.code].severity
 
 
@@ -77,7 +80,7 @@ def problem(
     meant: Meant | None = None,
     own: Severity | None = None,
 ) -> Diagnostic:
-    """A diagnostic at a span; `text` is shown next to the mark."""
+    """Make a diagnostic at a span; `text` is shown next to the mark."""
     primary = Label(span=span, text=text)
     return Diagnostic(
         code=code, message=message, primary=primary, secondary=secondary, notes=notes, help=help, meant=meant,
@@ -90,7 +93,7 @@ def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
 
 
 def arranged(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Distinct mistakes by position, at most `LIMIT`; errors are kept before warnings."""
+    """Distinct diagnostics in order of position, at most `LIMIT`; errors are kept before warnings."""
     once = {(d.code, d.primary.span): d for d in diagnostics}
     kept = sorted(once.values(), key=lambda d: (d.severity != "error", d.primary.span))[:LIMIT]
     return sorted(kept, key=lambda d: (d.primary.span, d.code))
@@ -127,13 +130,15 @@ LONGEST_COMPARED: Final = 40  # characters; the search takes their square
 
 
 def quoted(name: str) -> str:
-    """A word of the user's text for a sentence: in backquotes, shortened, printable."""
+    """A word of the user's text for a sentence: in backquotes, shortened to 40 characters, printable."""
     short = name if len(name) <= 40 else name[:39] + "…"
     return f"`{_visible(short)[0]}`"
 
 
 def alternatives(name: str, known: Iterable[str]) -> SimilarName | KnownNames | None:
-    """The nearest known name, at most a third of the length of `name` away; else all if they are few."""
+    """The nearest known name, at an edit distance of at most a third of the length of `name`; else all known names,
+    if they are few.
+    """
     choices = sorted(set(known))
     if _too_many(name, choices):
         return None
@@ -143,12 +148,14 @@ def alternatives(name: str, known: Iterable[str]) -> SimilarName | KnownNames | 
 
 
 def suggestion(name: str, known: Iterable[str]) -> str | None:
-    """`did you mean ...?`, or `known: ...`, for an unknown name; None if nothing helps."""
+    """A hint for an unknown name: `did you mean ...?`, or `known: ...`; None if there is neither a similar name nor
+    a short list.
+    """
     return names_sentence(alternatives(name, known))
 
 
 def names_sentence(names: SimilarName | KnownNames | None) -> str | None:
-    """The sentence of `suggestion`."""
+    """Write a suggestion as a sentence."""
     match names:
         case SimilarName(name):
             return f"did you mean {quoted(name)}?"
@@ -158,7 +165,7 @@ def names_sentence(names: SimilarName | KnownNames | None) -> str | None:
 
 
 def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:
-    """The known name that looks the same, else the one at the least edit distance, at most `farthest`."""
+    """A known name that looks the same, else the one at the least edit distance; None beyond `farthest`."""
     choices = sorted(set(known))
     if _too_many(name, choices):
         return None
@@ -175,7 +182,9 @@ def _too_many(name: str, choices: Sequence[str]) -> bool:
 
 
 def _distance(a: str, b: str, farthest: int) -> int:
-    """Edit distance with swaps of neighbours (Damerau-Levenshtein), or a number beyond `farthest`."""
+    """Edit distance in which swapping two neighbours counts 1 (Damerau-Levenshtein); any number beyond `farthest`
+    if greater.
+    """
     if abs(len(a) - len(b)) > farthest:
         return farthest + 1
     before: list[int] = []
@@ -196,7 +205,9 @@ WIDTH: Final = 110  # characters of a source line in a frame
 
 
 def render(diagnostic: Diagnostic, source: Source) -> str:
-    """The diagnostic with its code frame; no final newline. Other files come after the primary's."""
+    """The diagnostic with its code frame, without a final newline. Labels in other files follow those in the
+    primary file.
+    """
     texts: dict[str, tuple[Source, list[_Mark]]] = {}
     for label, mark in ((diagnostic.primary, "^"), *((s, "-") for s in diagnostic.secondary)):
         text, start = source.find(label.span.start)
@@ -216,7 +227,7 @@ def render(diagnostic: Diagnostic, source: Source) -> str:
 
 
 class _Mark(NamedTuple):
-    """Characters of a line to mark, from 0, with the text beside them."""
+    """Characters of a line to mark, counted from 0, with the text to show beside them."""
 
     line: int
     column: int
@@ -237,12 +248,14 @@ def _lines(source: Source, marks: Sequence[_Mark], pad: str) -> Iterator[str]:
 
 
 def visible(text: str) -> str:
-    """Lines of text as a terminal may show them, control characters as symbols."""
+    """Text for a terminal, with control characters shown as symbols."""
     return "\n".join(_visible(line)[0] for line in text.split("\n"))
 
 
 def _visible(text: str) -> tuple[str, list[int]]:
-    """`text` as a terminal may show it (tabs expanded, control characters as symbols), and columns by offset."""
+    """A line for a terminal, with tabs expanded and control characters as symbols, and the column of each character
+    offset.
+    """
     line, columns = "", []
     for character in text:
         columns.append(len(line))
@@ -257,7 +270,7 @@ def _visible(text: str) -> tuple[str, list[int]]:
 
 
 def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:
-    """A source line cut to width, and the rows of marks and texts under it."""
+    """A source line cut to the width of the frame, and the rows of marks and texts below it."""
     shown, columns = _visible(line)
     marks = []
     for label in labels:
@@ -274,7 +287,9 @@ def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:
 
 
 def _rows(marks: list[tuple[int, int, str, str]]) -> list[str]:
-    """Rows under a line: marks, with the last text beside them and the others below, on stems."""
+    """The rows below a line: the marks with the text of the last one beside them, and the other texts below, on
+    stems.
+    """
     under = [" "] * max(end for _, end, _, _ in marks)
     for start, end, mark, _ in sorted(marks, key=lambda m: m[2] == "^"):
         under[start:end] = mark * (end - start)

@@ -1,4 +1,4 @@
-"""Distributions of the quantities that vary between worlds, in the quantity's own unit."""
+"""Distributions of the quantities that vary between worlds, in each quantity's own unit."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Distribution(ABC):
 
     @abstractmethod
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
-        """Draw a value."""
+        """Draw a value; `nominal` is the value without error."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Uniform(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class _Constant(Distribution):
-    """The same value in every world of a level."""
+    """Base of errors with the same value in every world of a level."""
 
     spread: float
 
@@ -58,7 +58,7 @@ class _Constant(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Noise(_Constant):
-    """Sensor noise of the same sigma in every world of a level; the sigma is the value."""
+    """Standard deviation of a sensor's noise: the same in every world of a level."""
 
     name = "noise"
 
@@ -72,7 +72,7 @@ class Fixed(_Constant):
 
 @dataclass(frozen=True, slots=True)
 class Step(_Constant):
-    """The step of a converter: the same in every world, whatever the level."""
+    """Step of an analogue-to-digital converter: the same in every world, whatever the level."""
 
     name = "step"
     is_error = False
@@ -80,7 +80,7 @@ class Step(_Constant):
 
 @dataclass(frozen=True, slots=True)
 class Range(Distribution):
-    """Uniform from `low` to `high`: part of the task, not an error."""
+    """Uniform from `low` to `high`; it is part of the task, not an error, so the level does not change it."""
 
     name = "range"
     is_error = False
@@ -104,7 +104,7 @@ class Phase(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Choice(Distribution):
-    """A choice of the job, drawn by no seed: the nominal value, unless it is set to another of `values`."""
+    """A choice within the job: the nominal value, unless it is set to another of `values`. No seed changes it."""
 
     name = "choice"
     is_error = False
@@ -115,5 +115,5 @@ class Choice(Distribution):
 
 
 def random_numbers(seed: int, name: str) -> np.random.Generator:
-    """The stream of a name in the world of a seed."""
+    """The random number generator for one name in the world of a seed."""
     return np.random.default_rng(np.random.SeedSequence([seed, crc32(name.encode())]))

@@ -1,7 +1,7 @@
-"""Entries of systems: what one says of itself before anything of it is loaded, and what it cannot do.
+"""Entries of systems: the description of a system that is available before the system is loaded.
 
 A system is a folder of `handeye/systems`, or another package that names its entry in the entry-point group
-`handeye.systems`. An entry is data: names, sentences, and where the rest is found, as `module:NAME`.
+`handeye.systems`. An entry is data: names, sentences, and the locations of the system's objects, as `module:NAME`.
 """
 
 import sys
@@ -44,7 +44,7 @@ VERBS: Final[Mapping[Capability, str]] = {
 
 
 class Entry(Record, frozen=True, kw_only=True):
-    """A system's entry."""
+    """The description of a system: names, help, capabilities, and locations of its objects."""
 
     name: str  # checkpoints and traces name it
     title: str  # its name in sentences
@@ -65,12 +65,12 @@ _registered: Final[dict[str, Entry]] = {}
 
 
 def register(entry: Entry) -> None:
-    """Make a system known to this program; one of its name is replaced."""
+    """Make a system known in this process; it replaces a registered system of the same name."""
     _registered[entry.name] = entry
 
 
 def entries() -> Mapping[str, Entry]:
-    """All entries by name: those that come with handeye, those of installed packages, those that were registered."""
+    """All entries by name: those included with handeye, those of installed packages, and the registered ones."""
     return {entry.name: entry for entry in (*_installed(), *_registered.values())}
 
 
@@ -86,7 +86,9 @@ def _installed() -> list[Entry]:
 
 
 def _sound(entry: object) -> Entry:
-    """An entry with fields of the right types that takes no other's name; raises BadFile or msgspec.ValidationError."""
+    """Check that an entry has fields of the right types and takes no name of another entry; raises BadFile or
+    msgspec.ValidationError.
+    """
     if not isinstance(entry, Entry):
         raise BadFile(f"its entry point leads to {entry!r}, which is not an Entry")
     msgspec.convert(msgspec.to_builtins(entry), Entry)
@@ -100,7 +102,7 @@ _broken: Final[dict[str, str]] = {}  # reasons, by entry point
 
 
 def entry_named(name: str) -> Entry:
-    """The entry of a system; raises NoSuchName if there is none of that name."""
+    """The entry of a system; raises NoSuchName if there is no system of that name."""
     known = entries()
     if name in _broken:
         raise BadFile(f"the system {quoted(name)} cannot be loaded: {_broken[name]}")
@@ -110,7 +112,7 @@ def entry_named(name: str) -> Entry:
 
 
 def loaded(place: str, what: str = "") -> Any:
-    """The object at `module:NAME`; raises BadFile, with `what` before its place, if it cannot be imported."""
+    """The object at `module:NAME`; raises BadFile if it cannot be imported, with `what` before the location."""
     module, _, name = place.partition(":")
     try:
         return getattr(import_module(module), name)
@@ -122,14 +124,18 @@ def loaded(place: str, what: str = "") -> Any:
 
 
 def entry_of_file(name: str) -> tuple[Entry | None, str]:
-    """The entry whose language a file has by its name, and the longest ending that says so; None if none says so."""
+    """The entry whose language a file has, by the ending of its name, and the longest ending that matches; None if
+    none matches.
+    """
     known = {ending: entry for entry in entries().values() for ending in entry.languages}
     ending = max(filter(name.lower().endswith, known), key=len, default="")
     return known.get(ending), ending
 
 
 def refusal(name: str, capability: Capability, whose: str = "") -> Refused:
-    """The sentence that a system cannot do something; `whose` names a run or file, if there is one."""
+    """The exception that says that a system lacks a capability; `whose` names the run or file concerned, if there
+    is one.
+    """
     entry = entry_named(name)
     why = entry.reasons.get(capability, "")
     before, behind = f"{whose}: " if whose else "", f": {why}" if why else ""
@@ -137,7 +143,7 @@ def refusal(name: str, capability: Capability, whose: str = "") -> Refused:
 
 
 def require(name: str, capability: Capability, whose: str = "") -> None:
-    """See that a system can do something; raises Refused, with its name and the reason, if it cannot."""
+    """Raises Refused, with the system's name and the reason, if a system lacks a capability."""
     if capability not in entry_named(name).can:
         raise refusal(name, capability, whose)
 
@@ -146,7 +152,9 @@ FILE = "entry_points.txt"
 
 
 def entry_points(group: str) -> dict[str, str]:
-    """`module:NAME` of the entry points of a group, by name; `importlib.metadata` is asked where a package has one."""
+    """The entry points of a group, as `module:NAME` by name. `importlib.metadata` is loaded only if a package has
+    entry points.
+    """
     heading = f"[{group}]"
     if not any(heading in file.read_text("utf-8", "replace") for path in sys.path for file in _files(path)):
         return {}

@@ -1,36 +1,36 @@
 """Exceptions for callers, and the numbered errors that a script can test.
 
-A wrong script is a `Diagnostic`, collected and never raised. A world that does not cooperate is an error
-*number*, tested by SKIPE and SKIPN. The exceptions here are for a caller who misuses the interface or hands
-over an unusable file, and for a run that broke down; each carries one clear sentence for the user:
+A mistake in a script is a `Diagnostic`, which is collected and not raised. A failure in the cell, such as an empty
+hand, is an error *number*, which SKIPE and SKIPN test. The exceptions here are for a caller who misuses the
+interface or gives an unusable file, and for a run that broke down; each carries one clear sentence for the user:
 
     HandeyeError
-    ├── InvalidInput              what was given cannot be used
+    ├── InvalidInput              an argument, file or request cannot be used
     │   ├── BadArgument           an argument, an option or a typed command
-    │   │   └── NoSuchName        nothing is called that; the sentence says what there is
+    │   │   └── NoSuchName        an unknown name; the sentence gives the known ones
     │   ├── BadFile               missing, unreadable, damaged, or of another version, plan or run
     │   ├── CannotWrite           a file or a folder
-    │   │   ├── Taken             one of its kind is there, and may not be replaced
-    │   │   └── HoldsRun          a folder that holds a run (runs.folder)
-    │   ├── Refused               understood, but this machine, system or state does not do it
+    │   │   ├── Taken             a file or folder of this kind exists and may not be replaced
+    │   │   └── HoldsRun          the folder holds a run (runs.folder)
+    │   ├── Refused               a valid request that this machine, system or state cannot execute
     │   │   └── MissingExtra      a package of an extra is not installed
-    │   └── ScriptError           a script has errors: the diagnostics are with it (api)
+    │   └── ScriptError           a script has errors; its diagnostics are attached (api)
     ├── PhysicsFailed             the simulation of a work cell broke down
     ├── CalibrationFailed         the camera could not be calibrated
     └── FrictionUnknown           the friction of the joints could not be measured
 
-A system or a sweep may have its own beneath these. The command line ends with exit code 2 on whichever reaches it.
+A system or a sweep may define exceptions below these. The command line ends with exit code 2 on any of them.
 """
 
 from typing import Final
 
 
 class HandeyeError(Exception):
-    """Base of every exception a caller may want to catch; `str(error)` is a sentence for the user."""
+    """Base of all exceptions that a caller may want to catch; `str(error)` is a sentence for the user."""
 
 
 class InvalidInput(HandeyeError):
-    """A file or argument is unusable, or its request cannot be executed."""
+    """An argument or file cannot be used, or a request cannot be executed."""
 
 
 class BadArgument(InvalidInput):
@@ -38,7 +38,7 @@ class BadArgument(InvalidInput):
 
 
 class NoSuchName(BadArgument):
-    """Nothing is called that."""
+    """There is no object of that name."""
 
 
 class BadFile(InvalidInput):
@@ -46,7 +46,7 @@ class BadFile(InvalidInput):
 
 
 class CannotWrite(InvalidInput):
-    """A file or folder cannot be written, or has contents that must not be replaced."""
+    """A file or folder cannot be written, or its contents must not be replaced."""
 
 
 class Taken(CannotWrite):
@@ -58,15 +58,17 @@ class Refused(InvalidInput):
 
 
 class PhysicsFailed(HandeyeError):
-    """The simulation of a work cell broke down; not an event of its work."""
+    """The simulation of a work cell broke down; this is a defect of the simulation, not an error in the work."""
 
 
 class CalibrationFailed(HandeyeError):
-    """The camera could not be calibrated: the lamp was not seen often enough."""
+    """The camera could not be calibrated, because the lamp was not seen often enough."""
 
 
 class FrictionUnknown(HandeyeError):
-    """The arm did not move as it must for its friction to be measured, or has links of a weight that cannot be."""
+    """The friction of the arm's joints could not be measured, because the arm did not move as required, or because
+    its links have unknown weights.
+    """
 
 
 JOINT_LIMIT: Final = 1
@@ -120,8 +122,9 @@ ERRORS: Final[dict[int, str]] = {
     PICTURE_WRONG: "the camera gives a picture that is not live, or too noisy",
     JOINT_STIFF: "one joint alone does not follow its drive: its drive, brake or friction has changed",
 }
-"""Error numbers a script can test, with the operator's message. 2 and 23 are from the period; from 50 on, a
-sensor is faulty."""
+"""Error numbers that a script can test, with the message to the operator. Numbers 2 and 23 are those of 1973;
+numbers from 50 on mean a faulty sensor.
+"""
 
 
 class MissingExtra(Refused):

@@ -1,6 +1,6 @@
-"""Faults on demand: what can be broken in a run, each with a dotted name, as `gap_potentiometer.stuck`.
+"""Faults that can be injected in a run, each with a dotted name such as `gap_potentiometer.stuck`.
 
-A task has a catalogue of them. A run records its faults with its world; none is ever drawn at random.
+Each task has a catalogue of faults. A run records its faults with its world. Faults are never drawn at random.
 """
 
 import re
@@ -17,7 +17,7 @@ from handeye.core.units import UNITS, Unit
 
 
 class Fault(Record, frozen=True, kw_only=True):
-    """One fault of a run."""
+    """One injected fault of a run; `stage` is the stage at which it begins, None: from the start."""
 
     name: str
     value: float | None = None  # size, SI; None if the kind has none
@@ -38,22 +38,26 @@ class Size:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExpectedDetection:
-    """The expected end of a run with a fault of usual size, present from the start."""
+    """The expected end of a run with a fault of usual size that is present from the start."""
 
     errors: tuple[int, ...] = ()  # errors that identify it
     calls: tuple[str, ...] = ()
-    """Operator messages that identify it; `{...}` in one stands for any part's name or number."""
+    """Messages to the operator that identify the fault; `{...}` in a message stands for the name or number of any
+    part.
+    """
     at_setup: bool = False  # measuring the arm or calibrating the camera fails
     stages: tuple[str, ...] = ()  # stages in which these are right; empty: any
     harmless: str = ""  # why the work may still come out right; empty: it must be noticed
 
     def called(self, message: str) -> bool:
-        """True if an operator message is one of those that identify it."""
+        """True if a message to the operator identifies the fault."""
         return any(is_call(call, message) for call in self.calls)
 
 
 def is_call(call: str, message: str) -> bool:
-    """True if an operator message is a call of a declaration, in which `{...}` stands for any part's name or number."""
+    """True if a message to the operator matches the pattern `call`, in which `{...}` stands for the name or number
+    of any part.
+    """
     return re.fullmatch(".+".join(map(re.escape, re.split(r"\{[^}]*\}", call))), message) is not None
 
 
@@ -62,13 +66,15 @@ UNKNOWN: Final = ExpectedDetection()  # no expectation stated
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FaultKind:
-    """A kind of fault in a catalogue."""
+    """A fault that a catalogue offers: name, meaning, possible sizes and expected detection."""
 
     name: str
     meaning: str  # a sentence: what is broken, and what the program gets instead
     size: Size | None = None  # None: no value
     when: Literal["before", "during"] = "during"
-    """`before` the run: in the world from the start only; `during` it: from the start or with a stage."""
+    """`before`: the fault can only be present in the world from the start; `during`: it can also begin with a
+    stage.
+    """
     usual_stage: int | None = None  # default onset, stage from 1; None: from the start
     expected: ExpectedDetection = UNKNOWN
 
@@ -78,7 +84,7 @@ class FaultKind:
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Least and greatest value, in its unit."""
+        """Least and greatest value of the fault, in the unit of its size."""
         assert self.size is not None
         return self.size.limits
 
@@ -92,14 +98,14 @@ class FaultKind:
         return UNITS[self.unit]
 
     def usual(self, stage: int | None = None) -> Fault:
-        """The fault at its usual size, from a stage on or its default onset."""
+        """The fault at its usual size, from the given stage on, or from its default stage."""
         value = None if self.size is None else self.size.usual * self.measure.size
         fault = Fault(name=self.name, value=value, stage=stage or self.usual_stage)
         self.check(fault)
         return fault
 
     def check(self, fault: Fault) -> None:
-        """Raise BadArgument unless the fault's value and stage fit."""
+        """Raises BadArgument unless value and stage of a fault are possible."""
         if fault.stage is not None and self.from_start:
             raise BadArgument(
                 f"the fault {quoted(self.name)} cannot begin while the cell works; leave out `@{fault.stage}`"
@@ -119,14 +125,14 @@ class Catalogue:
     """The faults of a task, in listing order."""
 
     def __init__(self, *kinds: FaultKind, matrix: Sequence[str] = ()) -> None:
-        """`matrix` names the faults to test a program with by default; all if empty."""
+        """`matrix` names the faults with which a program is tested by default; empty: all."""
         self.kinds = {kind.name: kind for kind in kinds}
         assert len(self.kinds) == len(kinds), "two faults have one name"
         self.matrix = tuple(matrix) or tuple(self.kinds)
         assert {*self.matrix} <= self.kinds.keys(), "the matrix names a fault that does not exist"
 
     def kind(self, name: str) -> FaultKind:
-        """The fault of a name; raises NoSuchName."""
+        """The kind of fault with a name; raises NoSuchName."""
         if name in self.kinds:
             return self.kinds[name]
         inside = [known for known in self.kinds if known.startswith(f"{name}.")]
@@ -139,18 +145,18 @@ class Catalogue:
         raise NoSuchName(f"there is no fault {quoted(name)}; {near}")
 
     def select(self, name: str) -> tuple[FaultKind, ...]:
-        """The fault of a name, or those of a group; raises NoSuchName."""
+        """The kind of fault with a name, or all those of a group; raises NoSuchName."""
         found = tuple(kind for kind in self.kinds.values() if f"{kind.name}.".startswith(f"{name}."))
         return found or (self.kind(name),)
 
     def check(self, faults: Sequence[Fault]) -> None:
-        """Raise BadArgument unless a run can have these faults."""
+        """Raises BadArgument unless one run can have all these faults."""
         for fault in faults:
             self.kind(fault.name).check(fault)
         once(fault.name for fault in faults)
 
     def written(self, fault: Fault) -> str:
-        """A fault as on the command line, its value in its own unit."""
+        """A fault as it is typed on the command line, with its value in the fault's unit."""
         kind = self.kind(fault.name)
         value = (
             "" if fault.value is None else f"={fault.value / kind.measure.size:g}{kind.unit.replace(' ', '')}"
@@ -159,7 +165,7 @@ class Catalogue:
 
 
 def once(names: Iterable[str]) -> None:
-    """Raise BadArgument if a name occurs twice."""
+    """Raises BadArgument if the name of a fault occurs twice."""
     seen: set[str] = set()
     for name in names:
         if name in seen:

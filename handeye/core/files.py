@@ -1,4 +1,4 @@
-"""Reads files of sensible size, writes files whole or not at all, and appends lines."""
+"""Reads files of limited size, writes files completely or not at all, and appends lines."""
 
 import errno
 import os
@@ -21,7 +21,9 @@ _CANNOT: Final = {
 }  # of a file system that cannot do it
 _NOWHERE: Final = {errno.ENOENT, errno.ENOTDIR, errno.ENAMETOOLONG}
 _OF_NAME: Final = 40
-"""Characters of a name that a temporary file takes over: with all of a long one, its own would be too long."""
+"""Number of characters of a file's name that the name of its temporary file repeats; more could make that name too
+long.
+"""
 
 _FRONT: Final = 1024  # bytes that identify a file
 
@@ -36,7 +38,9 @@ class Kind:
 
 
 def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
-    """Content of a file; raises BadFile if it is missing, no file, larger than `largest` or unreadable."""
+    """Content of a file; raises BadFile if the file is missing, not a regular file, larger than `largest` bytes, or
+    unreadable.
+    """
     file = Path(path)
     try:
         if not file.exists():
@@ -57,14 +61,14 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
 
 
 def beside(path: Path, ending: str) -> Path:
-    """The file of the same name with another ending; raises CannotWrite for a directory."""
+    """The path of the same name with another ending; raises CannotWrite for a directory."""
     if not path.name:
         raise CannotWrite(f"{path} is a directory, not a file")
     return path.with_suffix(ending)
 
 
 def is_there(path: Path) -> bool:
-    """True if there is something of a name, be it a link that leads nowhere; raises BadFile if that cannot be known."""
+    """True if a path exists, even as a link to nothing; raises BadFile if this cannot be determined."""
     try:
         path.lstat()
     except ValueError:  # a name with a NUL in it
@@ -77,12 +81,12 @@ def is_there(path: Path) -> bool:
 
 
 def temporary_beside(place: Path) -> str:
-    """The beginning of the name of a temporary file or folder that will replace one."""
+    """Beginning of the name of the temporary file or folder that will replace `place`."""
     return f".{place.name[:_OF_NAME]}."
 
 
 def settle(file: int) -> None:
-    """Have what was written to a descriptor on the disk; some file systems cannot say when it is."""
+    """Flush a file descriptor to the disk; file systems that do not support this are ignored."""
     try:
         os.fsync(file)
     except OSError as error:
@@ -91,11 +95,11 @@ def settle(file: int) -> None:
 
 
 def check_place(path: Path, kind: Kind, *, overwrite: bool = True) -> None:
-    """Raise CannotWrite unless a file of this kind can be written here, replacing none of another kind.
+    """Raise CannotWrite unless a file of this kind can be written here without replacing one of another kind.
 
     Raises:
-        CannotWrite: it cannot be written there.
-        Taken: one of this kind is there, and `overwrite` does not let it be replaced.
+        CannotWrite: the file cannot be written there.
+        Taken: a file of this kind exists, and `overwrite` is False.
     """
     if not path.name.lower().endswith(kind.ending):
         raise CannotWrite(f"{path}: the name of the {kind.name} must end in {kind.ending}")
@@ -117,19 +121,21 @@ def check_place(path: Path, kind: Kind, *, overwrite: bool = True) -> None:
 
 
 def check_new(path: Path) -> None:
-    """Raise Taken if something is there: a typed command has no `--overwrite`."""
+    """Raise Taken if the path exists. For typed commands, which have no option `--overwrite`."""
     if path.exists():
         raise Taken(f"{path} already exists; nothing was written, choose another name")
 
 
 def write_over(path: Path, data: bytes, kind: Kind) -> None:
-    """Write a file with `write_whole` after `check_place`."""
+    """Check the place with `check_place`, then write the file with `write_whole`."""
     check_place(path, kind)
     write_whole(path, data)
 
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Write atomically: follow symlinks, keep the mode of an existing file, leave nothing behind on failure."""
+    """Write a file atomically: follow symbolic links, keep the mode of an existing file, and leave no temporary
+    file after a failure.
+    """
     temporary = None
     place = Path(os.path.realpath(path))
     try:
@@ -160,16 +166,16 @@ def _check_file(place: Path, named: Path) -> None:
 
 
 def unguarded(path: Path, why: str) -> str:
-    """The sentence that a file system has no locks."""
+    """A warning that a file cannot be locked on its file system, with the reason."""
     return f"{path} cannot be locked ({why}): make sure that no other command writes to it"
 
 
 class LineFile:
-    """Appends whole lines to a file; one writer at a time."""
+    """A file to which whole lines are appended, by one writer at a time."""
 
     def __init__(self, path: Path, writer: str, *, again: bool = True) -> None:
-        """Continue a file, without a last line that was cut short, or start a new one; raises CannotWrite if a
-        `writer` has it open.
+        """Open a file to append lines, and cut off a last line that is incomplete; without `again`, start a new
+        file. Raises CannotWrite if another process has the file open; `writer` names that process in the sentence.
         """
         self.path = path
         self.unlocked = ""
@@ -185,7 +191,7 @@ class LineFile:
             raise self._unwritable(error) from None
 
     def append(self, line: bytes) -> None:
-        """Write a line, its end included, whole or not at all; raises CannotWrite."""
+        """Append a line, including its line end, completely or not at all; raises CannotWrite."""
         try:
             whole = self._file.seek(0, os.SEEK_END)
             if self._file.write(line) < len(line):
@@ -201,7 +207,7 @@ class LineFile:
         self._file.close()
 
     def _lock(self, writer: str) -> None:
-        """Lock the file where platform and file system can; raises CannotWrite if it is locked."""
+        """Lock the file if platform and file system support locks; raises CannotWrite if it is locked already."""
         with suppress(ImportError):
             import fcntl
 

@@ -1,4 +1,4 @@
-"""Writes folders whole or not at all, without replacing any of another kind."""
+"""Writes folders completely or not at all, and never replaces a folder of another kind."""
 
 import os
 import shutil
@@ -23,7 +23,9 @@ class FolderKind:
 
 
 def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
-    """Raise CannotWrite unless a folder of this kind can be written here; Taken if one is there and must stay."""
+    """Raise CannotWrite unless a folder of this kind can be written here, or Taken if one exists and must not be
+    replaced.
+    """
     try:
         _refuse_others(path, kind, overwrite=overwrite)
         with tempfile.TemporaryFile(dir=Path(os.path.realpath(path)).parent):
@@ -52,7 +54,7 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
 
 
 def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
-    """Replace a folder atomically; the earlier one stays if writing fails."""
+    """Replace a folder atomically; if writing fails, the earlier folder stays."""
     place = Path(os.path.realpath(path))
     temporary = None
     try:
@@ -70,7 +72,7 @@ def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
 
 
 def _put(temporary: Path, place: Path) -> None:
-    """Rename the new folder into place, or the old one back."""
+    """Rename the new folder to its place; if that fails, rename the old folder back."""
     try:
         (temporary / "new").rename(place)
     except BaseException:

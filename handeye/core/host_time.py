@@ -1,11 +1,11 @@
-"""Wall-clock and processor time of this computer; no result of a run depends on it."""
+"""Wall-clock time and processor time of this computer; the course of a run does not depend on it."""
 
 import time
 from dataclasses import dataclass, field
 from typing import Self
 
 _LOADED = time.monotonic(), time.process_time()
-"""When this module was imported: first of all, by a command."""
+"""Time at which this module was imported; a command imports it first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,9 +17,10 @@ class HostTimer:
 
     @classmethod
     def of_command(cls) -> Self:
-        """A timer from when handeye was loaded, its imports included.
+        """A timer that starts when handeye was loaded, so that it includes the imports.
 
-        Not from the start of the process: that may have installed packages, or slept, before it became handeye.
+        It does not start with the process, because the process may have installed packages or waited before it
+        loaded handeye.
         """
         return cls(*_LOADED)
 

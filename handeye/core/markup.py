@@ -1,4 +1,4 @@
-"""Markup for pages: elements of HTML and of drawings. Text that goes into one is data, and is escaped."""
+"""Builds HTML and SVG elements as text. All text put into an element is escaped."""
 
 import re
 from base64 import b64encode
@@ -15,20 +15,22 @@ Content = str | float | None  # markup, text, a number, or nothing
 
 
 class Markup(str):
-    """Escaped markup; a plain `str` is text."""
+    """Markup that is already escaped; a plain `str` is text that still needs escaping."""
 
     __slots__ = ()
 
 
 def text(content: Content) -> Markup:
-    """Content as markup, escaped unless it is markup; characters that cannot be seen are shown as signs."""
+    """Content as markup: escaped unless it is markup already; unprintable characters become visible symbols."""
     if isinstance(content, Markup):
         return content
     return Markup(escape("" if content is None else printable(str(content))))
 
 
 def element(name: str, /, *children: Content, **attributes: str | float | bool | None) -> Markup:
-    """An element; `aria_label` stands for `aria-label`, `class_` for `class`; None leaves an attribute out."""
+    """An HTML or SVG element. In attribute names, `aria_label` stands for `aria-label` and `class_` for `class`;
+    attributes with the value None are left out.
+    """
     inside = "".join(text(child) for child in children if child is not None)
     told = "".join(_attribute(key, value) for key, value in attributes.items())
     if name in SHAPES:
@@ -41,7 +43,7 @@ def joined(pieces: Iterable[str], between: str = "") -> Markup:
 
 
 def section(name: str, heading: str, *children: Content) -> Markup:
-    """A section of the page, which its heading names."""
+    """A section of a page, with a heading that is also the section's label."""
     title = element("h2", heading, id=f"{name}-heading")
     return element("section", title, *children, id=name, aria_labelledby=f"{name}-heading")
 
@@ -57,22 +59,22 @@ def contents(sections: Iterable[Markup]) -> Markup:
 
 
 def region(*children: Content, label: str, **attributes: str | None) -> Markup:
-    """A piece of a section that scrolls by itself, which a label names."""
+    """A part of a section that scrolls separately, with a label."""
     return element("section", *children, **attributes, aria_label=label, tabindex="0")
 
 
 def note(*children: Content) -> Markup:
-    """A paragraph that says how something is to be read."""
+    """A paragraph that explains how to read a figure or table."""
     return element("p", *children, class_="note")
 
 
 def to_moment(seconds: float, *children: Content, **attributes: str | None) -> Markup:
-    """A link that takes the view to a moment, s since the run began."""
+    """A link that moves the 3D view to a time, s since the run began."""
     return element("a", *children, href=f"#t={seconds:.2f}", **attributes)
 
 
 def table(head: Iterable[Markup], rows: Iterable[Iterable[Markup]], *, label: str) -> Markup:
-    """A table of cells, which scrolls by itself where the window is narrow."""
+    """A table of cells, which scrolls separately if the window is narrow."""
     titles = element("tr", *head)
     body = element("tbody", *(element("tr", *row) for row in rows))
     inside = element("table", element("thead", titles), body)
@@ -80,7 +82,7 @@ def table(head: Iterable[Markup], rows: Iterable[Iterable[Markup]], *, label: st
 
 
 def heads(*titles: str, class_: str | None = None) -> list[Markup]:
-    """Heads of columns of words; over a column without a title there is an empty cell."""
+    """Heads of columns of words; an empty title gives an empty cell."""
     return [element("th", title, scope="col", class_=class_) if title else cell() for title in titles]
 
 
@@ -94,12 +96,12 @@ def cell(*children: Content) -> Markup:
 
 
 def figure_cell(*children: Content) -> Markup:
-    """A cell with a number."""
+    """A table cell with a number."""
     return element("td", *children, class_="number")
 
 
 def data_address(kind: str, data: bytes) -> str:
-    """An address that holds a file itself."""
+    """A `data:` address that contains a whole file."""
     return f"data:{kind};base64,{b64encode(data).decode()}"
 
 

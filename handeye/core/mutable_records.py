@@ -1,8 +1,8 @@
-"""Mutable records: the state of a running system, its snapshots, and restoring them.
+"""Mutable records: the state of a running system, with snapshots and restoring.
 
-A system keeps all it remembers in one such record. Values that never change are a `Record` (`handeye/core/record.py`).
-Structures, dictionaries and lists are copied; numbers, texts, tuples, frozen records and arrays are shared. So an array
-in a record is replaced and never changed in place: a copy makes it read-only.
+A system keeps all its state in one such record. Values that never change are a `Record` (`handeye/core/record.py`).
+A snapshot copies structures, dictionaries and lists, and shares numbers, texts, tuples, frozen records and arrays.
+Arrays in a record must therefore be replaced, not changed in place; a snapshot makes them read-only.
 """
 
 from dataclasses import is_dataclass
@@ -18,7 +18,7 @@ Kept = TypeVar("Kept", bound="MutableRecord")
 
 
 class MutableRecord(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Base of the states of systems and their parts; a checkpoint holds a copy."""
+    """Base of the states of systems and their parts; checkpoints hold copies of such states."""
 
     __repr__ = Brief.__repr__
 

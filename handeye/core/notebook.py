@@ -1,4 +1,6 @@
-"""Pieces of pages for notebooks: no style sheet and no script, so that nothing else on the page changes."""
+"""HTML elements for notebooks, without style sheets or scripts, so that the rest of the notebook page is
+unaffected.
+"""
 
 from collections.abc import Iterable, Sequence
 from html import escape
@@ -17,27 +19,27 @@ _INK: Final = {
 
 
 def inked(content: Content, ink: str) -> Markup:
-    """Content in a colour: `good`, `bad`, `doubtful`, `quiet`."""
+    """Content in one of the colours `good`, `bad`, `doubtful` and `quiet`."""
     return element("span", content, style=f"color:{_INK[ink]}")
 
 
 def heading(content: Content) -> Markup:
-    """A line that says what this is."""
+    """A heading."""
     return element("div", element("b", content), style="margin:4px 0")
 
 
 def line(content: Content) -> Markup:
-    """A line of its own."""
+    """Content on a separate line."""
     return element("div", content, style="margin:2px 0")
 
 
 def frame(lines: str) -> Markup:
-    """Text as it is, line by line."""
+    """Text in a fixed-width font, with its line breaks."""
     return element("pre", Markup(escape(lines)), style="margin:4px 0")
 
 
 def bar(share: float) -> Markup:
-    """A bar as long as a share, from 0 to 1."""
+    """A bar whose length shows a share, from 0 to 1."""
     width = max(1, round(160 * share)) if share > 0 else 0
     return element("span", style=f"display:inline-block;height:.7em;width:{width}px;background:#3b75af")
 
@@ -48,15 +50,16 @@ def picture(webp: bytes, what: str) -> Markup:
 
 
 def svg(drawing: str, what: str) -> Markup:
-    """A drawing with alternative text; its style reaches nothing else on the page."""
+    """A drawing with alternative text; its styles do not affect the rest of the page."""
     address = data_address("image/svg+xml", drawing.encode())
     return element("img", alt=what, src=address, style="max-width:100%")
 
 
 def sandbox(file: bytes, what: str, height: int) -> Markup:
-    """A page of its own within the page: its scripts run, and reach neither the notebook nor its kernel.
+    """A separate page within the notebook page; its scripts run, but cannot reach the notebook or its kernel.
 
-    An address that holds the page, and not `srcdoc`: there, links to moments would lead to the notebook's own address.
+    The page is given by a `data:` address instead of `srcdoc`: with `srcdoc`, links to moments would lead to the
+    notebook's address.
     """
     address, style = data_address("text/html", file), "border:1px solid #ccc"
     limits = {"sandbox": "allow-scripts", "width": "100%"}
@@ -64,7 +67,7 @@ def sandbox(file: bytes, what: str, height: int) -> Markup:
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[Content]]) -> Markup:
-    """A table; numbers, and what stands over them, are on the right."""
+    """A table; columns of numbers and their heads are aligned to the right."""
     lines = [list(row) for row in rows]
     right = [any(isinstance(row[n], (int, float)) for row in lines) for n in range(len(head))]
     drawn = [_row("th", head, right), *(_row("td", row, right) for row in lines)]
@@ -79,5 +82,5 @@ def _row(tag: str, row: Sequence[Content], right: Sequence[bool]) -> Markup:
 
 
 def page(*pieces: Markup) -> str:
-    """Pieces one below the other."""
+    """Elements one below the other."""
     return "<div>\n" + "\n".join(pieces) + "\n</div>\n"

@@ -1,4 +1,4 @@
-"""Oriented bounding boxes, and how deep they penetrate each other."""
+"""Oriented bounding boxes, and the depth to which two of them overlap."""
 
 from collections.abc import Sequence
 
@@ -7,7 +7,7 @@ import numpy as np
 from handeye.core.pose import Array, Pose
 
 Box = tuple[float, float, float, float, float, float]
-"""Opposite corners in its own frame, m: x, y, z from, then x, y, z to."""
+"""Two opposite corners of a box in its frame, m: least x, y, z, then greatest x, y, z."""
 
 _PARALLEL = 1e-6  # sine below which two edges count as parallel and their cross product gives no axis
 
@@ -25,14 +25,18 @@ def halves(boxes: Sequence[Box]) -> Array:
 
 
 def lowest(X_WA: Pose, boxes: Sequence[Box]) -> Array:
-    """Height (m) of the lowest corner of boxes in frame A, at poses (N, 4, 4); shape (N, n)."""
+    """Height of the lowest corner of n boxes, m, shape (N, n). The boxes are given in frame A, whose N poses `X_WA`
+    are (N, 4, 4).
+    """
     up = X_WA[:, 2:3, :3]
     centre = X_WA[:, 2, 3, None] + (up @ middles(boxes).T)[:, 0]
     return np.asarray(centre - (np.abs(up) @ halves(boxes).T)[:, 0])
 
 
 def depths(X_BA: Pose, boxes: Sequence[Box], others: Sequence[Box]) -> Array:
-    """Depths (N, n, m) in m of n boxes in m others, each with its frame B; 0 if apart. `X_BA` is (N, m, 4, 4)."""
+    """Depths to which n boxes in frame A overlap m other boxes, in m, shape (N, n, m); 0 if they are apart. Each
+    other box has a frame B, and `X_BA` is (N, m, 4, 4).
+    """
     a, b = halves(boxes), halves(others)
     R = X_BA[..., :3, :3]
     gap = np.moveaxis(R @ middles(boxes).T, -1, 1) + X_BA[:, None, :, :3, 3] - middles(others)
@@ -45,11 +49,13 @@ def depths(X_BA: Pose, boxes: Sequence[Box], others: Sequence[Box]) -> Array:
 
 
 def _oblique(R: Array, gap: Array, a: Array, b: Array) -> Array:
-    """Overlap (m) of K pairs of boxes along the axes of the first and the cross products of their edges.
+    """Overlap (m) of K pairs of boxes, the least along the axes of the first box and the cross products of the
+    edges.
 
     Args:
-        R: orientation of the first in the second's frame, (K, 3, 3).
-        gap: from the second's centre to the first's, (K, 3); `a` and `b` are half lengths, (K, 3).
+        R: orientation of the first box in the frame of the second, (K, 3, 3).
+        gap: vector from the centre of the second box to that of the first, (K, 3), m; `a` and `b` are half lengths
+            of the two boxes, (K, 3), m.
     """
     own = np.swapaxes(R, -1, -2)
     crossed = np.cross(np.eye(3)[None, :, None], own[:, None]).reshape(-1, 9, 3)

@@ -1,6 +1,6 @@
-"""States on disk: MessagePack with arrays, compressed, after a line with their kind and digest.
+"""Stores states on disk as compressed MessagePack with arrays, after a line with kind, version and digest.
 
-A file that is truncated, has any wrong bit, or would fill the memory is refused before any of it is used.
+A file that is truncated, has a wrong bit, or would fill the memory is refused before any of its content is used.
 """
 
 import hashlib
@@ -15,7 +15,7 @@ _DTYPES: Final = ("<f8", "|u1")
 
 
 def sealed(magic: str, version: int, rest: bytes) -> bytes:
-    """Bytes after a line with kind, version and digest."""
+    """Bytes preceded by a line with kind, version and digest."""
     return f"{magic} {version} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
 
 
@@ -25,7 +25,7 @@ def packed(record: object) -> bytes:
 
 
 def unpacked(data: bytes, kind: type[T], largest: int) -> T:
-    """The record from `packed` bytes, at most `largest` when inflated; raises ValueError."""
+    """The record in bytes made by `packed`; raises ValueError, also if it inflates to more than `largest` bytes."""
     try:
         return decoded(_inflated(data, largest), kind)
     except zlib.error as error:
@@ -33,12 +33,12 @@ def unpacked(data: bytes, kind: type[T], largest: int) -> T:
 
 
 def encoded(record: object) -> bytes:
-    """A record as MessagePack."""
+    """Encode a record as MessagePack."""
     return msgspec.msgpack.encode(record, enc_hook=_plain)
 
 
 def decoded(data: bytes | msgspec.Raw, kind: type[T]) -> T:
-    """The record from `encoded` bytes; raises ValueError."""
+    """Decode a record made by `encoded`; raises ValueError."""
     try:
         return msgspec.msgpack.decode(data, type=kind, dec_hook=_array)
     except (msgspec.DecodeError, TypeError, RecursionError) as error:
@@ -54,7 +54,7 @@ def _inflated(data: bytes, largest: int) -> bytes:
 
 
 def _plain(value: Any) -> Any:
-    """An array or numpy number as MessagePack types."""
+    """Convert an array or NumPy number to types that MessagePack knows."""
     if isinstance(value, np.ndarray):
         return value.dtype.str, value.shape, value.tobytes()
     if isinstance(value, np.floating):

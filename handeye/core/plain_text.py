@@ -1,4 +1,4 @@
-"""Text output: printable characters, counted nouns, numbers."""
+"""Text output: printable characters, nouns with numbers, digits of numbers."""
 
 import math
 import re
@@ -11,24 +11,24 @@ _SAME_DIGITS: Final = 1e-6  # of the last digit: computing error that does not r
 
 
 def printable(text: str) -> str:
-    """A text with stand-ins for blanks that are not ordinary ones, and for what would control a terminal."""
+    """A text in which unusual blanks and control characters are replaced by visible symbols."""
     return "".join(map(shown, text))
 
 
 def shown(character: str) -> str:
-    """A character as a terminal may show it, one column wide."""
+    """A character that a terminal can show, one column wide."""
     if character.isprintable():
         return character
     return "␣" if character.isspace() and character > "\x9f" else "\N{REPLACEMENT CHARACTER}"
 
 
 def one_line(text: str) -> str:
-    """A statement without column blanks, printable."""
+    """A statement in one line, with single blanks and printable characters."""
     return printable(" ".join(text.split()))
 
 
 def counted(number: int, noun: str) -> str:
-    """`1 step`, `2 steps`, `3 tries`, `4 branches`"""
+    """A number with its noun, singular or plural: `1 step`, `2 steps`, `3 tries`, `4 branches`."""
     if number == 1:
         return f"1 {noun}"
     if re.search("[^aeiou]y$", noun):
@@ -37,7 +37,7 @@ def counted(number: int, noun: str) -> str:
 
 
 def size(number: int) -> str:
-    """A number of bytes as people say it.
+    """A number of bytes, as people write it.
 
     >>> size(812), size(47_300), size(2_340_000)
     ('812 bytes', '47 kB', '2.3 MB')
@@ -48,7 +48,7 @@ def size(number: int) -> str:
 
 
 def distinct_digits(numbers: Sequence[float], decimals: int) -> list[str]:
-    """Numbers with at least `decimals` digits, as many more as show that different ones differ."""
+    """Numbers with at least `decimals` digits, and with more where needed to tell different numbers apart."""
     for places in range(decimals, decimals + _EXTRA_DECIMALS):
         texts = [f"{number:z.{places}f}" for number in numbers]
         if len({*texts}) == len({*numbers}):
@@ -57,9 +57,10 @@ def distinct_digits(numbers: Sequence[float], decimals: int) -> list[str]:
 
 
 def enough_digits(number: float, decimals: int, *, up: bool = False) -> str:
-    """A positive number to `decimals` digits, or to as many more as make two count: .0041 is not `0.00`.
+    """A positive number with `decimals` digits, or with more if fewer than two of them would be significant: .0041
+    is not written `0.00`.
 
-    With `up` it is rounded up, so that it is enough.
+    With `up`, the number is rounded up, so that it is enough.
     """
     places = max(decimals, 1 - math.floor(math.log10(number))) if number > 0 else decimals
     if up:
@@ -69,7 +70,7 @@ def enough_digits(number: float, decimals: int, *, up: bool = False) -> str:
 
 
 def folded(text: str, width: int) -> str:
-    """Text wrapped to a width between words, continuation lines indented."""
+    """Text wrapped between words to `width` columns, with continuation lines indented."""
     return "\n".join(_folded(line, width) for line in text.split("\n"))
 
 

@@ -1,4 +1,4 @@
-"""Simplifies recordings: keeps the rows between which all others lie nearly on straight lines."""
+"""Simplifies recordings: keeps only the rows needed to interpolate all others linearly within a tolerance."""
 
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -12,13 +12,17 @@ _LEAST: Final = 1e-9  # least norm of an interpolated quaternion: halfway to its
 
 Rows = NDArray[np.int64]
 Off = Callable[[Rows, Rows, Rows], Array]
-"""For segments given by first rows, a row on each, and last rows: deviations, shape (n,), over what is allowed."""
+"""For segments given by their first rows, a row in each, and their last rows: deviation of each row divided by the
+tolerance, shape (n,).
+"""
 
 
 def needed_rows(off: Off, always: Sequence[int] | Rows) -> Rows:
-    """Rows between which all others lie within tolerance, `always` (sorted, ends included) among them.
+    """The rows between which all others can be interpolated within tolerance, including the rows `always` (sorted,
+    with both ends).
 
-    Segments with a row too far off are split at the farthest one, starting from `always`; all segments at once.
+    Starting from `always`, each segment with a row too far off is split at its farthest row; all segments are
+    handled at once.
     """
     kept = [np.asarray(always, dtype=np.int64)]
     first, last = kept[0][:-1], kept[0][1:]
@@ -32,7 +36,7 @@ def needed_rows(off: Off, always: Sequence[int] | Rows) -> Rows:
 
 
 def _worst(off: Off, first: Rows, last: Rows) -> tuple[Rows, Array]:
-    """For each segment, the farthest row between its ends, and its deviation."""
+    """For each segment, the row between its ends that deviates most, and its deviation."""
     inside = last - first - 1
     begin = np.cumsum(inside) - inside
     segment = np.repeat(np.arange(len(first)), inside)
@@ -43,7 +47,9 @@ def _worst(off: Off, first: Rows, last: Rows) -> tuple[Rows, Array]:
 
 
 def off_values(values: Array, at: Array, allowed: Array) -> Off:
-    """Deviation of values over what is allowed; values, `at` and `allowed` have shape (n,)."""
+    """A function for the deviation of values from linear interpolation, divided by the tolerance; values, `at`
+    (time of each row) and `allowed` (tolerance) have shape (n,).
+    """
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:
         share = (at[row] - at[first]) / (at[last] - at[first])
@@ -54,10 +60,11 @@ def off_values(values: Array, at: Array, allowed: Array) -> Off:
 
 
 def off_poses(poses: Array, at: Array, *, place: float, turn: float) -> Off:
-    """Deviation of poses over what is allowed: `place` (m) and `turn` (rad).
+    """A function for the deviation of poses from interpolation, divided by the tolerances `place` (m) and `turn`
+    (rad).
 
-    `poses` are positions (m), then unit quaternions w, x, y, z, continuous in sign, (n, 7); `at` is the time of each
-    row, or another parameter.
+    `poses` has shape (n, 7): positions (m), then unit quaternions w, x, y, z, continuous in sign. `at` is the time
+    of each row, or another parameter.
     """
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:
@@ -75,7 +82,7 @@ def off_poses(poses: Array, at: Array, *, place: float, turn: float) -> Off:
 
 
 def smooth(poses: NDArray[np.floating]) -> Array:
-    """The poses, shape (n, 7), with quaternion signs continuous from row to row."""
+    """The poses, shape (n, 7), with the signs of their quaternions made continuous from row to row."""
     turned = np.einsum("ij,ij->i", poses[1:, 3:], poses[:-1, 3:]) < 0
     alike = np.array(poses, dtype=np.float64)
     alike[1:, 3:] *= np.cumprod(np.where(turned, -1.0, 1.0))[:, None]

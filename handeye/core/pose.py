@@ -1,13 +1,13 @@
 """Poses as 4x4 homogeneous matrices `X_AB`: the pose of frame B in frame A, so that inner letters cancel.
 
-Letters: W world (the table frame: origin at a table corner, z up, table top z = 0), B arm base, T tool
-centre point (midway between the finger tips), C camera, P part.
+Letters: W world (the table frame: origin at a table corner, z up, table top z = 0), B arm base, T tool centre point
+(midway between the finger tips), C camera, P part.
 
-The hand frame at T has z along the approach direction and y along the finger line. Its orientation is
-written with the three angles O, A, T of the arm programs of the period: all zero, the hand points along
--Y with the finger line along X; O turns about the vertical, A tilts the approach direction downwards,
-T rolls about it. A hand that points straight down has A = 90 degrees and T = 0; O is then the direction of
-the finger line from table x.
+The hand frame T has z along the approach direction and y along the finger line. The orientation of the hand is
+written with the three angles O, A, T of the arm programs of 1973. If all three are zero, the hand points along -Y,
+with the finger line along X. O turns the hand about the vertical, A tilts the approach direction downwards, and T
+rolls the hand about the approach direction. A hand that points straight down has A = 90 degrees and T = 0; O is
+then the angle from table x to the finger line.
 """
 
 import math
@@ -20,7 +20,9 @@ Array = NDArray[np.float64]
 Pose = NDArray[np.float64]  # a homogeneous matrix, shape (4, 4), lengths in metres
 
 UPRIGHT = math.radians(2)
-"""Within this (rad) of straight down, all turn about the vertical is O, and T is zero."""
+"""If the hand points straight down within this angle (rad), its whole rotation about the vertical is given as O,
+and T is zero.
+"""
 
 _R_ZERO = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]])
 
@@ -38,7 +40,7 @@ def rotation_z(angle: float) -> Array:
 
 
 def rotation(vector: Array) -> Array:
-    """Rotation about `vector` by its length in radians, shape (3, 3)."""
+    """Rotation about the axis `vector` by the length of `vector` in radians, shape (3, 3)."""
     angle = float(np.linalg.norm(vector))
     if angle == 0.0:
         return np.eye(3)
@@ -56,7 +58,7 @@ def pose(R: Array, p: Array | Sequence[float]) -> Pose:
 
 
 def inverse(X_AB: Pose) -> Pose:
-    """`X_BA` from `X_AB`."""
+    """The inverse `X_BA` of a pose `X_AB`."""
     R = X_AB[:3, :3].T
     return pose(R, -R @ X_AB[:3, 3])
 
@@ -72,12 +74,12 @@ def yaw(X: Pose) -> float:
 
 
 def hand(x: float, y: float, z: float, o: float, a: float, t: float) -> Pose:
-    """The hand pose with its tool centre point at (x, y, z) metres and angles O, A, T in radians."""
+    """The pose of the hand with its tool centre point at (x, y, z), m, and the angles O, A, T, rad."""
     return pose(rotation_z(o) @ rotation_x(a) @ _R_ZERO @ rotation_z(t), (x, y, z))
 
 
 def hand_angles(X_WT: Pose) -> tuple[float, float, float]:
-    """Angles O, A, T (rad) of a hand pose; inverse of `hand`."""
+    """The angles O, A, T (rad) of a hand pose; inverse of `hand`."""
     finger, approach = X_WT[:3, 1], X_WT[:3, 2]
     a = math.asin(min(1.0, max(-1.0, -float(approach[2]))))
     if abs(abs(a) - math.pi / 2) < UPRIGHT:
@@ -88,14 +90,14 @@ def hand_angles(X_WT: Pose) -> tuple[float, float, float]:
 
 
 def translated(X: Pose, p: Array | Sequence[float]) -> Pose:
-    """`X` moved by `p` (metres), in the outer frame."""
+    """`X` moved by `p` (m), in the outer frame."""
     Y = X.copy()
     Y[:3, 3] += p
     return Y
 
 
 def displaced(X: Pose, p: Array, turn: Array) -> Pose:
-    """`X` moved by `p` (metres) and turned on the spot by the rotation vector `turn` (rad), in the outer frame."""
+    """`X` moved by `p` (m) and turned about its new origin by the rotation vector `turn` (rad), in the outer frame."""
     Y = translated(X, p)
     Y[:3, :3] = rotation(turn) @ X[:3, :3]
     return Y

@@ -1,4 +1,4 @@
-"""The kind of processor that a result was computed on: what decides how numbers are rounded in their last places."""
+"""Identifies the kind of processor, which determines how the last digits of results are rounded."""
 
 import ctypes
 import os
@@ -9,19 +9,19 @@ from pathlib import Path
 from typing import Final
 
 _SETTINGS: Final = ("GLIBC_TUNABLES", "OPENBLAS_CORETYPE", "NPY_DISABLE_CPU_FEATURES")
-"""Environment variables that choose instructions by themselves."""
+"""Environment variables that influence the choice of instructions."""
 
 
 @cache
 def processor() -> str:
-    """Architecture, model, kernels of the linear algebra, and settings that choose instructions."""
+    """Architecture, model, kernels of the linear algebra, and settings that influence the choice of instructions."""
     told = [f"{platform.machine()} {_model()}".strip(), _kernels()]
     told += [f"{name}={value}" for name in _SETTINGS if (value := os.environ.get(name))]
     return ", ".join(filter(None, told))
 
 
 def _model() -> str:
-    """The name that the processor gives of itself, or ""."""
+    """The model name that the processor reports, or ""."""
     try:
         found = re.search(
             r"^model name\s*:\s*(.+)$", Path("/proc/cpuinfo").read_text(errors="replace"), re.MULTILINE
@@ -32,7 +32,7 @@ def _model() -> str:
 
 
 def _kernels() -> str:
-    """The kernels that NumPy's OpenBLAS has chosen, or ""."""
+    """The kernels that NumPy's OpenBLAS has selected, or ""."""
     import numpy
 
     for file in (Path(numpy.__file__).parents[1] / "numpy.libs").glob("*openblas*"):

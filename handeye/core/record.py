@@ -1,4 +1,4 @@
-"""Immutable records, whose fields have types that are checked on reading.
+"""Immutable records, whose field types are checked when they are read from a file.
 
 State that changes is a `MutableRecord` (`handeye/core/mutable_records.py`).
 """

@@ -1,5 +1,4 @@
-"""Finds what is shipped with the package, the folders `scenes`, `plans`, `demo` and `docs`, and the user's cache
-folder."""
+"""Finds the folders included with handeye (`scenes`, `plans`, `demo`, `docs`) and the user's cache folder."""
 
 import os
 import sys
@@ -14,7 +13,7 @@ _ROOTS = (_PACKAGE / "_data", _PACKAGE.parent)  # in an installed wheel, and in 
 
 
 def folder(name: str) -> Path:
-    """The folder `scenes`, `plans`, `demo` or `docs`; raises BadFile in an incomplete installation."""
+    """The path of the folder `scenes`, `plans`, `demo` or `docs`; raises BadFile if the installation is incomplete."""
     for root in _ROOTS:
         if (root / name).is_dir():
             return root / name
@@ -22,27 +21,29 @@ def folder(name: str) -> Path:
 
 
 def scenes() -> Path:
-    """Models and dimensions, one folder a scene."""
+    """The folder of models and dimensions, with one folder per scene."""
     return folder("scenes")
 
 
 def plans() -> Path:
-    """Arm programs with their taught positions and compiled plans."""
+    """The folder of arm programs with their taught positions and compiled plans."""
     return folder("plans")
 
 
 def demo() -> Path:
-    """A recorded run of the water pump: a thinned trace, its result, and a picture of its end."""
+    """The folder of a recorded run of the water pump: a thinned trace, the result, and a picture of the end."""
     return folder("demo")
 
 
 def docs() -> Path:
-    """The pages of the documentation."""
+    """The folder of the documentation."""
     return folder("docs")
 
 
 def page(name: str) -> str:
-    """Where a page of the docs can be opened, by its path in the folder `docs`; that path if the docs are not here."""
+    """The address of a page of the documentation; `name` is its path in the folder `docs`. The name itself if that
+    folder is missing.
+    """
     for root in _ROOTS:
         if (found := root / "docs" / name).is_file():
             with suppress(ValueError):
@@ -55,7 +56,7 @@ VARIABLE: Final = "HANDEYE_CACHE"  # environment variable for another cache fold
 
 
 def cache_folder() -> Path | None:
-    """The cache folder, which need not exist; None if caching is off or the user has no home."""
+    """The path of the cache folder, which may not exist; None if caching is off or the user has no home folder."""
     named = os.environ.get(VARIABLE)
     if named is not None:
         return Path(named).absolute() if named else None

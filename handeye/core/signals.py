@@ -1,4 +1,4 @@
-"""Signals that tell the program to end: Ctrl-C, `kill`, a terminal that closes, a batch system that warns."""
+"""Handles signals that end the program: Ctrl-C, `kill`, a closed terminal, the warning of a batch system."""
 
 import os
 import signal
@@ -11,7 +11,7 @@ from typing import Any, Final, NoReturn
 
 _NAMES: Final = ("SIGINT", "SIGTERM", "SIGHUP", "SIGUSR1", "SIGUSR2", "SIGXCPU", "SIGBREAK")
 ENDING: Final = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
-"""Those of this platform."""
+"""The signals that end the program, on this platform."""
 
 _IMPORTING: Final = (
     "importlib._bootstrap",
@@ -22,12 +22,16 @@ Handler = Callable[[int, FrameType | None], None]
 
 
 class ToldToEnd(KeyboardInterrupt):
-    """Told to end by another signal than Ctrl-C, which at a prompt drops no more than the line."""
+    """Raised by a signal to end other than Ctrl-C. At a prompt, Ctrl-C only drops the line; these signals end the
+    program.
+    """
 
 
 @contextmanager
 def heard(handler: Handler) -> Iterator[None]:
-    """While entered, signals to end go to a handler; one that is ignored, as after `nohup`, stays ignored."""
+    """In this context, a handler receives the signals to end; a signal that is ignored, as after `nohup`, stays
+    ignored.
+    """
     before = {}
 
     def hear(number: int, frame: FrameType | None) -> None:
@@ -46,9 +50,10 @@ def heard(handler: Handler) -> Iterator[None]:
 
 
 def break_in(number: int, frame: FrameType | None) -> None:
-    """A handler that raises KeyboardInterrupt; while a module is imported, only when that is over.
+    """A signal handler that raises KeyboardInterrupt; during an import, it waits until the import is over.
 
-    Modules written in C make an ImportError of it, and others swallow it.
+    An interrupted import is unsafe: modules written in C turn the exception into an ImportError, and others swallow
+    it.
     """
     importer = None
     while frame is not None:
@@ -70,7 +75,7 @@ def _interrupt(number: int) -> NoReturn:
 
 
 def _leave_closed_terminal() -> None:
-    """Replace a closed terminal by the null device: writing to the terminal would raise OSError."""
+    """Replace a closed terminal by the null device, because writing to the terminal would raise OSError."""
     for file in range(3):
         with suppress(OSError):
             if stat.S_ISCHR(os.fstat(file).st_mode) and not os.isatty(file):

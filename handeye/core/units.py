@@ -1,6 +1,6 @@
-"""Units of the period and their SI values, and two figures that the language and the arm of 1973 share.
+"""Units of 1973 with their SI values, and two constants that the language and the arm of 1973 share.
 
-Inside the program every quantity is SI: metres, radians, newtons, newton metres, seconds.
+Inside the program all quantities are in SI units: metres, radians, newtons, newton metres, seconds.
 """
 
 import math
@@ -22,7 +22,7 @@ PERCENT: Final = 0.01
 
 
 class Unit(Record, frozen=True):
-    """A unit as written after a number, and its SI value."""
+    """A unit as it is written after a number, with its SI value."""
 
     name: str
     dimension: str
@@ -52,14 +52,14 @@ UNITS: Final = {
 
 
 class Measures(Record, frozen=True, kw_only=True):
-    """The units in which a run's lengths and forces are shown."""
+    """The units in which lengths and forces of a run are shown."""
 
     length: Unit
     places: int  # decimals of a length
     force: Unit
 
     def place(self, p: Sequence[float]) -> str:
-        """A position (m) as text: `(1.00, -2.50, 0.00) in`."""
+        """A position (m) as text, such as `(1.00, -2.50, 0.00) in`."""
         return f"({', '.join(map(self._number, p))}) {self.length.name}"
 
     def distance(self, metres: float) -> str:
@@ -77,12 +77,12 @@ _WRITTEN: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\
 
 
 def split_value(text: str) -> tuple[float, str] | None:
-    """Number and unit word of a text as `.3 in`; None if it does not begin with a number."""
+    """Number and unit of a text such as `.3 in`; None if the text does not begin with a number."""
     found = _WRITTEN.fullmatch(text.strip())
     return None if found is None else (float(found[1]), found[2])
 
 
 def unit_named(word: str) -> Unit | None:
-    """The unit of a name, ignoring spaces and case."""
+    """The unit with a name, ignoring blanks and case; None if there is none."""
     spelt = {name.replace(" ", "").casefold(): unit for name, unit in UNITS.items()}
     return spelt.get(word.replace(" ", "").casefold())

@@ -1,8 +1,9 @@
-"""Variation of the world: a task's table of quantities, and the worlds drawn from it.
+"""The quantities that vary between worlds: a task's table of quantities, and the worlds drawn from it.
 
-A quantity is one number with a dotted name, as `camera.place.x`; prefixes up to a dot name groups (`camera.place`,
-`camera`). Each has a random stream of its own, made from the seed and its name, so that a new quantity changes no
-other, and one can be switched off or set while the others stay as they are.
+A quantity is one number with a dotted name such as `camera.place.x`; the parts of a name before a dot name groups
+(`camera.place`, `camera`). Each quantity is drawn from a separate random stream, made from the seed and the
+quantity's name. A new quantity therefore changes no other, and one quantity can be switched off or set while the
+others keep their values.
 """
 
 from __future__ import annotations
@@ -30,12 +31,12 @@ LARGEST_SEED: Final = (
     1 << 53
 ) - 1  # the largest that every reader of JSON keeps, also one whose numbers are doubles
 Seed = Annotated[int, msgspec.Meta(ge=0, le=LARGEST_SEED)]
-"""A random number that a world is drawn from: no seed means anything."""
+"""A number from which a world is drawn; the number itself has no meaning."""
 
 _LONG: Final = 10**40  # what has more digits is not repeated to a person
 
 UNSOURCED: Final = "unsourced"
-"""Stands, in a scale, for all quantities whose sizes have no source."""
+"""In a scale, the name for all quantities whose size has no source."""
 
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}  # factors on errors
@@ -54,17 +55,21 @@ class Quantity:
     nominal: float = 0.0  # its value when switched off
     limits: tuple[float, float] = (-np.inf, np.inf)  # range it can be set to
     where: tuple[str, float] | None = None
-    """Name and value (SI) of the choice with which worlds have it; None: all have it."""
+    """The choice on which the quantity depends: name and value (SI). Only worlds with that value have the quantity;
+    None: all worlds have it.
+    """
     source: str  # meaning, and source of its figures
     unsourced: str = ""
-    """Why its size has no source, and what bounds it; empty where the size has one, or where it has none to have."""
+    """Why the size of the quantity has no source, and what bounds it; empty if there is a source, or if none is
+    needed.
+    """
 
     @property
     def measure(self) -> Unit:
         return UNITS[self.unit]
 
     def check(self, value: float) -> None:
-        """Raise BadArgument unless it can be set to a value, SI."""
+        """Raise BadArgument unless the quantity can be set to a value (SI)."""
         if isinstance(self.distribution, Choice):
             if type(value) not in (int, float) or value not in self.distribution.values:
                 known = " or ".join(f"{each:g}" for each in self.distribution.values)
@@ -79,16 +84,18 @@ class Quantity:
 
 
 class Overrides(Record, frozen=True, kw_only=True):
-    """Overrides of a drawn world."""
+    """Changes to a drawn world: quantities at nominal values, set quantities, and scales."""
 
     without: tuple[str, ...] = ()  # quantities and groups at nominal values, sorted
     set: dict[str, float] = msgspec.field(default_factory=dict)  # values, SI; take precedence over `without`
     scale: dict[str, float] = msgspec.field(default_factory=dict)
-    """Factors on errors, over that of the level, by quantity, group or `UNSOURCED`; the narrowest name counts."""
+    """Factors on errors, in addition to that of the level, by quantity, group or `UNSOURCED`; the most specific
+    name applies.
+    """
 
 
 class WorldSpec(Record, frozen=True, kw_only=True):
-    """The complete specification of a world, as a run records it: equal specifications give equal worlds."""
+    """The complete specification of a world, as runs record it; equal specifications give equal worlds."""
 
     seed: Seed
     level: Level = "nominal"
@@ -97,7 +104,7 @@ class WorldSpec(Record, frozen=True, kw_only=True):
     drawing: int = DRAWING  # version of the drawing
 
     def __post_init__(self) -> None:
-        """Raises BadArgument if there is no such seed."""
+        """Raises BadArgument if the seed is out of range."""
         checked_seed(self.seed)
 
     def __str__(self) -> str:
@@ -111,7 +118,7 @@ class WorldSpec(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class World:
-    """Values of a task's quantities, by name, SI."""
+    """The values of a task's quantities, by name, in SI units."""
 
     spec: WorldSpec
     values: Mapping[str, float]
@@ -120,14 +127,14 @@ class World:
         return self.values[name]
 
     def numbered(self, group: str) -> tuple[float, ...]:
-        """Values of `group.1`, `group.2` and so on, SI."""
+        """Values of `group.1`, `group.2` and so on, in SI units."""
         found: list[float] = []
         while (name := f"{group}.{len(found) + 1}") in self.values:
             found.append(self.values[name])
         return tuple(found)
 
     def generator(self, stream: str) -> np.random.Generator:
-        """A source of noise; streams of different names are independent."""
+        """A random number generator for noise; streams of different names are independent."""
         return random_numbers(self.spec.seed, stream)
 
 
@@ -150,7 +157,7 @@ class Variation:
         return frozenset(".".join(part[:n]) for part in parts for n in range(1, len(part)))
 
     def present(self, values: Mapping[str, float]) -> dict[str, Quantity]:
-        """The quantities of worlds in which these are set to these values (SI), by name."""
+        """The quantities of a world in which the given choices are set, by name; values in SI units."""
         return {name: q for name, q in self.quantities.items() if self._is_there(q, values)}
 
     def _is_there(self, quantity: Quantity, values: Mapping[str, float]) -> bool:
@@ -160,10 +167,11 @@ class Variation:
         return values.get(choice, self.quantities[choice].nominal) == wanted
 
     def select(self, name: str, values: Mapping[str, float] | None = None) -> tuple[Quantity, ...]:
-        """The quantity of a name, or those of a group; raises NoSuchName.
+        """The quantity with a name, or all those of a group; raises NoSuchName.
 
         Args:
-            values: what is set in the world that must have them, SI; None: any world may have them.
+            values: values set in the world (SI); only quantities of such a world count. None: quantities of any
+                world count.
         """
         found = tuple(q for q in self.quantities.values() if within(q.name, name))
         there = [q for q in found if values is None or self._is_there(q, values)]
@@ -181,13 +189,13 @@ class Variation:
         return tuple(there)
 
     def draw(self, spec: WorldSpec) -> World:
-        """The world of a specification; raises BadArgument if it cannot be drawn here."""
+        """Draw the world of a specification; raises BadArgument if the specification does not fit this table."""
         self.check(spec)
         there = self.present(spec.overrides.set)
         return World(spec=spec, values={name: self.value(name, spec) for name in there})
 
     def value(self, name: str, spec: WorldSpec) -> float:
-        """One quantity of a world, SI."""
+        """The value of one quantity in a world, SI."""
         quantity = self.quantities[name]
         if name in spec.overrides.set:
             return spec.overrides.set[name]
@@ -196,14 +204,14 @@ class Variation:
         return drawn(quantity, self.factor(quantity, spec), random_numbers(spec.seed, name))
 
     def factor(self, quantity: Quantity, spec: WorldSpec) -> float:
-        """Size of a quantity's error over its nominal size."""
+        """The factor by which a quantity's error differs from its nominal size, from level and scales."""
         scale = spec.overrides.scale
         mine = [name for name in scale if name != UNSOURCED and within(quantity.name, name)]
         mine = mine or ([UNSOURCED] if quantity.unsourced and UNSOURCED in scale else [])
         return SPREADS[spec.level] * (scale[max(mine, key=len)] if mine else 1.0)
 
     def scalable(self, name: str) -> tuple[Quantity, ...]:
-        """The errors that a scale of a name changes; raises BadArgument if there are none."""
+        """The quantities to which a scale with this name applies; raises BadArgument if there are none."""
         those = self.quantities.values() if name == UNSOURCED else self.select(name)
         found = tuple(q for q in those if q.distribution.is_error and (name != UNSOURCED or q.unsourced))
         if not found:
@@ -212,7 +220,7 @@ class Variation:
         return found
 
     def check(self, spec: WorldSpec) -> None:
-        """Raise BadArgument unless a world can be drawn here."""
+        """Raise BadArgument unless a world can be drawn from this table."""
         if spec.level not in SPREADS:
             raise NoSuchName(f"there is no level {spec.level!r}; there are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:
@@ -238,12 +246,12 @@ class Variation:
 
 
 def within(name: str, group: str) -> bool:
-    """True if a name is the group's, or in it."""
+    """True if `name` is the group itself, or a name in it."""
     return f"{name}.".startswith(f"{group}.")
 
 
 def drawn(quantity: Quantity, factor: float, stream: np.random.Generator) -> float:
-    """A quantity's value, its error so large over its nominal size, drawn from its stream, SI."""
+    """Draw a quantity's value (SI) from a stream, with its error multiplied by `factor`."""
     distribution, nominal = quantity.distribution, quantity.nominal
     value = distribution.draw(stream, nominal)
     if factor != 1 and distribution.is_error:
@@ -252,7 +260,7 @@ def drawn(quantity: Quantity, factor: float, stream: np.random.Generator) -> flo
 
 
 def checked_seed(seed: object) -> int:
-    """A seed as a plain number; raises BadArgument."""
+    """Check a seed and return it as a plain `int`; raises BadArgument."""
     number = whole(seed)
     if number is None or not 0 <= number <= LARGEST_SEED:
         told = repr(seed) if number is None or abs(number) < _LONG else "a longer one"

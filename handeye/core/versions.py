@@ -1,4 +1,4 @@
-"""Versions that a result depends on besides plan and seed."""
+"""The versions on which a result depends, besides plan and seed."""
 
 from functools import cache
 from pathlib import Path
@@ -11,7 +11,7 @@ PACKAGES: Final = ("mujoco", "numpy", "scipy", "opencv-python-headless")
 
 
 def versions() -> dict[str, str]:
-    """Versions of handeye, Python and the packages that results depend on."""
+    """Versions of handeye, Python and the packages on which results depend."""
     import platform
 
     found = {name: _installed(name) for name in PACKAGES}
@@ -19,7 +19,7 @@ def versions() -> dict[str, str]:
 
 
 def installed(package: str) -> str | None:
-    """Version of a package, or None if it is not installed."""
+    """Version of a package; None if it is not installed."""
     try:
         return _installed(package)
     except ImportError:
@@ -35,7 +35,7 @@ def _installed(package: str) -> str:
 
 @cache
 def code_digest() -> str:
-    """A digest (16 hexadecimal digits) of this program and its scenes, as on disk; raises BadFile."""
+    """A digest (16 hexadecimal digits) of handeye's files and scenes as they are on disk; raises BadFile."""
     import hashlib
 
     package = Path(__file__).resolve().parents[1]

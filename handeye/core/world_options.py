@@ -1,4 +1,4 @@
-"""Parses world options."""
+"""Parses the options that change a world: `--without`, `--set`, `--scale`, `--fault`."""
 
 from collections.abc import Callable, Iterable
 from typing import Protocol
@@ -13,7 +13,7 @@ from handeye.core.variation import Overrides, Variation, within
 
 
 class WritableQuantity(Protocol):
-    """A named quantity whose value can be written with a unit."""
+    """A quantity with a name, whose value can be written with a unit."""
 
     @property
     def name(self) -> str:
@@ -21,21 +21,22 @@ class WritableQuantity(Protocol):
 
     @property
     def unit(self) -> str:
-        """Name of its own unit."""
+        """Name of the quantity's unit."""
 
     @property
     def measure(self) -> Unit:
-        """Its own unit."""
+        """The quantity's unit."""
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Least and greatest value, in its own unit."""
+        """Least and greatest value, in the quantity's unit."""
 
 
 def overrides(
     variation: Variation, without: Iterable[str], settings: Iterable[str], scales: Iterable[str] = ()
 ) -> Overrides:
-    """Overrides from names to put at nominal values, `NAME=VALUE` and `NAME=FACTOR`; later ones win.
+    """Make overrides from the names to leave at nominal values, from texts `NAME=VALUE`, and from scales
+    `NAME=FACTOR`. If a name occurs twice, the later text applies.
 
     Raises BadArgument.
     """
@@ -58,7 +59,7 @@ def overrides(
 
 
 def _scale(variation: Variation, text: str) -> tuple[str, float]:
-    """Name of a quantity, a group or all that have no source, and the factor on its errors."""
+    """Parse a scale: the name of a quantity or group, or `unsourced`, and the factor on its errors."""
     name, equals, factor = (part.strip() for part in text.partition("="))
     written = split_value(factor)
     if not equals or written is None or written[1]:
@@ -68,7 +69,9 @@ def _scale(variation: Variation, text: str) -> tuple[str, float]:
 
 
 def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:
-    """Name of a quantity or group, and the values of those that any world has of it."""
+    """Parse a setting: the name of a quantity or group, and the values, by quantity, of all its quantities that any
+    world has.
+    """
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:
         raise BadArgument(f"{quoted(text)} is not a setting; write NAME=VALUE")
@@ -79,7 +82,9 @@ def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:
 
 
 def value_of(quantity: WritableQuantity, text: str) -> float:
-    """A value of a quantity as written, SI, in its own unit by default; raises BadArgument."""
+    """Parse the value of a quantity; a number without a unit is in the quantity's unit. Returns SI; raises
+    BadArgument.
+    """
     written = split_value(text)
     if written is None:
         raise BadArgument(f"{quantity.name} cannot be {quoted(text)}, which is not a number")
@@ -92,7 +97,7 @@ def value_of(quantity: WritableQuantity, text: str) -> float:
 
 
 def _unit(quantity: WritableQuantity, word: str) -> Unit:
-    """The unit of a word after a number; raises BadArgument if it does not fit the quantity."""
+    """The unit written after a number; raises BadArgument if it does not fit the quantity."""
     unit, wanted = unit_named(word), quantity.measure.dimension
     if unit is None or unit.dimension != wanted:
         known = [name for name, other in UNITS.items() if name and other.dimension == wanted]
@@ -112,7 +117,9 @@ StageNumber = Callable[[str], int]  # returns the number, from 1, of a stage as 
 
 
 def faults(catalogue: Catalogue, texts: Iterable[str], stage: StageNumber) -> tuple[Fault, ...]:
-    """Faults from options, sorted by name; raises BadArgument for an unknown name, value or stage, or a duplicate."""
+    """Parse faults from options, sorted by name; raises BadArgument for an unknown name, value or stage, or a
+    duplicate.
+    """
     found = tuple(sorted((_fault(catalogue, text, stage) for text in texts), key=lambda fault: fault.name))
     catalogue.check(found)
     return found
@@ -137,12 +144,12 @@ def _value(kind: FaultKind, text: str) -> float | None:
 
 
 def by_number(text: str) -> int:
-    """The number of a stage, from 1, where stage names are not known."""
+    """Parse the number of a stage, from 1, where the names of stages are not known."""
     if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
         raise BadArgument(f"{quoted(text)} is not the number of a stage, which starts at 1")
     return int(text)
 
 
 def from_start_only(text: str) -> int:
-    """Refuse a stage, for a task without stages."""
+    """Refuse a stage, for a task whose faults are always present from the start."""
     raise BadArgument(f"here, a fault is present from the start; leave out {quoted(f'@{text}')}")
