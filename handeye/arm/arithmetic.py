@@ -1,6 +1,8 @@
-"""The arithmetic of a chain that the servo needs in every period, behind a port: any library may do it.
+"""The kinematics and dynamics that the servo needs in every period, as an interface that any numerical library can
+implement.
 
-Planning, and whatever is computed for a whole motion at once, uses the formulas directly.
+Planning, and everything computed for a whole motion at once, uses the formulas of `arm.kinematics` and
+`arm.dynamics` directly.
 """
 
 from abc import ABC, abstractmethod
@@ -13,15 +15,17 @@ from handeye.core.pose import Array, Pose
 
 
 class ArmArithmetic(ABC):
-    """Frames and dynamics of one arm at one posture, shape (n,), rad and m; all results are the caller's to keep."""
+    """Frames and dynamics of one arm at one configuration, shape (n,), rad and m; the caller may keep and change
+    all results.
+    """
 
     @abstractmethod
     def forward(self, q: Array) -> Pose:
-        """`X_WT`."""
+        """Forward kinematics: the pose `X_WT` of the hand."""
 
     @abstractmethod
     def gravity(self, q: Array) -> Array:
-        """Torques that hold the arm up at rest, shape (n,), N m and N."""
+        """Joint torques that hold the arm up at rest, shape (n,), N m, or N for prismatic joints."""
 
     @abstractmethod
     def at_rest(self, q: Array) -> Dynamics:
@@ -30,7 +34,9 @@ class ArmArithmetic(ABC):
 
 @dataclass(frozen=True, slots=True)
 class Formulas(ArmArithmetic):
-    """The formulas of `arm.kinematics` and `arm.dynamics`: they need no library, and every other is tested by them."""
+    """The formulas of `arm.kinematics` and `arm.dynamics`; they need no library besides NumPy, and all other
+    implementations are tested against them.
+    """
 
     arm: ArmModel
 

@@ -1,7 +1,8 @@
-"""The servo law, its precomputation for a motion, and the external force it leaves unexplained.
+"""Computed-torque control: the servo law, its precomputation for a motion, and the estimate of external force from
+the torque residual.
 
-Torque = planned inertia x (planned acceleration - velocity error - position error) + planned gravity,
-Coriolis and friction torques (Paul 1972). It is computed once a servo period and held for it.
+Torque = planned inertia x (planned acceleration - velocity error - position error) + planned gravity, Coriolis and
+friction torques (Paul 1972). The torque is computed once in each servo period and held for that period.
 """
 
 from dataclasses import dataclass
@@ -20,8 +21,8 @@ def torque(
 ) -> Array:  # fmt: skip
     """Drive torques for one period, shape (n,), N m, and N for prismatic joints.
 
-    `M`, `bias` (n, n), (n,) are those of the planned state when `q` and `qd` are read; `exerted` is J^T F of a force or
-    load to exert.
+    `M`, (n, n), and `bias`, (n,), belong to the planned state at the moment when `q` and `qd` are read; `exerted`
+    is J^T F of a force or load that the hand is to exert.
     """
     omega = constants(arm).frequency
     acceleration = qdd_des + 2 * omega * (qd_des - qd) + omega * omega * (q_des - q)
@@ -31,16 +32,19 @@ def torque(
 def felt_wrench(
     M: Array, bias: Array, J: Array, tau: Array, qd_before: Array, qd_after: Array, period: float
 ) -> Array:
-    """Force and moment on the hand over a servo period (s) under torques `tau`, untared; see `external_wrench`."""
+    """External force and moment on the hand during a servo period (s) with torques `tau`, before taring; see
+    `external_wrench`.
+    """
     acceleration = (qd_after - qd_before) / period
     return external_wrench(J, M @ acceleration + bias - tau)
 
 
 def external_wrench(J: Array, unexplained: Array) -> Array:
-    """The wrench on the hand at T, world axes, shape (6,), N and N m, that best explains torques.
+    """The external wrench on the hand at T that best explains a torque residual; world axes, shape (6,), N and N m.
 
-    `unexplained` is M qdd + bias - torque, shape (n,). It needs no wrist sensor, but joint friction missing in the
-    model appears as force. An arm of fewer than six joints feels only what its joints carry.
+    The residual `unexplained` is M qdd + bias - torque, shape (n,). The estimate needs no wrist sensor, but joint
+    friction that the model lacks appears as force. An arm with fewer than six joints senses only the components
+    that its joints carry.
     """
     if J.shape[0] == J.shape[1]:
         return np.asarray(np.linalg.solve(J.T, unexplained), dtype=np.float64)
@@ -49,10 +53,10 @@ def external_wrench(J: Array, unexplained: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Motion:
-    """A precomputed motion: state and torques at the start of each period.
+    """A precomputed motion: state, mass matrix and torques at the start of each servo period.
 
-    `q`, `qd`, `qdd` and `bias` have shape (N, n), `M` (N, n, n); `qdd` is the mean over the period, and `bias` includes
-    friction.
+    `q`, `qd`, `qdd` and `bias` have shape (N, n), `M` has (N, n, n). `qdd` is the mean acceleration over the
+    period, and `bias` includes friction.
     """
 
     q: Array
@@ -66,7 +70,7 @@ class Motion:
 
 
 def prepare(arm: ArmModel, q_start: Array, samples: Samples) -> Motion:
-    """Precompute a motion from rest, so that the working phase needs no trigonometry."""
+    """Precompute a motion from rest, so that the working phase evaluates no trigonometric functions for it."""
     q = np.vstack([q_start, samples.q])[:-1]
     qd = np.vstack([np.zeros(len(q_start)), samples.qd])
     return Motion(

@@ -1,4 +1,4 @@
-"""Quantisation by the converters between computer and arm (data sheet of 1974)."""
+"""Resolution of the analogue-digital converters between computer and arm (data sheet of 1974)."""
 
 from typing import Final
 
@@ -10,26 +10,32 @@ TORQUE_BITS: Final = 8  # drives: "8 bits or more"
 
 
 def position_step(arm: ArmModel) -> Array:
-    """One step of a potentiometer, spanning its joint's range; shape (n,), rad or m."""
+    """One converter step of each potentiometer, whose steps span the joint's range; shape (n,), rad or m."""
     return (arm.upper - arm.lower) / 2**SENSE_BITS
 
 
 def rate_step(arm: ArmModel) -> Array:
-    """One step of a tachometer, spanning its joint's rates; shape (n,), rad/s or m/s. Inferred."""
+    """One converter step of each tachometer, whose steps span the joint's rates; shape (n,), rad/s or m/s.
+    Inferred.
+    """
     return 2 * constants(arm).speed / 2**SENSE_BITS
 
 
 def torque_step(arm: ArmModel) -> Array:
-    """One step of a drive, spanning its torques both ways; shape (n,), N m or N."""
+    """One converter step of each drive, whose steps span the torques in both directions; shape (n,), N m or N."""
     return 2 * constants(arm).effort / 2**TORQUE_BITS
 
 
 def followed(arm: ArmModel, here: Array, moved: Array, reading: Array) -> Array:
-    """Joint positions, finer than potentiometers show: tachometers move them, `reading` bounds them to half a step."""
+    """Joint positions with a finer resolution than the potentiometers: integrated from the tachometers (`moved`),
+    and kept within half a step of the potentiometer `reading`.
+    """
     half = position_step(arm) / 2
     return (here + moved).clip(reading - half, reading + half)
 
 
 def sliding(arm: ArmModel, rate: Array) -> Array:
-    """Direction in which joints slide, -1 to 1, shape (n,); less than 1 within a tachometer step."""
+    """Direction in which each joint slides, from -1 to 1, shape (n,); the magnitude is less than 1 if the rate is
+    below one tachometer step.
+    """
     return (rate / rate_step(arm)).clip(-1.0, 1.0)

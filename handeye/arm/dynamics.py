@@ -1,7 +1,8 @@
-"""Torques that move the arm and hold it up.
+"""Dynamics of an arm: mass matrix, gravity, Coriolis and friction torques.
 
-The equation of motion is M(q) qdd + h(q, qd) + damping qd = tau + J^T F, with F the force on the hand. Drive
-inertia is a part of M. All functions are vectorised over leading dimensions: the N ticks of a motion at once.
+The equation of motion is M(q) qdd + h(q, qd) + damping qd = tau + J^T F; F is the force on the hand, and M includes
+the inertia of the drives. All functions are vectorised over leading dimensions, for example the N ticks of a
+motion.
 """
 
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ GRAVITY = 9.81  # m/s2, along -z of the world
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Links:
-    """The links in the world at joint positions."""
+    """Poses, mass centres, Jacobians and inertias of all links in W at given joint positions."""
 
     R: Array
     p: Array
@@ -28,17 +29,17 @@ class _Links:
 
 
 def mass_matrix(arm: ArmModel, q: Array) -> Array:
-    """M(q), drive inertia included; shape (..., n) to (..., n, n)."""
+    """Mass matrix M(q), including the inertia of the drives; q of shape (..., n) gives (..., n, n)."""
     return _mass_matrix(arm, _links(arm, q))
 
 
 def gravity(arm: ArmModel, q: Array) -> Array:
-    """Torques that hold the arm up at rest, shape (..., n)."""
+    """Joint torques that hold the arm up at rest, shape (..., n), N m or N."""
     return _bias(arm, _links(arm, q), None)
 
 
 def bias(arm: ArmModel, q: Array, qd: Array) -> Array:
-    """Torques h(q, qd) + damping qd at these rates: gravity, Coriolis, friction."""
+    """Torques h(q, qd) + damping qd at given joint rates: gravity, Coriolis and viscous friction."""
     qd = np.asarray(qd, dtype=np.float64)
     return np.asarray(_bias(arm, _links(arm, q), qd) + constants(arm).damping * qd)
 
@@ -53,14 +54,18 @@ class Dynamics:
 
 
 def at_rest(arm: ArmModel, q: Array) -> Dynamics:
-    """Mass matrix, gravity and Jacobian from one chain of frames; `q` has shape (..., n)."""
+    """Mass matrix, gravity torques and Jacobian of an arm at rest, from one computation of the frames; `q` has
+    shape (..., n).
+    """
     links = _links(arm, q)
     J = tool_jacobian(arm, links.R, links.p)
     return Dynamics(M=_mass_matrix(arm, links), bias=_bias(arm, links, None), J=J)
 
 
 def link_weights(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """Torques of joint j that bear link i, (..., i, j), and of these what the distance of its mass centre makes."""
+    """Torques of joint j that carry the weight of link i, (..., i, j), and the part of each that is due to the
+    distance of the link's mass centre.
+    """
     links, k = _links(arm, q), constants(arm)
     origins, _ = point_jacobian(arm, links.R, links.p, links.p[..., 1:, :])
     of_distance = links.linear - origins * k.carried[:, :, None]

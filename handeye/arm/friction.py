@@ -1,16 +1,19 @@
-"""What the hand feels where it meets nothing: friction of the joints that is not known, and steps of the converters.
+"""The hand force that is sensed in free air: it comes from unknown joint friction and from the steps of the
+converters.
 
-The force estimate has no friction beyond what is known. A joint at rest takes up any torque up to its Coulomb
-friction f_i, a sliding one takes up all of it, and what the estimate cannot explain is felt as the wrench J^-T tau
-(statics, by virtual work: Paul 1981). So the box of torques |tau_i| <= f_i is felt as a polytope of wrenches, which
-along a unit vector u reaches the sum over the joints of |u J^-T_i f_i|.
+The force estimate takes only the known part of joint friction into account. A joint at rest takes up any torque up
+to its Coulomb friction f_i, a sliding joint takes up all of f_i, and the estimate reports the torque residual tau
+as the wrench J^-T tau (statics, by virtual work: Paul 1981). The box of torques |tau_i| <= f_i is thus sensed as a
+polytope of wrenches. Along a unit vector u the polytope extends to the sum over the joints of |u J^-T_i f_i|.
 
-An arm that has measured its friction overcomes what it knows. It feels the rest, `unknown_friction`, all the way. From
-one servo period to the next it feels the steps of its converters besides: torques are put out to half a step, and the
-rate that a period has gained is read in steps, which inertia makes a torque. Both are even errors, of step^2 / 12.
+An arm that has measured its friction compensates the measured part, and senses the rest, `unknown_friction`, during
+the whole motion. In addition it senses, in each servo period, the steps of its converters: the output torque is
+rounded by up to half a step, and the rate gained in a period is read in steps, which the inertia turns into a
+torque. Both roundings are uniform errors, of variance step^2 / 12.
 
-Measured on 120 straight motions in free air, in three worlds with twice the errors: the mean over a motion was within
-1.02 times the first, the scatter of its periods 1.05 times the second (1.28 at most).
+Measured on 120 straight motions in free air, in three worlds with twice the errors: the mean force over a motion
+was at most 1.02 times the first figure, the scatter of single periods was 1.05 times the second (1.28 times at
+most).
 """
 
 from typing import Final
@@ -27,21 +30,25 @@ from handeye.program.guards import HandLoad
 
 UNKNOWN: Final = 0.02  # of measured friction, beside a quarter of a step of the converter
 PEAK: Final = 4.0
-"""Times the scatter of a servo period that a guard should leave room for: one period of 30,000 goes beyond."""
+"""Margin of a guard, in multiples of the scatter of single servo periods; one period of 30,000 exceeds it."""
 
 
 def unknown_friction(arm: ArmModel, friction: Array) -> Array:
-    """What is not known of each joint's friction when it has been measured, shape (n,), N m or N."""
+    """Upper bound of each joint's friction that remains unknown after friction has been measured, shape (n,), N m
+    or N.
+    """
     return np.asarray(torque_step(arm) / 4 + UNKNOWN * friction)
 
 
 def felt_friction(arm: ArmModel, q: Array, friction: Array) -> Array:
-    """Wrench felt from each joint's Coulomb friction (N m, N), as columns, shape (6, n): N and N m, in W."""
+    """The wrench that is sensed because of each joint's Coulomb friction (N m, N), as columns of shape (6, n), N
+    and N m, in W.
+    """
     return external_wrench(jacobian(arm, q), np.diag(friction))
 
 
 def felt_in_air(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> float:
-    """The most that the hand feels along a force (N) or about a moment (N m) where it meets nothing."""
+    """The greatest force (N) or moment (N m) along `exerted` that the hand senses in free air."""
     vector = np.array(exerted.vector)
     wrenches = external_wrench(jacobian(arm, q), np.eye(len(q)))
     along = vector @ (wrenches[3:] if exerted.turning else wrenches[:3]) / np.linalg.norm(vector)
@@ -51,6 +58,8 @@ def felt_in_air(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> 
 
 
 def faint(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> float | None:
-    """The most that is felt in free air (N, N m), if a guard on `exerted` may be met by it; else None."""
+    """The greatest force or moment sensed in free air (N, N m), if it exceeds `exerted`, so that a guard at
+    `exerted` may trip without contact; else None.
+    """
     most = felt_in_air(arm, q, friction, exerted)
     return most if float(np.linalg.norm(np.array(exerted.vector))) < most else None

@@ -1,4 +1,4 @@
-"""Agreement of the two sensors of a joint: tachometer against potentiometer over a motion."""
+"""Compares the two sensors of each joint, tachometer and potentiometer, over a motion."""
 
 from dataclasses import dataclass, field
 from typing import Final
@@ -12,30 +12,36 @@ from handeye.core.record import Record
 
 MAX_TURN_GAP: Final = 0.0063
 MAX_SLIDE_GAP: Final = 0.0011
-"""Difference, rad and m, that the waviness of a potentiometer makes: twice its largest stated amplitude (.09 degrees,
-.011 in), at twice the stated errors, as worlds of the high level have."""
+"""Difference, rad and m, that the waviness of a potentiometer can cause: twice its largest stated amplitude (.09
+degrees, .011 in), with the doubled errors of worlds of the high level.
+"""
 READING_STEPS: Final = 1.5
-"""Converter steps between two readings of one position: half a step each, and their noise."""
+"""Tolerance for two readings of one position, in converter steps: half a step for each, and their noise."""
 PATH_SHARE: Final = 0.013
-"""Difference as a fraction of the path: three standard deviations of a potentiometer's scale (.22 %), twice."""
-JUMP_STEPS: Final = 4.0
-"""Converter steps between two readings a servo period apart that the tachometer does not show.
+"""Tolerance as a fraction of the path: three standard deviations of a potentiometer's scale error (.22 %), doubled.
 
-A step by rounding, and five standard deviations of the noise (.2 steps a reading, at the high level .4).
+"""
+JUMP_STEPS: Final = 4.0
+"""Tolerance for the change of a reading within one servo period that the tachometer does not show, in converter
+steps.
+
+One step for rounding, and five standard deviations of the noise (.2 steps per reading, .4 at the high level).
 """
 STRUCK: Final = 3.0
-"""How many times as far as by half the change of its rate a joint that is struck may go in a servo period. Chosen."""
+"""Factor by which a joint that is struck may move farther in a servo period than half the change of its rate
+explains. Chosen.
+"""
 
 
 REST_STEPS: Final = 4
-"""Converter steps that a potentiometer may change under set brakes while its tachometer reads zero.
+"""Tolerance for the change of a potentiometer with brakes set while its tachometer reads zero, in converter steps.
 
-Two for its noise, as at the high level, and more for an arm that creeps.
+Two steps are for the noise at the high level, the others for an arm that creeps.
 """
 
 
 class Disagreement(Record, frozen=True, kw_only=True):
-    """Displacements of a joint (rad or m) since a motion began, or since the brakes were set, by its two sensors."""
+    """Displacement of a joint (rad or m) by each of its two sensors, since a motion began or the brakes were set."""
 
     joint: int
     potentiometer: float
@@ -44,7 +50,9 @@ class Disagreement(Record, frozen=True, kw_only=True):
 
 
 def crept(arm: ArmModel, change: Array) -> Disagreement | None:
-    """The joint farthest from rest, if any, by the change of potentiometers under set brakes, shape (n,)."""
+    """The joint that moved most under set brakes, by the change of its potentiometer, (n,), if it moved more than
+    is tolerated; else None.
+    """
     excess = np.abs(change) / (REST_STEPS * position_step(arm))
     if (excess <= 1).all():
         return None
@@ -54,7 +62,7 @@ def crept(arm: ArmModel, change: Array) -> Disagreement | None:
 
 @dataclass(slots=True, kw_only=True)
 class JointAgreement:
-    """The sensors of all joints from the start of a motion; arrays have shape (n,), rad and m."""
+    """Compares the sensors of all joints from the start of a motion; arrays have shape (n,), rad and m."""
 
     arm: ArmModel
     start: Array  # potentiometers at the start
@@ -74,19 +82,21 @@ class JointAgreement:
         )
 
     def begin_anew(self, q: Array, qd: Array) -> None:
-        """Compare from these readings on, as a tool that chatters in step with the servo shakes the arm.
+        """Start the comparison again from these readings. For a tool that chatters in step with the servo and
+        shakes the arm.
 
-        Tachometers that are read once in each period then show a rate that is steady, of a joint that stands still.
+        Tachometers that are read once per period then show a steady rate although the joint does not move on
+        average.
         """
         self.start, self.rate = q, qd
         self._clear()
 
     def step(self, q: Array, qd: Array) -> Disagreement | None:
-        """Compare the readings of the next servo period: the joint that disagrees most, if any.
+        """Compare the readings of the next servo period; returns the joint that disagrees most, if any.
 
-        The mean of two rates is the rate between them for as long as it grows evenly. Where it does not, such as when
-        a casting breaks loose and strikes the joint, the motion between them is unknown. What is not known in one
-        period has nothing to do with what is not in the next: squares add up.
+        The mean of two successive rates is the mean rate in between as long as the rate changes evenly. Where it
+        does not, for example when a casting breaks loose and strikes the joint, the motion in between is unknown.
+        The unknown parts of different periods are independent, so their squares are added.
         """
         period, step = self.arm.servo.period, rate_step(self.arm)
         gone, gain = (self.rate + qd) / 2 * period, qd - self.rate
@@ -108,14 +118,14 @@ class JointAgreement:
 
 
 def _unsteady(change: Array, step: Array) -> Array:
-    """The part of a change that two steps of a converter do not make."""
+    """The part of a change of rate that exceeds two converter steps."""
     return np.maximum(np.abs(change) - 2 * step, 0.0)
 
 
 def jumped(arm: ArmModel, by_pot: Array, before: Array, after: Array) -> Disagreement | None:
-    """The joint, if any, whose potentiometer disagrees with its rates before and after a period.
+    """The joint, if any, whose potentiometer disagrees with the rates before and after a servo period.
 
-    A reading that jumps shows so at once, whatever the arm does. All arrays have shape (n,).
+    A reading that jumps is detected at once, whatever the arm does. All arrays have shape (n,).
     """
     period = arm.servo.period
     gone = (before + after) / 2 * period

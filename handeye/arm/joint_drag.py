@@ -1,13 +1,15 @@
-"""Torques that joints take beyond weight, inertia and load: whether one joint or a force at the hand explains them.
+"""Torques that joints take beyond weight, inertia and load: decides whether one joint or a force at the hand
+explains them.
 
-In free air what is left is friction: it has the sign of the rate, so that half the difference between what a joint
-takes one way and the other is its friction, whatever weight is not as modelled (as in
+In free air the remaining torque is friction. Friction has the sign of the rate, so a joint's friction is half the
+difference between its torques in the two directions, even if the model of its weight is wrong (as in
 `execution.friction_measurement`).
 
-A force that meets the hand is felt by several joints at once, as J^T F. What one joint alone takes would be, of a
-wrench at the hand, a couple or a force at the wrist centre: its arm about the tool centre point is longer than any
-finger. The limits of this: what meets the arm at its wrist centre looks like a joint; and of a hand that points down
-under a level boom, a push upwards and a shoulder that does not lift are the same, which counts as a push.
+A force on the hand acts on several joints at once, as J^T F. A torque in one joint alone would, as a wrench at the
+hand, be a couple or a force at the wrist centre: its lever arm about the tool centre point is longer than any
+finger. This has two limits. A force on the arm at its wrist centre looks like a fault of a joint. And if the hand
+points down under a level boom, an upward push looks the same as a shoulder that does not lift; this counts as a
+push.
 """
 
 from dataclasses import dataclass, field
@@ -25,24 +27,30 @@ LEAST_PERIODS: Final = (
     15  # servo periods of sliding that an average needs; chosen: a torque step wavers less by 4
 )
 MAX_DRAG_RATIO: Final = 2.0
-"""Greatest plausible ratio of a joint's friction to what was measured first, beside half a step of the converter.
+"""Greatest plausible ratio of a joint's friction to the first measurement; half a converter step is allowed in
+addition.
 
-Measured friction is right within a quarter of a step and 2 %, and so is what a motion takes: at twice the stated errors
-up to 1.08 times and half a step. The rest is left to weight that differs between one way and the other. Sound joints of
-twelve worlds reach 1.4."""
+Measured friction is right within a quarter of a step and 2 %, and so is the torque measured in a motion: at twice
+the stated errors, up to 1.08 times and half a step. The rest allows for weight that differs between the two
+directions. Sound joints of twelve worlds reach 1.4.
+"""
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size
 WEIGHT_DOUBT: Final = 0.2
-"""Fraction of weight and inertia torques that may be wrong where a joint went one way only: masses, mass centres and
-drives at three times twice their stated spreads."""
+"""Possible relative error of weight and inertia torques if a joint moved in one direction only: masses, mass
+centres and drives at three times twice their stated spreads.
+"""
 AT_HAND: Final = 0.15
-"""Longest arm about the tool centre point (m) of a force that meets the hand or what it holds. Chosen: beyond the palm,
-and short of the wrist centre."""
+"""Longest lever arm about the tool centre point (m) of a force on the hand or on what it holds. Chosen: beyond the
+palm, but short of the wrist centre.
+"""
 ALONE: Final = 0.9  # share of the squares of all unexplained torques that one joint must have; chosen
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stiffness:
-    """A joint, and the torque (N m, N if prismatic) that it takes against its motion beside what it should."""
+    """A joint that is too stiff, and the torque (N m, or N if prismatic) by which it resists motion beyond the
+    model.
+    """
 
     joint: int
     torque: float
@@ -52,7 +60,9 @@ class Stiffness:
 
 @dataclass(slots=True, kw_only=True)
 class JointDrag:
-    """Unexplained torques of a motion, averaged by the way in which each joint slides; arrays of shape (2, n)."""
+    """Unexplained torques during a motion, averaged for each direction of sliding of each joint; arrays of shape
+    (2, n).
+    """
 
     arm: ArmModel
     _sum: Array = field(init=False)
@@ -66,7 +76,7 @@ class JointDrag:
         )
 
     def step(self, spare: Array, modelled: Array, rate: Array) -> None:
-        """Add a servo period: unexplained and modelled torques, and rates, shape (n,)."""
+        """Add a servo period: unexplained torques, modelled torques and rates, shape (n,) each."""
         least = SLIDING_STEPS * rate_step(self.arm)
         for way, sliding in enumerate((rate > least, rate < -least)):
             self._sum[way] += np.where(sliding, spare, 0.0)
@@ -75,7 +85,7 @@ class JointDrag:
             self._periods[way] += sliding
 
     def stiff(self, friction: Array) -> Stiffness | None:
-        """The joint, if any, that takes far more than the `friction` (n,) that was measured."""
+        """The joint, if any, that resists with much more than its measured `friction`, (n,)."""
         enough = self._periods >= LEAST_PERIODS
         periods = np.maximum(self._periods, 1.0)
         mean, rate, weight = (each / periods for each in (self._sum, self._rate, self._weight))
@@ -99,7 +109,9 @@ class JointDrag:
 
 
 def alone(arm: ArmModel, J: Array, spare: Array) -> int | None:
-    """The joint that alone takes torques (n,), unless they are those of a force that meets the hand; see above."""
+    """The joint that alone takes the torques `spare`, (n,); None if a force on the hand explains them (see the
+    module).
+    """
     wrench = external_wrench(J, spare)
     if float(np.linalg.norm(wrench[3:])) <= AT_HAND * float(np.linalg.norm(wrench[:3])):
         return None

@@ -1,4 +1,4 @@
-"""An arm as a value: a chain of joints with limits, masses and drives, and a two-finger hand."""
+"""The model of an arm, as a value: a chain of joints with limits, masses and drives, and a two-finger hand."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
@@ -24,13 +24,13 @@ class GraspModel:
     give: float = 0.004  # m by which the fingers must be held up to press with all the force allowed; chosen
 
     def lag(self, force: float, grip: float) -> float:
-        """m by which the set-point of the gap is ahead of fingers that press with a force, of `grip` at most (N)."""
+        """Lead of the gap's set-point over the fingers when they press with `force` of at most `grip` (N), m."""
         return self.give * force / grip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HandModel:
-    """Two fingers that open and close together, and what carries them; lengths in m."""
+    """A hand with two fingers that open and close together, with its palm and wrist; lengths in m."""
 
     length: float  # wrist centre to finger tips
     mass: float  # of both fingers, kg; not included in the last link's `mass`
@@ -47,7 +47,7 @@ class HandModel:
     lamp: tuple[float, float, float] | None = None  # in T; shows the camera the hand
 
     def boxes(self, gap: float) -> tuple[Box, ...]:
-        """Boxes of both fingers at an opening (m), the palm and the wrist."""
+        """Boxes of both fingers at an opening `gap` (m), of the palm and of the wrist."""
         x, inner, outer = self.finger_width / 2, gap / 2, gap / 2 + self.finger_thickness
         return (
             (-x, inner, -self.finger_length, x, outer, 0.0),
@@ -58,15 +58,15 @@ class HandModel:
 
 
 Structure = Literal["spherical wrist", "gantry", "cartesian"]
-"""Structure of an arm for its inverse kinematics; `handeye.arm.ik` has a solver for each."""
+"""Kinematic structure of an arm, for inverse kinematics; `handeye.arm.ik` has a solver for each."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Joint:
-    """A joint and the link it moves, in standard Denavit-Hartenberg form with a = 0.
+    """A joint and the link that it moves, in standard Denavit-Hartenberg form with a = 0.
 
-    DH frame i is reached from frame i-1 by a turn of theta about z, a shift of d along z and a turn of `alpha` about x.
-    A revolute joint varies theta, a prismatic one varies d; positions, rates and limits are in rad or m.
+    From DH frame i-1, frame i is reached by a turn of `theta` about z, a shift of `d` along z and a turn of `alpha`
+    about x. A revolute joint varies theta, a prismatic joint varies d; positions, rates and limits are in rad or m.
     """
 
     name: str
@@ -89,7 +89,7 @@ class Joint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServoModel:
-    """Parameters of the servo, and following errors that count as a failure."""
+    """Parameters of the servo, and following errors beyond which a motion has failed."""
 
     period: float  # s between torque updates
     frequency: tuple[float, ...]  # of each joint's error, rad/s, critically damped
@@ -101,7 +101,9 @@ class ServoModel:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComplianceModel:
-    """Parameters of compliant motions, in which speed follows force: an admittance."""
+    """Parameters of compliant motions, in which the speed of the hand follows the sensed force (admittance
+    control).
+    """
 
     gain: float  # m/s/N
     speed: float  # m/s by force alone, at most
@@ -110,7 +112,9 @@ class ComplianceModel:
     turn_limit: float  # rad, at most
     ramp: int  # servo periods to full speed of a motion that does not press
     friction: tuple[float, ...]
-    """Expected Coulomb friction of each joint, N m or N, for checks before a run, which measures its own."""
+    """Expected Coulomb friction of each joint, N m or N. Used for checks before a run; during a run, measured
+    friction is used.
+    """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -129,10 +133,10 @@ class ArmModel(Brief):
     servo: ServoModel
     compliance: ComplianceModel
     held: Mapping[str, float] = field(default_factory=dict)
-    """Joints outside the inverse kinematics, and where each is held, rad or m."""
+    """Positions, rad or m, of the joints that inverse kinematics leaves fixed, by joint name."""
 
     def __post_init__(self) -> None:
-        """Raise ValueError if the figures do not fit together."""
+        """Raise ValueError if the figures contradict each other."""
         names = [joint.name for joint in self.joints]
         if len({*names}) < len(names) or not {*self.held} <= {*names}:
             raise ValueError(f"{self.name}: joints have names of their own, and only joints are held")
@@ -152,7 +156,7 @@ class ArmModel(Brief):
 
     @property
     def middle(self) -> Array:
-        """Middle of the joints' ranges, held joints where they are held; shape (n,)."""
+        """Middle of the joints' ranges, with held joints at their fixed positions; shape (n,)."""
         q = (self.lower + self.upper) / 2
         for i, joint in enumerate(self.joints):
             q[i] = self.held.get(joint.name, q[i])
@@ -163,19 +167,19 @@ _WORKING: Final = (ComplianceModel, GraspModel)  # parts that no plan depends on
 
 
 def digest(arm: ArmModel) -> str:
-    """A digest (12 hexadecimal digits) of all figures that a plan may depend on, whatever their field names."""
+    """A digest (12 hexadecimal digits) of all figures on which a plan may depend; names of fields do not count."""
     import hashlib
 
     return hashlib.sha256(repr(_figures(arm, _WORKING)).encode()).hexdigest()[:12]
 
 
 def same_arm(one: ArmModel, other: ArmModel) -> bool:
-    """True if all figures of two models are equal, including those of the working phase."""
+    """True if all figures of two models are equal, including those used only in the working phase."""
     return _figures(one, ()) == _figures(other, ())
 
 
 def _figures(value: object, left_out: tuple[type, ...]) -> object:
-    """Figures of a model as nested lists, without parts of some types."""
+    """Figures of a model as nested lists, without values of the types `left_out`."""
     if is_dataclass(value):
         parts = [getattr(value, each.name) for each in fields(value)]
         return [_figures(part, left_out) for part in parts if not isinstance(part, left_out)]
@@ -188,9 +192,9 @@ def _figures(value: object, left_out: tuple[type, ...]) -> object:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Constants:
-    """The figures of a model as arrays, computed once; not to be modified.
+    """The figures of an arm model as arrays, computed once; they must not be modified.
 
-    From `prismatic` to `frequency` shape (n,).
+    The fields from `prismatic` to `frequency` have shape (n,).
     """
 
     X_BW: Pose
@@ -217,7 +221,7 @@ class Constants:
 
 @lru_cache(maxsize=16)
 def constants(arm: ArmModel) -> Constants:
-    """The arrays of an arm."""
+    """The figures of an arm as arrays."""
     names = (
         "d",
         "theta",
@@ -246,7 +250,7 @@ def constants(arm: ArmModel) -> Constants:
 
 
 def _add_fingers(arm: ArmModel, mass: Array, centre: Array, inertia: Array) -> None:
-    """Add the fingers, a point mass on the approach axis, to the last link."""
+    """Add the fingers to the last link, as a point mass on the approach axis."""
     own, p = mass[-1], centre[-1].copy()
     fingers, f = arm.hand.mass, np.array([0.0, 0.0, arm.hand.centre - arm.hand.length])
     mass[-1] = own + fingers

@@ -1,4 +1,4 @@
-"""Set-points for straight motions of all axes, one per period."""
+"""Set-points for straight motions of all axes in joint space, one per servo period."""
 
 import math
 from collections.abc import Iterator
@@ -12,7 +12,9 @@ PEAK_ACCELERATION = 5.774  # over distance / duration2
 
 
 def quintic(start: Array, goal: Array, speed: Array, acceleration: Array, period: float) -> Iterator[Array]:
-    """Set-points of a fast quintic motion of n axes from rest to rest, one a period (s); all arrive together."""
+    """Set-points of a fast quintic motion of n axes from rest to rest, one per period (s); all axes arrive
+    together.
+    """
     distance = np.abs(goal - start)
     longest = max(
         np.max(PEAK_SPEED * distance / speed),
@@ -25,7 +27,9 @@ def quintic(start: Array, goal: Array, speed: Array, acceleration: Array, period
 
 
 def slow_line(start: Array, goal: Array, speed: Array, period: float) -> Iterator[Array]:
-    """Set-points of a slow motion of n axes at constant speed, one a period (s), safe to stop at any of them."""
+    """Set-points of a slow motion of n axes at constant speed, one per period (s); the motion may be stopped at any
+    of them.
+    """
     steps = max(1, math.ceil(float(np.max(np.abs(goal - start) / speed)) / period))
     for step in range(1, steps + 1):
         yield start + (goal - start) * (step / steps)

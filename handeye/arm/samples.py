@@ -1,4 +1,4 @@
-"""Set-points of a motion, one per servo period, and their check against the arm's limits."""
+"""Set-points of a motion, one per servo period, and their check against the limits of the arm."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,9 @@ from handeye.program.diagnosis.reach import BelowTable
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Samples:
-    """Set-points at the ends of servo periods 1 to N; each shape (N, n), rad and m, per s."""
+    """Set-points at the ends of servo periods 1 to N: joint positions, rates and accelerations, each of shape (N,
+    n), in rad and m.
+    """
 
     q: Array
     qd: Array
@@ -25,14 +27,15 @@ class Samples:
 
 
 def length(X_WT: Pose) -> float:
-    """Length of the hand's path over poses (N, 4, 4), m."""
+    """Length of the hand's path along poses (N, 4, 4), m."""
     return float(np.linalg.norm(np.diff(X_WT[:, :3, 3], axis=0), axis=1).sum())
 
 
 def check_samples(arm: ArmModel, samples: Samples, *, floor: float | None = None) -> IKResult | None:
     """Check samples against the joint limits, and the hand against `floor` (m).
 
-    Returns None if all are within, else the first joint beyond its limit, its extreme, and where along the path.
+    Returns None if all set-points are within the limits, else the first joint beyond its limit, the extreme
+    position, and where along the path it occurs.
     """
     excess = np.maximum(samples.q - arm.upper, arm.lower - samples.q)
     bad = excess > SLACK

@@ -1,12 +1,13 @@
-"""Torques that bear the arm against its weight, from motion to motion: a drive that does not give its commanded torque.
+"""Detects a drive that does not give its commanded torque, from the torques that carry the arm's weight in
+successive motions.
 
-On a motion through free air from rest to rest, a joint takes its weight on the mean, and the friction that was
-measured. What is left shows masses, mass centres and drives that are not as modelled. These do not change: each motion
-tells more of them (recursive least squares with a prior, Gauss; the prior is what the arm does not know when it has
-weighed itself, for errors of twice their stated size), until a motion at a new posture leaves next to nothing. What
-then differs has changed. Measured in three worlds, one of them at the high level: joint 2 of the Stanford arm is known
-to .27 N m of the 18 that it bears over the table, joint 3 to .6 N of 5 to 20. A joint that carries no weight tells
-nothing.
+In a motion through free air from rest to rest, the mean torque of a joint is its weight torque plus the measured
+friction. The remainder is due to errors of masses, mass centres and drives. These errors are constant, so each
+motion refines their estimate (recursive least squares with a prior, Gauss; the prior is the uncertainty after the
+arm has weighed itself, for errors of twice their stated size), until a motion at a new posture leaves almost no
+remainder. A remainder that appears then means that a drive has changed. Measured in three worlds, one of them at
+the high level: the weight torque of joint 2 of the Stanford arm is known to .27 N m of the 18 N m that it carries
+over the table, that of joint 3 to .6 N of 5 to 20 N. A joint that carries no weight gives no information.
 """
 
 from dataclasses import dataclass, field
@@ -27,16 +28,20 @@ DAMPING: Final = 0.6  # of viscous friction
 COULOMB: Final = 0.02  # of measured friction, beside a quarter of a step of the converter
 BEARS: Final = 4.0  # times its friction: the least weight that a joint must bear to be looked at; chosen
 LIMIT: Final = 5.0
-"""Times what is not known of a joint, which is one sigma where errors are twice their stated size.
+"""Limit of a joint's remainder, in multiples of its uncertainty; the uncertainty is one sigma for errors of twice
+their stated size.
 
-A pump takes some 350 motions, on which two joints are looked at: beyond 4 one of 20 sound pumps would be stopped,
-beyond 5 one of 2,500."""
+A pump takes about 350 motions, in which two joints are checked. A limit of 4 would stop one of 20 sound pumps, a
+limit of 5 stops one of 2,500.
+"""
 OFF: Final = 0.4  # of LIMIT: from there on other joints are reported beside the worst
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unbalanced:
-    """Joints that are off balance; `factors`: the torque of each drive as a multiple of what was commanded."""
+    """Joints whose torques do not balance; `factors` is the torque of each drive as a multiple of the commanded
+    torque.
+    """
 
     joints: tuple[int, ...]
     factors: tuple[float, ...]
@@ -44,7 +49,7 @@ class Unbalanced:
 
 @dataclass(slots=True, kw_only=True)
 class TorqueBalance:
-    """What joints take beside weight, inertia and load on a motion; arrays of shape (n,)."""
+    """Torques of the joints beyond weight, inertia and load during a motion; arrays of shape (n,)."""
 
     arm: ArmModel  # as it has been weighed
     friction: Array  # as it was measured
@@ -57,7 +62,7 @@ class TorqueBalance:
         self._spare, self._rate, self._slid = (np.zeros(len(self.friction)) for _ in range(3))
 
     def step(self, q: Array, spare: Array, rate: Array) -> None:
-        """Add a servo period: posture, torques that weight, inertia and load do not explain, rates."""
+        """Add a servo period: posture, torques that weight, inertia and load do not explain, and rates."""
         slid = sliding(self.arm, rate)
         self.postures.append(q)
         self._spare += spare - self.friction * slid
@@ -65,10 +70,11 @@ class TorqueBalance:
         self._slid += np.abs(slid)
 
     def weighed(self, belief: Array | None, borne: Array) -> tuple[Array, Unbalanced | None]:
-        """Compare a motion with what was believed before it: what is believed after it, and what is off balance.
+        """Compare a motion with the estimate before it; returns the estimate after it, and the joints that do not
+        balance, if any.
 
-        `belief` is None if nothing is known but what the arm weighed at the first posture; `borne` are the torques of
-        a declared load.
+        `belief` is the estimate, None if the arm has only been weighed at its first posture; `borne` are the
+        torques that carry a declared load.
         """
         count = len(self.postures)
         spare, rate, slid = (each / count for each in (self._spare, self._rate, self._slid))
@@ -91,25 +97,25 @@ class TorqueBalance:
 
 
 def _doubt(arm: ArmModel) -> Array:
-    """Least error of a mean torque: a quarter of a step of the converter, in friction as in itself."""
+    """Least uncertainty of a mean torque: a quarter of a converter step, both in the torque and in the friction."""
     return np.asarray(torque_step(arm) * np.sqrt(2) / 4)
 
 
 def _prior(arm: ArmModel) -> Array:
-    """Errors of masses, mass centres and drives, (3n, 1 + 3n): their likeliest values, then their covariances."""
+    """Prior of the errors of masses, mass centres and drives, (3n, 1 + 3n): expected values, then covariances."""
     spread = np.repeat([MASS, CENTRE, GAIN], len(arm.joints))
     return np.column_stack((np.zeros(len(spread)), np.diag(spread**2)))
 
 
 def _model(arm: ArmModel, postures: list[Array]) -> tuple[Array, Array]:
-    """What each of these errors adds to the torques of the joints, (n, 3n), on the mean; and weight."""
+    """Contribution of each of these errors to the mean joint torques, (n, 3n), and the mean weight torques, (n,)."""
     masses, centres = (each.mean(axis=0).T for each in link_weights(arm, np.array(postures)))
     weight = masses.sum(axis=1)
     return np.hstack((masses, centres, -np.diag(weight))), weight
 
 
 def _learnt(belief: Array, H: Array, weight: Array, noise: Array, spare: Array | None = None) -> Array:
-    """What is believed after torques beyond the model's (by default none) were found, each with a noise."""
+    """Update an estimate with joint torques beyond the model (zero by default), each with a noise variance."""
     mean, spread = belief[:, 0], belief[:, 1:]
     for j, h in enumerate(H):
         if not weight[j]:

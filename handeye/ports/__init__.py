@@ -1,5 +1,5 @@
-"""The honesty wall: every device of a cell as the working phase knows it, under one clock.
+"""The interfaces of all devices of a cell, through which the working phase senses and acts, under one clock.
 
-No body pose, contact list or true force crosses this wall. Lengths in metres, angles in radians, forces in newtons,
-time in seconds. World frame W: table corner, z up.
+No body pose, contact list or true force is available through these interfaces. Lengths are in metres, angles in
+radians, forces in newtons, times in seconds. World frame W: origin at the table corner, z up.
 """

@@ -1,4 +1,4 @@
-"""Machines whose servos are closed outside the computer, which names goals, watches channels and sets outputs."""
+"""Machines with servos outside the computer: the computer sends goals, reads channels and sets outputs."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ from handeye.core.record import Record
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AxisSpec:
-    """One axis as its machine's manual describes it; a hand that opens and closes is one, too."""
+    """One axis, as the machine's manual describes it; a hand that opens and closes counts as an axis."""
 
     name: str
     kind: Literal["revolute", "prismatic"]
@@ -20,12 +20,14 @@ class AxisSpec:
     upper: float
     speed: float  # greatest, rad/s or m/s
     force: float | None = None
-    """Greatest force (N) or torque (N m) of its servo, as the grip of a hand; None: more than is ever needed."""
+    """Greatest force (N) or torque (N m) of the axis' servo, such as the grip of a hand; None: enough for any task.
+
+    """
     holds: bool = False  # stays where it is when the power is off, by a brake or a gear that locks itself
 
 
 class Channel(Record, frozen=True, kw_only=True):
-    """A quantity that a device senses."""
+    """A quantity that a device senses, with its unit and number of components."""
 
     name: str
     unit: str = ""  # SI; empty: a switch or a count
@@ -34,7 +36,7 @@ class Channel(Record, frozen=True, kw_only=True):
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Names of its components, by which readings have them: `range`, `force_x`, `beam_1`."""
+        """Names of the channel's components in readings, such as `range`, `force_x`, `beam_1`."""
         if self.width == 1:
             return (self.name,)
         ends = "xyz" if self.width == len("xyz") else map(str, range(1, self.width + 1))
@@ -43,7 +45,7 @@ class Channel(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AxesReading:
-    """Readings of a machine of n axes."""
+    """Readings of a machine with n axes."""
 
     time: float  # s on the cell's clock
     q: Array  # positions of the axes, shape (n,), rad or m
@@ -51,50 +53,56 @@ class AxesReading:
 
 
 class Axes(ABC):
-    """A machine whose axes go to their goals by themselves."""
+    """A machine whose servos bring its axes to their goals."""
 
     name: str  # name of the machine, unlike that of any other under the same clock
 
     @property
     @abstractmethod
     def specs(self) -> tuple[AxisSpec, ...]:
-        """Its axes, in order."""
+        """Specifications of the axes, in order."""
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Quantities that it senses besides where its axes are."""
+        """Quantities that the machine senses besides the positions of its axes."""
         return ()
 
     @property
     @abstractmethod
     def period(self) -> float:
-        """s between two goals that its controller takes."""
+        """Time between two goals that the machine's controller accepts, s."""
 
     @abstractmethod
     def read(self) -> AxesReading:
-        """Readings of the present moment. Reading twice without letting time pass gives the same values."""
+        """Read the machine now. Reading twice without letting time pass gives the same values."""
 
     @abstractmethod
     def put(self, goal: Array) -> None:
-        """Name where the axes are to go from now on, shape (n,), rad or m."""
+        """Set the goals of all axes from now on, shape (n,), rad or m."""
 
     def power(self, on: bool) -> None:
-        """Switch its servos on, which hold where they are then, or off; raises Refused if that cannot be done."""
+        """Switch the servos on, so that they hold their present positions, or off; raises Refused if the machine
+        does not allow it.
+        """
         raise Refused(f"the power of {self.name} cannot be switched")
 
     def clear(self, channel: str) -> None:
-        """Release a latched channel to show its reading again; raises InvalidInput if it has none of that name."""
+        """Clear a latched channel, so that it shows its reading again; raises InvalidInput if there is no latched
+        channel of that name.
+        """
         raise NoSuchName(f"{self.name} has no latched channel {channel}")
 
 
 class Outputs(ABC):
-    """Outputs of a machine, each with a name."""
+    """Named outputs of a machine."""
 
     @property
     @abstractmethod
     def names(self) -> tuple[str, ...]:
-        """Their names, in order."""
+        """Names of the outputs, in order."""
 
     @abstractmethod
     def set(self, name: str, value: float) -> None:
-        """Set an output (a switch: 0 or 1; else SI); raises InvalidInput if unknown or the value is not finite."""
+        """Set an output (a switch to 0 or 1, other outputs in SI units); raises InvalidInput if the name is unknown
+        or the value is not finite.
+        """

@@ -1,4 +1,4 @@
-"""The clock of a cell: the only way to let time pass, for all of its devices at once."""
+"""The clock of a cell: time passes only through it, for all devices at once."""
 
 import math
 from abc import ABC, abstractmethod
@@ -9,39 +9,44 @@ from handeye.core.errors import BadArgument
 
 LONGEST: Final = 86400.0  # s that may pass at once: a day, far longer than any job
 _ROUNDING: Final = 1e-6
-"""Share of a step by which a period may miss a whole number of steps: what floating-point numbers lose."""
+"""Tolerated deviation of a period from a whole number of steps, as a fraction of a step: rounding of floating-point
+numbers.
+"""
 _DIGITS: Final = ".12g"  # digits of a period in a message, so that what is written there can be typed
 
 
 class Clock(ABC):
-    """Time, which passes only when it is asked to.
+    """A clock whose time passes only on request.
 
-    The last commands of the devices hold while time passes; their readings are taken again at its end.
+    While time passes, the last commands of all devices stay in force; new readings are taken at the end.
     """
 
     @property
     @abstractmethod
     def now(self) -> float:
-        """s since the program began; until then, since the cell was switched on."""
+        """Seconds since the program began; before that, since the cell was switched on."""
 
     @property
     def tick(self) -> Fraction | None:
-        """The time, s, of which everything that passes is a multiple, where others are rounded up to it; None: they
-        are refused."""
+        """The time unit, s, up to whose multiples all waiting times are rounded; None: times that are not multiples
+        of the physics step are refused.
+        """
         return None
 
     @property
     def next_event(self) -> Fraction | None:
-        """s until something happens by itself that tasks may wait for; None: nothing does."""
+        """Seconds until the next event that happens by itself and for which tasks may wait; None if there is none."""
         return None
 
     @abstractmethod
     def advance(self, seconds: float) -> None:
-        """Let time pass; raises InvalidInput unless it is a whole number of physics steps, one at least."""
+        """Let time pass; raises InvalidInput unless `seconds` is a whole number of physics steps, at least one."""
 
 
 def whole_steps(seconds: float, step: float) -> int:
-    """Physics steps (s each) in a period (s); raises InvalidInput unless whole, from one to `LONGEST` s."""
+    """Number of physics steps (s each) in a period (s); raises InvalidInput unless it is whole and the period at
+    most `LONGEST` s.
+    """
     if not (math.isfinite(seconds) and seconds > 0):
         raise BadArgument(f"time cannot pass by {seconds:g} s; the shortest period is {step:{_DIGITS}} s")
     if seconds > LONGEST:

@@ -1,7 +1,7 @@
-"""A bus of microcomputers, as the computer that runs the user's program sees it.
+"""A bus of microcomputers, as seen from the central computer that runs the user's program.
 
-Commands of five bytes, levels of status lines, one interrupt, bytes of answers, and a clock in whole microseconds.
-Nothing else of the machine crosses this wall.
+The interface carries commands of five bytes, levels of status lines, one interrupt, bytes of answers, and a clock
+in whole microseconds, and nothing else of the machine.
 """
 
 from abc import ABC, abstractmethod
@@ -29,12 +29,14 @@ class Status(IntEnum):
 
     @property
     def aborted(self) -> bool:
-        """Line A is high."""
+        """True if line A is high: the motion was aborted."""
         return self >= Status.RAIL
 
 
 class Command(Record, frozen=True, kw_only=True):
-    """A command: its five bytes are number, operation, `detail`, and `value` with the high byte first."""
+    """A command of five bytes: number of the microcomputer, operation, `detail`, and `value` with the high byte
+    first.
+    """
 
     number: Annotated[int, Meta(ge=0, le=0xFF)]  # of the microcomputer
     op: Annotated[int, Meta(ge=0, le=0xFF)]
@@ -43,18 +45,18 @@ class Command(Record, frozen=True, kw_only=True):
 
     @property
     def frame(self) -> bytes:
-        """Its five bytes."""
+        """The five bytes of the command."""
         return bytes((self.number, self.op, self.detail, *self.value.to_bytes(2, "big")))
 
     @classmethod
     def of(cls, frame: bytes) -> "Command":
-        """The command that five bytes are."""
+        """The command in five bytes."""
         number, op, detail, *value = frame
         return cls(number=number, op=op, detail=detail, value=int.from_bytes(bytes(value), "big"))
 
 
 class BusFault(HandeyeError):
-    """The bus did not carry an answer as the protocol says."""
+    """The bus did not carry an answer according to the protocol."""
 
 
 class NoAnswer(BusFault):
@@ -68,7 +70,7 @@ class NoAnswer(BusFault):
 
 
 class StrayAnswer(BusFault):
-    """A byte arrived that belongs to no question: an answer is longer than was asked for."""
+    """A byte arrived that no question asked for: the answer is longer than expected."""
 
     def __init__(self, number: int) -> None:
         super().__init__(f"STRAY {number}: a byte arrived that no question asked for")
@@ -78,8 +80,8 @@ class StrayAnswer(BusFault):
 class MicrobusPort(ABC):
     """The bus of one central computer.
 
-    `begin` only begins a command; time passes in `wait` alone, so that a state may be kept with bytes under way.
-    `send` and `ask` wait until all is done.
+    `begin` only begins to send a command. Time passes only in `wait`, so that a state can be saved while bytes are
+    on the bus. `send` and `ask` wait until the transfer is complete.
     """
 
     @property
@@ -90,31 +92,35 @@ class MicrobusPort(ABC):
     @property
     @abstractmethod
     def next_event(self) -> int | None:
-        """A moment before which no status line, nor interrupt nor `free` changes; None: none changes by itself."""
+        """Time (microseconds) before which no status line, nor the interrupt, nor `free` changes; None if none
+        changes without a command.
+        """
 
     @abstractmethod
     def wait(self, until: int) -> int:
-        """Let time pass until a moment, or until a status line, interrupt or `free` first changes; the time it is then.
+        """Let time pass until `until`, or until a status line, the interrupt or `free` first changes; returns the
+        new time, microseconds.
 
-        It is later than `until` where the machine goes in longer steps.
+        The new time may be later than `until` if the machine is simulated in longer steps.
         """
 
     @property
     @abstractmethod
     def free(self) -> bool:
-        """No command and no answer is under way."""
+        """True if no command and no answer is being transferred."""
 
     @abstractmethod
     def begin(self, command: Command, answer: int = 0) -> None:
-        """Begin a command, and expect this many bytes of answer; raises Refused unless the bus is free."""
+        """Begin to send a command, and expect `answer` bytes of answer; raises Refused unless the bus is free."""
 
     @abstractmethod
     def answer(self) -> bytes:
-        """The answer to the last question; raises BusFault if it failed, Refused while it is under way."""
+        """The answer to the last question; raises BusFault if the transfer failed, Refused while it is in progress."""
 
     @abstractmethod
     def page(self, number: int) -> int:
-        """Ten status lines at once: of microcomputers 5n to 5n + 4, A in bits 1, 3, 5, 7, 9, B in the bit below each.
+        """Ten status lines at once, those of microcomputers 5n to 5n + 4: lines A in bits 1, 3, 5, 7, 9, each line
+        B in the bit below its line A.
 
         No time passes.
         """
@@ -122,21 +128,21 @@ class MicrobusPort(ABC):
     @property
     @abstractmethod
     def interrupt(self) -> bool:
-        """The interrupting input, to which line A of every motor is tied."""
+        """Level of the interrupt input, to which line A of every motor is connected."""
 
     @property
     @abstractmethod
     def memory(self) -> MutableRecord:
-        """All that is remembered below this wall, bytes under way included: a record to keep in a run's state."""
+        """The whole state of the machine behind the bus, including bytes in transfer, as a record for checkpoints."""
 
     @abstractmethod
     def remember(self, memory: MutableRecord) -> None:
-        """Continue from a memory; raises BadFile if it does not fit."""
+        """Restore the machine to a state; raises BadFile if the state does not fit."""
 
     # -- made of these -------------------------------------------------------------------------------------
 
     def status(self, number: int) -> Status:
-        """The status lines of a microcomputer. No time passes."""
+        """The status lines of one microcomputer. No time passes."""
         return Status(self.page(number // PAGE) >> 2 * (number % PAGE) & 0b11)
 
     def send(self, command: Command) -> None:
@@ -145,13 +151,15 @@ class MicrobusPort(ABC):
         self._finish()
 
     def ask(self, command: Command, count: int) -> bytes:
-        """Send a question, and wait for this many bytes of answer; raises NoAnswer or StrayAnswer."""
+        """Send a question, and wait for `count` bytes of answer; raises NoAnswer or StrayAnswer."""
         self.begin(command, answer=count)
         self._finish()
         return self.answer()
 
     def wait_free(self, number: int, limit: int) -> Status:
-        """Wait until a microcomputer is not busy; its status then: BUSY only after this time, in microseconds."""
+        """Wait until a microcomputer is not busy, for at most `limit` microseconds; returns its status, BUSY only
+        at the time limit.
+        """
         end = self.now + limit
         while (status := self.status(number)) is Status.BUSY and self.now < end:
             self.wait(end)

@@ -1,4 +1,4 @@
-"""The devices of a cell as the working phase knows them, and all of their readings as one record."""
+"""The interfaces of all devices of a cell, and all their readings as one record."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
@@ -16,21 +16,25 @@ from handeye.ports.clock import Clock
 class ScrewdriverPort(ABC):
     """The motor of a screwdriver.
 
-    The watchdog of the arm that carries it cuts it, too: it stands still until the program has set the brakes of the
-    arm and then a new speed.
+    The watchdog of the arm that carries the screwdriver also stops its motor, until the program has set the brakes
+    of the arm and then a new speed.
     """
 
     @abstractmethod
     def torque(self) -> float:
-        """Torque of the motor by its current, N m, positive when it drives a screw in; the same until time passes."""
+        """Torque of the motor, estimated from its current, N m, positive when it drives a screw in; constant until
+        time passes.
+        """
 
     @abstractmethod
     def drive(self, speed: float) -> None:
-        """Set the speed of the spindle, rad/s, positive to drive a screw in; raises InvalidInput unless finite."""
+        """Set the speed of the spindle, rad/s, positive to drive a screw in; raises InvalidInput if the speed is
+        not finite.
+        """
 
     @abstractmethod
     def attract(self, on: bool) -> None:
-        """Switch the magnet of the bit, which is on at first."""
+        """Switch the magnet of the bit on or off; it is on at the beginning."""
 
 
 class LampPort(ABC):
@@ -38,7 +42,7 @@ class LampPort(ABC):
 
     @abstractmethod
     def switch(self, lit: bool) -> None:
-        """Switch it on or off."""
+        """Switch the lamp on or off."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,7 +51,7 @@ class HandReading:
 
     gap: float  # opening between the finger tips by the hand's potentiometer, m
     touch: tuple[bool, bool]
-    """The microswitch inside each finger: (finger on the +y side of the hand frame, finger on the -y side)."""
+    """State of the microswitch inside each finger: finger on the +y side of the hand frame, finger on the -y side."""
 
 
 class HandPort(ABC):
@@ -55,16 +59,18 @@ class HandPort(ABC):
 
     @abstractmethod
     def read(self) -> HandReading:
-        """Readings of the present moment. Reading twice without letting time pass gives the same values."""
+        """Read the hand now. Reading twice without letting time pass gives the same values."""
 
     @abstractmethod
     def drive(self, gap: float, grip: float) -> None:
-        """Set the gap (m) to go to and the most force (N) of each finger; raises InvalidInput unless finite."""
+        """Set the goal of the gap (m) and the greatest force (N) of each finger; raises InvalidInput unless both
+        are finite.
+        """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmReading:
-    """Readings of an arm of n joints."""
+    """Readings of an arm with n joints."""
 
     q: Array  # joint positions by the potentiometers, shape (n,), rad or m, calibration error included
     qd: Array  # joint rates by the tachometers, shape (n,)
@@ -74,23 +80,26 @@ class ArmReading:
 class ArmPort(ABC):
     """Motors, brakes and sensors of an arm.
 
-    A watchdog guards it: an arm that gets no new command before the clock has advanced by a servo period has its
-    drives cut and its brakes set, and stays so until the program sets the brakes itself. Where the clock advances by
-    more than that at once, they are cut from the beginning. The hand is not cut: it keeps hold of what it has.
+    A watchdog guards the arm: if it gets no new command before the clock has advanced by a servo period, its drives
+    are switched off and its brakes set, until the program sets the brakes itself. If the clock advances by more
+    than a servo period at once, the drives are off from the beginning. The hand is not switched off: it keeps its
+    grip.
     """
 
     @abstractmethod
     def read(self) -> ArmReading:
-        """Readings of the present moment. Reading twice without letting time pass gives the same values."""
+        """Read the arm now. Reading twice without letting time pass gives the same values."""
 
     @abstractmethod
     def drive(self, torque: Array | None) -> None:
-        """Put out joint torques (N m, N) for a servo period, None: brakes; raises InvalidInput unless n finite ones."""
+        """Apply joint torques (n,), N m and N, for a servo period, or with None set the brakes; raises InvalidInput
+        unless there are n finite torques.
+        """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensed:
-    """All readings at the end of a servo period; of devices that the cell does not have, zero and False."""
+    """All readings at the end of a servo period; zero and False for devices that the cell does not have."""
 
     time: float
     q: Array  # as `ArmReading.q`, shape (n,)
@@ -100,14 +109,15 @@ class Sensed:
     tool_torque: float = 0.0  # as `ScrewdriverPort.torque`, N m
     braked: bool = False  # as `ArmReading.braked`
     channels: Mapping[Channel, tuple[float, ...]] = field(default_factory=dict)
-    """Values of everything else that machines sense."""
+    """Values of all other quantities that the machines sense."""
 
 
 def sense_axes(machines: Sequence[Axes], before: Sensed | None = None) -> Sensed:
-    """Readings of machines under one clock, their axes one after another; of several, channels are called `left.force`.
+    """Readings of machines under one clock, with their axes one after another. With several machines, the names of
+    channels begin with the machine's name, as in `left.force`.
 
     Args:
-        before: the last readings, from which rates are derived; without them all axes stand.
+        before: the previous readings, from which rates are computed; without them all rates are zero.
     """
     readings = [machine.read() for machine in machines]
     time, q = readings[0].time, np.concatenate([reading.q for reading in readings])
@@ -124,7 +134,9 @@ def sense_axes(machines: Sequence[Axes], before: Sensed | None = None) -> Sensed
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Workcell:
-    """An arm with the devices about it, under one clock. A cell with two arms is two of these with the same clock."""
+    """An arm with the devices around it, under one clock. A cell with two arms consists of two workcells with the
+    same clock.
+    """
 
     clock: Clock
     arm: ArmPort

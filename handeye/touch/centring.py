@@ -1,8 +1,9 @@
-"""CENTER: close the fingers around an object without pushing it.
+"""CENTER: closes the fingers around an object without pushing it.
 
-Plain closing would drag the object to the middle of the hand. Here, once a finger touches, the hand moves towards that
-finger's side, and the fingers close so slowly meanwhile that this one comes off the object, and the other one comes on.
-A finger that still touches after that is not the one that told of it, or something holds the object against it.
+Plain closing would drag the object to the middle of the hand. In centring, once a finger touches, the hand moves
+towards that finger's side, while the fingers close slowly enough that this finger comes off the object and the
+other finger touches it. If a finger still touches after that, its switch or the wrong finger reported the touch, or
+the object is held against the finger.
 """
 
 from dataclasses import dataclass, field
@@ -13,16 +14,20 @@ from handeye.touch.senses import least_gap
 
 OVERDRIVE: Final = 0.005  # m driven beyond the opening before the fingers count as stalled; placeholder
 SLOWER: Final = 0.5
-"""Share of their speed at which the fingers close as one touches, which falls to 0 while it does. Chosen: an object
-between both is pressed on, so that the switch which takes more force fires, too. Slower from the beginning, a finger
-comes off at once, and pushes a loose object a little each time it meets it again."""
+"""Fraction of their speed at which the fingers close when one touches; it falls to 0 while the finger touches.
+Chosen: an object between both fingers is still pressed, so that the switch that needs more force fires too. If the
+fingers were slower from the beginning, a touching finger would come off at once, and push a loose object a little
+each time it touches again.
+"""
 EASING: Final = 0.0015
-"""m that the hand goes towards a finger, at most, until that no longer touches: the arm gives as much to 18 N."""
+"""Greatest movement of the hand towards a finger, m, until the finger no longer touches: the deflection of the arm
+under 18 N.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CentringStep:
-    """Set-point changes in one servo period: finger gap (m), and hand along its y axis (m)."""
+    """Changes of set-points in one servo period: finger gap (m), and hand along its y axis (m)."""
 
     gap: float = 0.0
     hand: float = 0.0
@@ -30,7 +35,9 @@ class CentringStep:
 
 @dataclass(slots=True, kw_only=True)
 class Centring:
-    """One centring: call `step` each period until `done`; when a finger loses the object, both close on again."""
+    """The state of one centring: call `step` in each period until `done`. If a finger loses the object, both
+    fingers close again.
+    """
 
     minimum: float = 0.0  # m; a smaller gap holds nothing, or something too thin; 0: anything
     speed: float  # m/s of the gap; the hand moves at half of it
@@ -42,7 +49,9 @@ class Centring:
     _left: float | None = field(default=None, init=False)
 
     def step(self, *, touch: tuple[bool, bool], gap: float, period: float) -> CentringStep:
-        """Set-point changes of the next period (s), by the switches (of the +y finger first) and the gap (m)."""
+        """The changes of set-points in the next period (s), from the switches (that of the +y finger first) and the
+        gap (m).
+        """
         left = gap + OVERDRIVE if self._left is None else self._left
         if all(touch):
             self.done = True

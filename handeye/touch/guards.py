@@ -1,4 +1,4 @@
-"""Monitors: each watches for a guard, and ends the motion when it is met."""
+"""Monitors: each watches for one guard of a motion, and ends the motion when the guard trips."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -26,7 +26,9 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trip:
-    """The guard that ended a motion, with its value and limit (N, N m, or a mask of finger switches)."""
+    """A guard that has ended a motion, with the measured value and the limit (N, N m, or a mask of finger
+    switches).
+    """
 
     guard: GuardKind
     value: float
@@ -35,7 +37,7 @@ class Trip:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ActiveGuard:
-    """An active guard; `axis`: unit vector of the force or moment it watches, shape (3,), W, or None."""
+    """An active guard; `axis` is the unit vector of the watched force or moment, shape (3,), W, or None."""
 
     guard: GuardKind
     limit: float
@@ -43,20 +45,22 @@ class ActiveGuard:
 
 
 class Monitor(Protocol):
-    """Watches for a guard; one for each motion."""
+    """Watches for one guard; each motion has new monitors."""
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        """Guards active while the motion goes along a unit vector, shape (3,)."""
+        """The guards that are active while the motion goes along the unit vector `direction`, shape (3,)."""
         ...
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip, or None; called once a servo period."""
+        """The tripped guard, or None; called once per servo period."""
         ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class VectorMonitor:
-    """Trips when the hand exerts more than a force (N) along it, or a moment (N m) about it; shape (3,), world axes."""
+    """Trips when the force (N) that the hand exerts along `vector`, or the moment (N m) about it, exceeds the
+    length of `vector`; shape (3,), world axes.
+    """
 
     guard: GuardKind
     vector: Array
@@ -74,7 +78,7 @@ class VectorMonitor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AgainstMonitor:
-    """Trips when the motion is opposed by more than `limit` (N), whatever its direction."""
+    """Trips when a force of more than `limit` (N) opposes the motion, whatever its direction."""
 
     limit: float
 
@@ -88,7 +92,9 @@ class AgainstMonitor:
 
 @dataclass(slots=True, kw_only=True)
 class TorqueMonitor:
-    """Trips when the motor holds a torque (N m) either way: the peak of starting is not yet a tight screw."""
+    """Trips when the motor holds a torque (N m) in either direction for some time; the peak at the start does not
+    count as a tight screw.
+    """
 
     limit: float
     _held: int = field(default=0, init=False)
@@ -108,7 +114,7 @@ class TorqueMonitor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TouchMonitor:
-    """Trips when a finger touches: 1 the first of `Sensed.touch`, 2 the second, 3 either."""
+    """Trips when a finger touches; `mask` 1 is the first of `Sensed.touch`, 2 the second, 3 either."""
 
     mask: int
 
@@ -125,7 +131,7 @@ class TouchMonitor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FirstOf:
-    """Trips when any of its monitors does."""
+    """Trips when any of its monitors trips."""
 
     monitors: tuple[Monitor, ...]
 
@@ -146,6 +152,6 @@ _MONITORS: Final[dict[type[g.Guard], Callable[[Any], Monitor]]] = {
 
 
 def monitor(guards: Guards) -> Monitor | None:
-    """One monitor for all guards; None if there are none."""
+    """One monitor for all guards of a motion; None if there are no guards."""
     found = tuple(_MONITORS[type(guard)](guard) for guard in guards)
     return found[0] if len(found) == 1 else FirstOf(monitors=found) if found else None

@@ -1,7 +1,7 @@
-"""Plausible sensor readings: their limits, and models of the gap between closed fingers.
+"""Limits of plausible sensor readings, and models of the gap between closed fingers.
 
-Limits allow for twice the stated errors of the devices (the variation tables of the tasks), as worlds of the high level
-have.
+The limits allow for twice the stated errors of the devices (the variation tables of the tasks), as in worlds of the
+high level.
 """
 
 from typing import Final
@@ -12,43 +12,47 @@ from handeye.core.pose import Array
 from handeye.core.units import INCH, OUNCE_FORCE
 
 FREE_OPENING: Final = 0.12 * INCH
-"""Opening after which a finger is clear of anything it touched, m.
+"""Opening after which a finger is clear of an object that it touched, m.
 
-Half of it is each finger's: the arm gives that much (1.5 mm) only to a push of some 18 N.
+Half of it belongs to each finger: the arm deflects by that much (1.5 mm) only under about 18 N.
 """
 GAP_ERROR: Final = 0.1 * INCH
-"""Allowed difference between gap and goal, m; the finger servo stops within some hundredths of an inch. Placeholder."""
+"""Permitted difference between gap and goal, m; the finger servo stops within some hundredths of an inch.
+Placeholder.
+"""
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
 FREE_FORCE: Final = 45 * OUNCE_FORCE
-"""Largest force felt in free air, N: 12.5.
+"""Greatest force sensed in free air, N: 12.5.
 
-By arithmetic, masses and mass centres of the links, drive gains and joint friction, which may hold the arm up or
-down, are felt as 6.1 N at most in 400 nominal worlds, at 15 places on the table, and as 8.9 N at the high level; the
-base's weight beyond its declared load adds 2 N there.
+By calculation, the errors of link masses, mass centres, drive gains and joint friction, which may act upwards or
+downwards, are sensed as at most 6.1 N in 400 nominal worlds, at 15 places on the table, and as 8.9 N at the high
+level; there the weight of the base beyond its declared load adds 2 N.
 """
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE
-"""Force with which fingers press that have been centred, N: both switches report it.
+"""Force with which fingers press after centring, N; it closes both switches.
 
-They fire at 2 ounces, and at 4.4 at most (three times twice their stated spread of .4). One finger may bear 3 ounces
-less than the other: the arm holds the difference, and the gap is known to a step of its converter.
+The switches close at 2 ounces, at most at 4.4 (three times twice their stated spread of .4). One finger may carry 3
+ounces less than the other, because the arm holds the difference, and the gap is known to one step of its converter.
 """
 GAP_OFFSET: Final = (
     0.06 * INCH
 )  # m by which the gap may be off, as GAP_SCALE: three times twice its stated errors
 GAP_SCALE: Final = 0.03  # of the gap
 STARTING_TORQUE: Final = 0.05
-"""Torque of a starting motor, N m: 7 ounce-inches, until the spindle turns as fast as it should."""
+"""Torque of a starting motor, N m: 7 ounce-inches, until the spindle has reached its speed."""
 STALLED_TORQUE: Final = 0.37  # N m, at most: that of the clutch, and of the spindle beside it
 STARTING_PERIODS: Final = (
     4  # servo periods that a motor takes to start at the speed of driving; measured: 4.2
 )
 PLATEAU: Final = 1.0
-"""s that a torque must last to be that of a motor held fast: at the speed of driving, three turns. Chosen."""
+"""Duration, s, for which a torque must last to show that the motor is held fast: three turns at driving speed.
+Chosen.
+"""
 HELD_FAST: Final = 0.3
-"""Share of the torque asked for that shows a motor held fast, while the hand does not get on.
+"""Fraction of the requested torque that shows a motor held fast while the hand does not advance.
 
-Of 42 ounce-inches it is .09 N m. A screw that turns takes .02, a bit that slips under 22 ounces at most .025 (all of
-that force as friction, at the edge of a head), and five times the noise of the current are .04 more.
+Of 42 ounce-inches it is .09 N m. A screw that turns takes .02 N m, a bit that slips under 22 ounces at most .025 N
+m (all of that force as friction, at the edge of a head), and five times the noise of the current adds .04 N m.
 """
 CURRENT_NOISE: Final = 0.008  # N m, of a reading: twice the stated noise of the current
 
@@ -64,64 +68,74 @@ def followed(gap: float, goal: float) -> bool:
 
 
 def leapt(change: float, reach: float) -> bool:
-    """True if the gap has changed by more than its motor drives the fingers in that time (m)."""
+    """True if the gap has changed by more (m) than the motor can drive the fingers in that time."""
     return abs(change) > reach + GAP_NOISE
 
 
 def thick(gap: float, thickness: float) -> bool:
-    """True if a gap can be that of fingers that hold an object of known thickness (m), between grips full and light,
-    straight or askew."""
+    """True if `gap` is possible for fingers that hold an object of known thickness (m), gripped fully or lightly,
+    straight or askew.
+    """
     return abs(gap - thickness) <= GAP_OFFSET + GAP_SCALE * thickness + SKEW
 
 
 def kept_apart(gap: float, goal: float) -> bool:
-    """True if something keeps the fingers at a gap (m) that are driven together: a light grip closes no switch."""
+    """True if an object keeps the fingers apart at a gap (m) while they are driven together, even with a grip too
+    light to close a switch.
+    """
     return gap > EMPTY_GAP and gap - goal > GAP_ERROR
 
 
 def stood_still(change: float, driven: float) -> bool:
-    """True if the gap has not changed although the fingers were driven together by more than its error, m."""
+    """True if the gap has not changed although the fingers were driven together by more than the gap's error, m."""
     return driven > GAP_ERROR and abs(change) < GAP_NOISE
 
 
 EMPTY_GAP: Final = 0.05 * INCH
-"""The largest reading of empty closed fingers, m: their potentiometer is off by up to .02 in, .04 at the high level."""
+"""Greatest reading of the gap of empty closed fingers, m: the potentiometer is off by up to .02 in, by .04 in at
+the high level.
+"""
 SAME_HOLD: Final = 5e-4  # m that the gap may differ on the same hold
 SKEW: Final = 1e-3
-"""m that the gap may differ on an object that has turned between the fingers: 2 degrees on an inch are .9.
+"""Permitted change of the gap, m, on an object that has turned between the fingers: a turn of 2 degrees on an inch
+gives .9 mm.
 
-Grasped again it is straighter, and CENTER holds lightly; pushed on its blocks since, it lies more skew. Measured:
-pins closer by .5; the pump's base by .8, and wider by .44 in seeds 1 to 6, by more than .5 in seed 1001.
+An object that is grasped again lies straighter, and CENTER holds it only lightly; after being pushed against blocks
+it lies more askew. Measured: on pins the gap closed by .5 mm; on the pump's base it closed by .8 mm and widened by
+.44 mm in seeds 1 to 6, and by more than .5 mm in seed 1001.
 """
 OFF_MIDDLE: Final = 3e-3
-"""m that an object may lie off the middle of fingers that close on it again, along their line.
+"""Permitted distance, m, of an object from the middle of fingers that close on it again, along the line of the
+fingers.
 
-An object carried and set down has slid in its hold by SKEW and turned by 2 degrees: that is 2 mm at a grasp 57 mm
-beside that hold, as on the pump base's walls. Measured over eight pumps: there 1.8 at most, elsewhere (play in a hole
-or rack, compliance of the arm while it held it) 1.0.
+An object that was carried and set down has slid in the grip by SKEW and turned by 2 degrees, which is 2 mm at a
+grasp 57 mm from that grip, as on the walls of the pump base. Measured over eight pumps: at most 1.8 mm there, and
+1.0 mm elsewhere (play in a hole or rack, compliance of the arm while it held the object).
 """
 
 
 def least_gap(minimum: float) -> float:
-    """The gap (m) that shows an object as thick as `minimum` (m) or, for 0, any object."""
+    """Least gap (m) that shows an object as thick as `minimum` (m); for 0, any object."""
     return minimum or EMPTY_GAP
 
 
 def at_least(gap: float, thickness: float) -> bool:
-    """True if an object of at least this thickness (m) is held."""
+    """True if the fingers hold an object of at least this thickness (m)."""
     return gap >= thickness
 
 
 def at_most(gap: float, thickness: float) -> bool:
-    """True if nothing thicker (m) is held."""
+    """True if the fingers hold nothing thicker than this (m)."""
     return gap <= thickness
 
 
 def as_before(gap: float, kept: float, closer: float = SKEW, wider: float = SAME_HOLD) -> bool:
-    """True if the gap is that of the earlier hold, within `closer` and `wider` (m)."""
+    """True if the gap agrees with that of an earlier hold: at most `closer` less and `wider` more (m)."""
     return -closer <= gap - kept <= wider
 
 
 def too_early(gap: float, kept: float) -> bool:
-    """True if closing fingers touch too wide (m) compared with the earlier hold: the object lies off the middle."""
+    """True if closing fingers touch at a much wider gap (m) than in the earlier hold, so that the object lies off
+    the middle.
+    """
     return gap - kept > 2 * OFF_MIDDLE

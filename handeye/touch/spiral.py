@@ -1,17 +1,17 @@
-"""Search patterns: the square spiral, and the line."""
+"""Search patterns: the square spiral and the line."""
 
 import math
 from collections.abc import Callable
 
 SearchPattern = Callable[[int], tuple[float, float] | None]
-"""Offset of place k, from 0, in search steps along table x and y; None after the last."""
+"""Offset of place k, from 0, in search steps along table x and y; None after the last place."""
 
 
 def spiral(k: int) -> tuple[int, int]:
     """Grid place `k`, from 0: (0,0) (1,0) (1,1) (0,1) (-1,1) (-1,0) (-1,-1) (0,-1) (1,-1) (2,-1) ...
 
-    The straight runs are 1, 1, 2, 2, 3, 3, ... long, turning left. On a grid of step s every point of the
-    plane is within s / sqrt(2) of a place.
+    The straight runs are 1, 1, 2, 2, 3, 3, ... steps long, with left turns between them. With a search step s,
+    every point of the plane is within s / sqrt(2) of a place.
     """
     if k == 0:
         return 0, 0
@@ -28,6 +28,6 @@ def spiral(k: int) -> tuple[int, int]:
 
 
 def line(k: int, direction: float) -> tuple[float, float]:
-    """Place `k`, from 0, on a line in a direction (rad from x): at 0, 1, -1, 2, -2 ... steps."""
+    """Place `k`, from 0, on a line in a direction (rad from x): at 0, 1, -1, 2, -2 ... steps from the start."""
     along = (k + 1) // 2 * (1 if k % 2 else -1)
     return along * math.cos(direction), along * math.sin(direction)

@@ -1,6 +1,6 @@
-"""Vision: the three primitives of 1973 as a public interface, and what is built on them.
+"""Vision: the three primitives of 1973 as a public interface, and the functions built on them.
 
-Names are loaded when they are first used: a plan knows a camera's model, and needs no primitive.
+Names are loaded on first use, because a plan needs only the camera model and none of the primitives.
 """
 
 from typing import TYPE_CHECKING

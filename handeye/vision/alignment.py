@@ -1,7 +1,7 @@
-"""Aligns two pictures of one view, and finds a lamp that only one of them shows lit.
+"""Aligns two pictures of one view, and finds a lamp that is lit in only one of them.
 
-A vidicon does not put every picture in quite the same place. An addition of ours: in the differences of the paper a
-slight shift leaves something of every edge.
+A vidicon displaces each picture slightly. Alignment is our addition: in the picture differences of the paper, a
+slight shift leaves a trace of every edge.
 """
 
 from typing import Final
@@ -27,15 +27,18 @@ Points = NDArray[np.bool_]  # mask, (256, 333)
 
 
 def aligned(picture: Picture, to: Picture) -> Levels:
-    """A picture shifted so that what has not changed coincides with `to`; its border is extended."""
+    """Shift a picture so that its unchanged parts coincide with the picture `to`; border points are repeated
+    outwards.
+    """
     return moved(picture.astype(np.float32), -shift(to, picture))
 
 
 def shift(first: Picture, second: Picture, where: Points | None = None) -> Array:
-    """Shift (columns, rows), shape (2,), of the second of two pictures of one view against the first.
+    """Shift (columns, rows), shape (2,), of the second of two pictures of one view relative to the first.
 
-    First in whole points, by the agreement of most; then, from the slopes of what agrees, in fractions of a point.
-    Only points of the first picture in the mask `where` count, by default all.
+    The shift is found first in whole points, as the one in which most points agree; then in fractions of a point,
+    from the slopes of the points that agree. Only points of the first picture in the mask `where` count, by default
+    all.
     """
     a, b = smooth(first), smooth(second)
     counts = np.ones(first.shape, dtype=np.bool_) if where is None else where
@@ -48,7 +51,7 @@ def shift(first: Picture, second: Picture, where: Points | None = None) -> Array
 
 
 def changed(a: Levels, b: Levels) -> Points:
-    """Mask of points around which two smoothed pictures differ by more than noise."""
+    """Mask of the points around which two smoothed pictures differ by more than noise."""
     return np.asarray(cv2.blur(np.abs(b - a), (AREA, AREA)) > QUIET)
 
 
@@ -58,7 +61,9 @@ def smooth(picture: Picture) -> Levels:
 
 
 def _disagreement(a: Levels, b: Levels, counts: Points, u: int, v: int) -> float:
-    """Mean difference, capped, with the second shifted back, at every other point: the blur has spread each."""
+    """Mean difference, capped per point, with the second picture shifted back by (u, v). Every other point is
+    enough, because the pictures are smoothed.
+    """
     rows, columns = a.shape
     here = a[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]
     there = b[MARGIN + v : rows - MARGIN + v : 2, MARGIN + u : columns - MARGIN + u : 2]
@@ -67,7 +72,9 @@ def _disagreement(a: Levels, b: Levels, counts: Points, u: int, v: int) -> float
 
 
 def _step(a: Levels, b: Levels, counts: Points) -> Array:
-    """Remaining shift of the second, from the slopes where both agree, shape (2,)."""
+    """Remaining shift of the second picture in fractions of a point, shape (2,), from the slopes where both
+    pictures agree.
+    """
     mean = (a + b) / 2
     inside = np.s_[MARGIN:-MARGIN, MARGIN:-MARGIN]
     near = cv2.dilate(changed(a, b).astype(np.uint8), np.ones((CLEAR, CLEAR), np.uint8))
@@ -94,7 +101,9 @@ RADIUS: Final = 10  # points about the peak that count to its centre: the lamp s
 
 
 def find_spot(dark_picture: Picture, lit_picture: Picture) -> tuple[float, float] | None:
-    """Centre (u, v) of the spot that only the lit picture has; None unless there is exactly one."""
+    """Centre (u, v) of the only bright spot that the lit picture has and the dark picture lacks; None unless there
+    is exactly one.
+    """
     difference = lit_picture.astype(np.float32) - aligned(dark_picture, to=lit_picture)
     smooth = cv2.blur(difference, (3, 3))
     v, u = np.unravel_index(int(np.argmax(smooth)), smooth.shape)

@@ -1,7 +1,9 @@
-"""Locates a part with large round holes in two stages: roughly by its outline, then closely by its holes.
+"""Locates a part with large round holes in two stages: general location by its outline, then specific location by
+its holes.
 
-The part lies upright in a stated region, on a darker background, turned by at most 50 degrees from plan. Its height is
-known, so that one picture is enough: rays through the holes meet the plane of its upper face.
+The part lies upright in a stated region, on a darker background, turned by at most 50 degrees from its planned
+orientation. Its height is known, so one picture is enough: rays through the holes are intersected with the plane of
+the upper face.
 """
 
 import math
@@ -40,7 +42,7 @@ Rectangle = tuple[float, float, float, float]  # x, y from, x, y to, part coordi
 
 
 def fitting(view: View, part: Part) -> Callable[[BoundingBox], bool]:
-    """A test whether a box can be that of the part's outline."""
+    """Make a test of whether a box can be that of the part's outline."""
     sizes = np.ptp(silhouettes(view, part, part.at[:2], TURNS), axis=1)
     smallest = sizes.min(axis=0) * (WIDTHS[0], HEIGHTS[0])
     largest = sizes.max(axis=0) * (WIDTHS[1], HEIGHTS[1])
@@ -53,7 +55,7 @@ def fitting(view: View, part: Part) -> Callable[[BoundingBox], bool]:
 
 
 def window(view: View, part: Part, shrink: float = 0.0) -> Array:
-    """Corners (u, v) of the region where the part may be, shape (4, 2), smaller on each side by `shrink` (m)."""
+    """Corners (u, v) of the region where the part may be, shape (4, 2), reduced on each side by `shrink` (m)."""
     assert part.region is not None
     assert part.outline is not None
     x, y, z, yaw = part.at
@@ -65,7 +67,9 @@ def window(view: View, part: Part, shrink: float = 0.0) -> Array:
 
 
 def _rotated(outline: Rectangle, yaws: Array) -> Array:
-    """Corners turned about the reference point by `yaws`, shape (n,); shape (n, 4, 2)."""
+    """Corners of an outline turned about the reference point by `yaws`, shape (n,), rad; returns shape (n, 4, 2),
+    m.
+    """
     x0, y0, x1, y1 = outline
     corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
     c, s = np.cos(yaws), np.sin(yaws)
@@ -73,7 +77,7 @@ def _rotated(outline: Rectangle, yaws: Array) -> Array:
 
 
 def silhouettes(view: View, part: Part, place: tuple[float, float] | Array, turns: Array) -> Array:
-    """Picture points of the outline's corners on the ground and on top, shape (n, 8, 2), for each turn."""
+    """Picture points of the outline's bottom and top corners for each turn, shape (n, 8, 2)."""
     assert part.outline is not None
     corners = _rotated(part.outline, part.at[3] + turns) + np.asarray(place)
     solid = np.empty((len(corners), 2, 4, 3))
@@ -84,7 +88,9 @@ def silhouettes(view: View, part: Part, place: tuple[float, float] | Array, turn
 
 OUTLINE_STEP: Final = 2.0  # levels, from background to part
 SHRINK: Final = (0.0, 0.6 * INCH, 1.2 * INCH)
-"""Shrinkage (m) of the window, tried in turn: neighbours may reach into it if the camera is off."""
+"""Amounts (m) by which the window is reduced, tried in turn: neighbouring parts may reach into it if the camera is
+off.
+"""
 SCREW_HOLES: Final = 2 / 3  # fraction that must be seen where the two large holes imply them
 
 # All figures above: vision study, sections 1.2 and 1.3.
@@ -92,14 +98,16 @@ SCREW_HOLES: Final = 2 / 3  # fraction that must be seen where the two large hol
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Failure:
-    """Nothing was found, and why."""
+    """A failure of location, with its cause."""
 
     cause: SightCause
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GeneralLocation:
-    """Rough position of a part, within an inch or two: its reference point (m in W), as planned except for x and y."""
+    """Rough position of a part, within an inch or two: its reference point (m in W), with x and y as seen and the
+    rest as planned.
+    """
 
     box: BoundingBox  # around it in the picture
     x: float
@@ -111,7 +119,7 @@ class GeneralLocation:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeenHole:
-    """A large hole: centre and size in picture points, and centre (m in W) at the upper face."""
+    """A large hole: its centre and size in picture points, and its centre (m in W) on the upper face."""
 
     u: float
     v: float
@@ -123,7 +131,7 @@ class SeenHole:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpecificLocation:
-    """Pose of a part."""
+    """Pose of a part, found from its holes."""
 
     pose: tuple[float, float, float]  # x, y (m), yaw (rad) in W, by fitted circles
     bounce_pose: tuple[float, float, float]  # by the bouncing characteriser alone, as in 1973
@@ -134,7 +142,9 @@ class SpecificLocation:
 
 
 def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation | Failure:
-    """Find a part's outline in a picture of the region where it may be; raises BadArgument without either."""
+    """Find a part's outline in a picture of the region where the part may be; raises BadArgument if the part has no
+    outline or no region.
+    """
     if part.region is None or part.outline is None:
         raise BadArgument("vision needs the region and the outline of a part")
     fits, scan = fitting(view, part), Scan(picture)
@@ -169,7 +179,9 @@ def _general(scan: Scan, view: View, part: Part, box: BoundingBox) -> GeneralLoc
 def locate_specific(
     picture: Picture, view: View, part: Part, general: GeneralLocation
 ) -> SpecificLocation | Failure:
-    """Find a part's two largest holes in a close picture, and from them its pose; the part must have two holes."""
+    """Find a part's two largest holes in a close-up picture and compute its pose from them; the part must have two
+    holes.
+    """
     if len(part.holes) < 2:
         raise BadArgument("locating a part needs two holes; the program gives fewer")
     scan = Scan(picture)
@@ -193,7 +205,7 @@ def locate_specific(
 def _found(
     finders: list[HoleFinder], place: tuple[float, float], box: BoundingBox
 ) -> Iterator[tuple[HoleFinder, list[Candidate]]]:
-    """Hole candidates: where expected, then all over the box with each search, then in shadow."""
+    """Hole candidates: first where the holes are expected, then all over the box with each search, then in shadow."""
     yield finders[0], finders[0].expected(place)
     for finder in finders:
         yield finder, finder.all_over(box)
@@ -201,7 +213,7 @@ def _found(
 
 
 def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
-    """The box of general location in this view."""
+    """The box of a general location as it appears in this view; None if it is not in the picture."""
     uv = view.project(np.array(general.corners))
     left, top = (int(n) for n in np.floor(uv.min(axis=0)))
     right, bottom = (int(n) for n in np.ceil(uv.max(axis=0)))
@@ -212,7 +224,7 @@ def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
 def _confirm(
     scan: Scan, view: View, part: Part, pair: Pair, finder: HoleFinder, levels: Levels
 ) -> SpecificLocation | None:
-    """The location, unless borders are not round or screw holes are missing."""
+    """The location, unless the borders are not round or the screw holes are missing; else None."""
     centres = finder.refined(pair)
     if centres is None:
         return None
@@ -238,7 +250,7 @@ def _confirm(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PartMatch:
-    """Result for a part in two pictures."""
+    """Result of comparing a part in two pictures."""
 
     cause: PartAstray | None  # None: it stands as it stood
     outline: tuple[tuple[float, float], ...]  # expected in the second picture, corners (u, v)
@@ -247,5 +259,5 @@ class PartMatch:
 
     @property
     def ok(self) -> bool:
-        """True if it stands as it stood."""
+        """True if the part stands where it stood before."""
         return self.cause is None

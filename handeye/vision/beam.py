@@ -1,6 +1,7 @@
-"""Beams: the first discontinuity of intensity (edge) along rays; all other primitives consist of them and of walks.
+"""Beams: find the first discontinuity of intensity (edge) along a ray; all other primitives are built of beams and
+walks.
 
-A beam ends at its discontinuity: what lies beyond is not read.
+A beam ends at its edge and reads no points beyond it.
 """
 
 from typing import Final, Literal, NamedTuple
@@ -12,7 +13,7 @@ from handeye.core.pose import Array
 from handeye.vision.scan import Scan
 
 SPAN: Final = 3
-"""Points averaged on either side of a discontinuity; means of 2 are too noisy at one level of noise."""
+"""Number of points averaged on either side of an edge; averages of 2 are too noisy if the noise is one level."""
 
 BRIGHTER: Final = 1
 DARKER: Final = -1
@@ -20,7 +21,9 @@ Polarity = Literal[1, -1]
 
 
 class Edge(NamedTuple):
-    """An edge: intensities before and after it on the beam, and its distance from the start, points."""
+    """An edge: its position (u, v), the intensities before and after it on the beam, and its distance from the
+    start, points.
+    """
 
     u: float
     v: float
@@ -30,18 +33,18 @@ class Edge(NamedTuple):
 
 
 class Edges(NamedTuple):
-    """Edges of several beams, a row each."""
+    """The edges found by several beams, one per row."""
 
     met: NDArray[np.bool_]
-    """True if the beam met an edge; the other fields are meaningless if not."""
+    """True if the beam found an edge; if not, the other fields of the row are meaningless."""
     uv: Array
-    """Position of the edge, shape (n, 2)."""
+    """Positions of the edges, shape (n, 2)."""
     before: Array
     after: Array
     length: Array
 
     def edge(self, n: int) -> Edge | None:
-        """The edge of beam `n`, if it met one."""
+        """The edge of beam `n`, or None if the beam found none."""
         if not self.met[n]:
             return None
         (u, v), before, after = self.uv[n].tolist(), float(self.before[n]), float(self.after[n])
@@ -59,7 +62,7 @@ def beams(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edges:
-    """As `door.beams`, of arguments that are known to be valid."""
+    """Like `door.beams`, for arguments that are known to be valid."""
     starts, directions = np.rint(starts), np.asarray(directions, dtype=float)
     scan.beams += len(starts)
     back, ahead = scan.runs(starts, directions)
@@ -95,7 +98,9 @@ _BLOCKED: Final = -1e6  # the rise where a beam may not look
 
 
 def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) -> Array:
-    """Sums over SPAN points along, and optionally three across, shape (n, points less SPAN - 1)."""
+    """Sums of intensity over SPAN points along each beam, and optionally over three across, shape (n, points - SPAN
+    + 1).
+    """
     line = scan.levels(where if across is None else where - across).astype(float)
     if across is not None:
         line += scan.levels(where)
@@ -110,7 +115,9 @@ def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) 
 def _steepest(
     rise: Array, step: float, ahead: Array, beyond: float
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp], NDArray[np.intp]]:
-    """For each line: whether it rises by `step`, and to `beyond` there, where first, and where near there most."""
+    """For each line: whether its intensity rises by `step` to at least `beyond`, where it first does, and where
+    near there the rise is steepest.
+    """
     n, last = np.arange(len(rise)), rise.shape[1] - 1
     strong = rise >= step
     while True:
@@ -142,7 +149,9 @@ def _account(
 
 
 def _vertex(y: Array, i: NDArray[np.intp]) -> Array:
-    """Vertices of the parabolas through three values about `i` in each line, from -.5 to .5, shape (n,)."""
+    """Positions of the vertices of parabolas through three values about index `i` in each line, from -.5 to .5,
+    shape (n,).
+    """
     n, last = np.arange(len(y)), y.shape[1] - 1
     left, top, right = y[n, np.maximum(i - 1, 0)], y[n, i], y[n, np.minimum(i + 1, last)]
     bend = left - 2 * top + right

@@ -1,8 +1,9 @@
-"""Camera-arm calibration: fits the camera model to spots that the arm has carried through its view.
+"""Calibrates the camera to the arm: fits the camera model to spots that the arm has carried through the camera's
+view.
 
-The arm holds a lamp at known places and the camera sees it with both lenses. The model is fitted to the sightings, with
-priors from what a careful mechanic can be off by. The arm's own error, about a tenth of an inch, is the floor, which
-the residual shows.
+The arm holds a lamp at known places, and the camera sees the lamp through both lenses. The model is fitted to these
+sightings, with priors from the accuracy of a careful mechanic. The error of the arm, about a tenth of an inch,
+limits the accuracy; the residual shows it.
 """
 
 from collections.abc import Sequence
@@ -21,12 +22,12 @@ from handeye.vision.camera_model import CameraModel, View
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CalibrationLook:
-    """A camera setting, and the places the lamp is shown at; W, m."""
+    """A camera setting, and the places where the lamp is shown to it; m, in W."""
 
     lens: float  # focal length, m
     at: Vector3  # aim
     sharp: Vector3
-    """Point in focus, shared by neighbouring looks, since refocusing takes three times as long as aiming."""
+    """The point in focus; neighbouring looks share it, because refocusing takes three times as long as aiming."""
     places: tuple[Vector3, ...]
     hand_angle: float  # angle O of the hand, pointing down, rad
 
@@ -37,12 +38,12 @@ SCALE_PRIOR: Final = 0.01  # sigma, of the focal lengths
 SIGHT_ERROR: Final = 0.13 * INCH  # sigma: .1 in of the arm and .07 deg of the pots at 65 in
 """Weak priors of the vision study, section 3."""
 MIN_SIGHTINGS: Final = 6
-"""Sightings per lens. Fewer let priors decide; 12 to 20 are good."""
+"""Least number of sightings per lens. With fewer, the priors dominate; 12 to 20 are good."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sighting:
-    """A lamp at a known place, seen in a picture at (u, v)."""
+    """A sighting: the lamp at a known place, seen in a picture at (u, v)."""
 
     lens: float  # focal length, m
     pan: float  # potentiometer reading, rad, as tilt
@@ -54,7 +55,7 @@ class Sighting:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Calibration:
-    """A fitted camera, and its root mean square deviations from the sightings."""
+    """A fitted camera model, and the RMS residuals of the sightings."""
 
     model: CameraModel
     residual_px: dict[float, float]  # in the picture, by focal length (m)
@@ -62,7 +63,9 @@ class Calibration:
 
 
 def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibration:
-    """Fit the camera to the sightings, starting from its drawing. Lenses never seen with keep their drawing."""
+    """Fit the camera model to the sightings, starting from the design. Lenses without sightings keep their design
+    values.
+    """
     from scipy.optimize import least_squares
 
     used = sorted({drawing.lens(s.lens).focal_length for s in sightings})
@@ -101,7 +104,7 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
 
 
 def moved(drawing: CameraModel, x: Array) -> CameraModel:
-    """The drawing with parameters in units of their priors."""
+    """The design with changed parameters; changes `x` are in units of the priors."""
     mount = np.array(drawing.mount) + x[:3] * PLACE_PRIOR
     lenses = tuple(
         replace(

@@ -1,7 +1,7 @@
-"""The convex blob characteriser: centre, width and height of a convex blob by bouncing inside it.
+"""The convex blob characteriser: finds centre, width and height of a convex blob by beams that bounce inside it.
 
-`fit_circle` is an addition of ours to the period's primitives, made of the same beams: bouncing uses four
-points of the border, the fit up to 24.
+`fit_circle` is our addition to the primitives of 1973 and uses the same beams: bouncing uses four points of the
+border, the fit up to 24.
 """
 
 import math
@@ -27,7 +27,7 @@ def walk(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edge | None:
-    """The first discontinuity of one beam along a line or column, or None; arguments as for `beams`, but faster."""
+    """The first edge along a line or column, or None; arguments as for `beams`, but faster for a single beam."""
     scan.beams += 1
     u, v, (du, dv) = round(start[0]), round(start[1]), direction
     back, ahead = scan.run(u, v, du, dv)
@@ -50,7 +50,9 @@ def walk(
 
 
 def _first(line: list[float], polarity: Polarity, step: float, beyond: float) -> tuple[int, int | None]:
-    """Indices where a line first rises by `step` to at least `beyond`, and most near there; (end, None) if never."""
+    """Index at which a line first rises by `step` to at least `beyond`, and index of the steepest rise near it;
+    (end, None) if it never does.
+    """
     rise, places = _rise(line, 0), len(line) - 2 * SPAN + 1
     entering = [*line[2 * SPAN :], 0.0]  # none enters behind the last place
     for i, (left, passed, entered) in enumerate(zip(line, line[SPAN:], entering, strict=False)):
@@ -64,12 +66,12 @@ def _first(line: list[float], polarity: Polarity, step: float, beyond: float) ->
 
 
 def _rise(line: list[float], i: int) -> float:
-    """The sum of SPAN points minus that of the SPAN points before, from `i`."""
+    """Sum of SPAN points minus the sum of the SPAN points before them, from index `i`."""
     return sum(line[i + SPAN : i + 2 * SPAN]) - sum(line[i : i + SPAN])
 
 
 def _vertex(line: list[float], polarity: Polarity, i: int) -> float:
-    """Vertex of the parabola through the rises about `i`, from -.5 to .5."""
+    """Position of the vertex of the parabola through the rises about index `i`, from -.5 to .5."""
     if not 0 < i < len(line) - 2 * SPAN:
         return 0.0
     left, top, right = (polarity * _rise(line, k) for k in (i - 1, i, i + 1))
@@ -82,12 +84,12 @@ RAYS: Final = 24
 
 
 class Blob(NamedTuple):
-    """A convex blob, in picture points."""
+    """A convex blob; all lengths in picture points."""
 
     u: float
     v: float
     width: float
-    """Length of the last chord along the lines."""
+    """Length of the last horizontal chord."""
     height: float
     bounces: int
 
@@ -102,7 +104,7 @@ def characterise(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Blob | None:
-    """As `door.characterise`, of arguments that are known to be valid."""
+    """Like `door.characterise`, for arguments that are known to be valid."""
     u, v = seed
     for bounce in range(1, BOUNCES + 1):
         level = _chord(scan, (u, v), (1, 0), polarity, step, reach, wide, beyond)
@@ -131,7 +133,7 @@ def _chord(
     wide: bool,
     beyond: float,
 ) -> tuple[Edge, Edge] | None:
-    """The edges that two opposite beams from a start meet."""
+    """The edges that two opposite beams from one start find; None if one of them finds none."""
     du, dv = direction
     back = walk(scan, start, (-du, -dv), polarity, step, reach, wide=wide, beyond=beyond)
     ahead = walk(scan, start, (du, dv), polarity, step, reach, wide=wide, beyond=beyond) if back else None
@@ -141,7 +143,9 @@ def _chord(
 def rim(
     scan: Scan, centre: tuple[float, float], step: float, reach: float, *, rays: int = RAYS, beyond: float = 0.0
 ) -> Array:  # fmt: skip
-    """Border points (u, v) around a centre, shape (`rays`, 2), by angle, by wide beams; NaN where none is met."""
+    """Border points (u, v) around a centre, shape (`rays`, 2), in order of angle, found by wide beams; NaN for a
+    beam that finds no edge.
+    """
     borders = rims(
         scan, np.array([centre]), step, np.array([reach]), rays=rays, inner=np.zeros(1), wide=True, beyond=beyond
     )  # fmt: skip
@@ -159,7 +163,9 @@ def rims(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Array:
-    """Border points around centres (n, 2), shape (n, `rays`, 2), faster than one by one; `reach`, `inner`: (n,)."""
+    """Border points around several centres, (n, 2); returns shape (n, `rays`, 2). Faster than one centre at a time;
+    `reach` and `inner` have shape (n,).
+    """
     spokes = _spokes(rays)
     starts = centres[:, None] + inner[:, None, None] * spokes
     directions = np.broadcast_to(spokes, starts.shape).reshape(-1, 2)
@@ -172,7 +178,7 @@ def rims(
 
 @cache
 def _spokes(rays: int) -> Array:
-    """Unit vectors all around, shape (`rays`, 2)."""
+    """Unit vectors in all directions, shape (`rays`, 2)."""
     angles = np.arange(rays) * (2 * math.pi / rays)
     spokes = np.column_stack([np.cos(angles), np.sin(angles)])
     spokes.flags.writeable = False
@@ -180,9 +186,10 @@ def _spokes(rays: int) -> Array:
 
 
 def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[float, float] | None:
-    """Centre (x, y), m, of a circle of known diameter (m) at height `z`, from its border points, shape (n, 2).
+    """Centre (x, y), m, of a circle of known diameter (m) at height `z`, fitted to its border points, shape (n, 2).
 
-    Points that are NaN or disagree (shadows, noise) are dropped; None with fewer than half the rays left.
+    Points that are NaN or disagree with the others (shadows, noise) are dropped; None if fewer than half the points
+    remain.
     """
     met = points[~np.isnan(points[:, 0])]
     if len(met) < RAYS // 2:
@@ -205,13 +212,13 @@ def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[fl
 
 
 def _median(values: Array) -> float:
-    """The median; np.median takes thirty times as long."""
+    """The median; `np.median` takes thirty times as long for such short arrays."""
     ordered, half = sorted(values.tolist()), len(values) // 2
     return float(ordered[half] + ordered[-1 - half]) / 2
 
 
 def _least_squares(a: Array, b: Array, c: Array) -> tuple[float, float] | None:
-    """Least squares solution p, q of a p + b q = c; None if singular."""
+    """Least-squares solution p, q of a p + b q = c; None if the equations are singular."""
     aa, ab, bb = float(a @ a), float(a @ b), float(b @ b)
     ac, bc = float(a @ c), float(b @ c)
     determinant = aa * bb - ab * ab

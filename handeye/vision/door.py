@@ -1,4 +1,4 @@
-"""The primitives as programs in Python call them: what is given is checked, and a window is in force for one call."""
+"""The vision primitives for Python programs: arguments are checked, and a window applies to one call only."""
 
 from collections.abc import Callable
 from typing import Final
@@ -31,17 +31,17 @@ def beams(
 ) -> Edges:
     """The first discontinuity along each of several rays.
 
-    Places are in points of the picture: u, the column, to the right, and v, the row, downwards; (0, 0) is the middle of
-    the first point. Intensities are as in the picture.
+    Positions are in picture points: column u to the right and row v downwards; (0, 0) is the centre of the first
+    point. Intensities are in the units of the picture.
 
     Args:
-        starts: (u, v), shape (n, 2), points; a beam starts at the nearest point of the picture.
+        starts: start positions (u, v), shape (n, 2), points; each beam starts at the nearest picture point.
         directions: unit vectors (du, dv), shape (n, 2).
-        polarity: BRIGHTER: dark to bright; DARKER: bright to dark.
-        step: least difference of intensity between 3 points ahead and 3 points behind.
-        reach: greatest length, points; for all, or for each, shape (n,).
-        wide: average over three points across, against noise.
-        beyond: least intensity behind the discontinuity; those that lead to less are passed over.
+        polarity: BRIGHTER finds edges from dark to bright, DARKER from bright to dark.
+        step: least difference of mean intensity between the 3 points ahead of the edge and the 3 points behind it.
+        reach: greatest length of the beams, points; one number for all, or one for each, shape (n,).
+        wide: average over three points across the beam, to reduce noise.
+        beyond: least intensity beyond the edge; edges to lower intensities are passed over.
 
     Raises:
         BadArgument: an argument is of another kind or shape, or not a finite number.
@@ -72,17 +72,18 @@ def localise(
     fits: Callable[[BoundingBox], bool] = lambda box: True,
     tries: int = 12,
 ) -> BoundingBox | None:
-    """The box around the first blob that lies whole in a window and fits, or None.
+    """Find the box around the first blob that lies completely within a window and fits; None if there is none.
 
-    Beams go inwards from the four sides of the window until one meets something brighter that is more than
-    a speck; a box grows from there until all its sides see background only. What reaches the border of the window or of
-    the picture is cut off there, and passed over. The window is in force for this call only.
+    Beams go inwards from the four sides of the window until one meets a brighter area larger than a speck. A box
+    grows from there until all its sides are in the background. A blob that reaches the border of the window or of
+    the picture is passed over. The window applies to this call only.
 
     Args:
-        window: convex quadrilateral, corners (u, v) in order, shape (4, 2), points; its border lies on background.
+        window: a convex quadrilateral, as its corners (u, v) in order, shape (4, 2), points; its border must lie on
+            background.
         step: least difference of intensity between blob and background.
-        fits: whether a box is what is looked for; a box that is not is not looked at again.
-        tries: most boxes to grow.
+        fits: a function that decides whether a box is the wanted one; a rejected box is not tried again.
+        tries: greatest number of boxes to grow.
 
     Raises:
         BadArgument: an argument is of another kind or shape, or not a finite number.
@@ -110,19 +111,21 @@ def characterise(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Blob | None:
-    """Bounce from a seed inside the blob until its centre rests; None if a beam finds no edge.
+    """Find centre, width and height of a convex blob: beams bounce inside it from a seed until the centre no longer
+    moves. None if a beam finds no edge.
 
-    A beam ends at the first edge. On the relief of a coin or a highlight on a sweet it ends there, and the answer is
-    that of a smaller blob: a method for plain faces. `beyond` and `wide` help; so does a second seed, whose answer
-    should agree.
+    The method is for plain faces, because a beam ends at the first edge. The relief of a coin, or a highlight on a
+    sweet, ends a beam too early and gives too small a blob. `beyond` and `wide` help, and so does a second seed,
+    whose result should agree.
 
     Args:
-        seed: (u, v), points.
+        seed: a position (u, v) inside the blob, points.
         step: least difference of intensity across the border.
-        reach: greatest distance of the border from the present centre, points.
+        reach: greatest distance of the border from the current centre, points.
         polarity: BRIGHTER: the surroundings are brighter than the blob.
         wide: average over three points across each beam.
-        beyond: least intensity outside the border: a shadow's edge inside a hole is no border of it.
+        beyond: least intensity outside the border, so that the edge of a shadow inside a hole is not taken for the
+            border of the hole.
 
     Raises:
         BadArgument: an argument is of another kind or shape, or not a finite number.
@@ -151,7 +154,7 @@ def _kind(given: object) -> str:
 
 
 def _settings(polarity: object, step: object, beyond: object) -> None:
-    """Raises BadArgument unless these can be a polarity and differences of intensity."""
+    """Raises BadArgument unless the arguments are a polarity and differences of intensity."""
     known = isinstance(polarity, int | np.integer) and not isinstance(polarity, bool)
     if not known or polarity not in (BRIGHTER, DARKER):
         raise BadArgument(f"the polarity is BRIGHTER ({BRIGHTER}) or DARKER ({DARKER}), not {polarity!r:.40}")

@@ -1,8 +1,9 @@
-"""Inspects a gasket by comparing pictures taken before and after it was put on.
+"""Inspects a gasket by comparing pictures taken before and after it was laid on.
 
-In their difference the gasket is a bright blob with two dark holes. Where either base or gasket has a hole there is
-little difference, so that a displaced gasket shows the *union* of both holes: its centre moves by half the displacement
-only, but its border on one side by all of it. Hence two tests, of centre and of rim.
+In the difference of the pictures the gasket is a bright blob with two dark holes. Wherever base or gasket has a
+hole there is little difference, so a displaced gasket shows the *union* of both holes: the centre of the union
+moves by only half the displacement, but its border on one side moves by all of it. Therefore both centre and rim
+are tested.
 """
 
 import math
@@ -35,25 +36,31 @@ ABSENT: Final = 2.2  # mean difference, levels, below which there is no gasket
 STEP: Final = (1.8, 0.3)  # least step across a border of the gasket: levels, and fraction of its difference
 CENTRE_SHIFT: Final = 0.09 * INCH
 RIM_SHIFT: Final = 0.10 * INCH
-"""Most that centre and rim may be off, m. These four: vision study, section 4."""
+"""Greatest permitted error of centre and rim, m. This and the three values below are from the vision study, section
+4.
+"""
 BESIDE: Final = 0.3 * INCH  # from a hole's border to where the difference is measured, m
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
-"""In the picture before: fraction of the contrast that is a border, and of the face's level that is face."""
+"""Two fractions for the picture before: of the contrast, to find a border; of the intensity of the face, to
+recognise the face.
+"""
 ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32
 WINDOW: Final = 9
-"""Neighbouring rays whose median counts: a quarter of the rim, wider than an aligning pin hides."""
+"""Number of neighbouring rays over which the median is taken: a quarter of the rim, wider than the part that an
+aligning pin hides.
+"""
 CLEAR: Final = 0.06 * INCH
-"""Border points of the base count within this (m) of its apparent circle.
+"""Border points of the base must lie within this distance (m) of the hole's apparent circle to count.
 
-Its apparent size shows the camera's scale, which may be 5 % off (high level, seed 54010).
+The apparent size depends on the scale of the camera, which may be off by 5 % (level high, seed 54010).
 """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GasketInspection:
-    """Result of an inspection. Centres are (u, v) in the picture, largest hole first."""
+    """Result of an inspection. Centres are (u, v) in the picture, that of the largest hole first."""
 
     cause: InspectionCause | None  # None: it is on properly
     expected: tuple[tuple[float, float], ...]  # by the base's pose, corrected by its largest hole
@@ -62,12 +69,12 @@ class GasketInspection:
 
     @property
     def ok(self) -> bool:
-        """True if it is on properly."""
+        """True if the gasket is on properly."""
         return self.cause is None
 
 
 def difference(before: Picture, after: Picture) -> NDArray[np.float32]:
-    """|after - before| at every point of the first, aligned by what has not changed."""
+    """|after - before| at every point of the first picture, with the unchanged parts of both pictures aligned."""
     from handeye.vision.alignment import aligned  # takes OpenCV, without which plans are made
 
     return np.abs(aligned(after, to=before) - before.astype(np.float32))
@@ -76,10 +83,11 @@ def difference(before: Picture, after: Picture) -> NDArray[np.float32]:
 def inspect(
     before: Picture, after: Picture, view: View, part: Part, pose: tuple[float, float, float]
 ) -> GasketInspection:
-    """Compare pictures of a part at `pose` (x, y m, yaw rad) before and after a gasket was put on it.
+    """Compare pictures of a part at `pose` (x, y m, yaw rad) from before and after a gasket was laid on it.
 
-    Both must be taken with one aim and one target voltage, and with the arm in one place: its shadow is the main enemy.
-    The second is aligned with the first by what has not changed. The part must have two holes.
+    Both pictures must be taken with the same aim, target voltage and arm position, because the shadow of the arm
+    disturbs most. The second picture is aligned with the first by the parts that have not changed. The part must
+    have two holes.
     """
     if len(part.holes) < 2:
         raise BadArgument("the inspection of a gasket needs two holes; the program gives fewer for the part")
@@ -114,10 +122,11 @@ _NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
 
 
 def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
-    """Places of the base's holes, shape (2, 3), m, shifted by the error of the largest in the picture before.
+    """Positions of the base's holes, shape (2, 3), m, corrected by the error of the largest hole in the picture
+    before.
 
-    The mount may be off its potentiometers by more than the border of a hole is wide; the arm knows the base's place
-    better. Where the hole is not found, they stay.
+    The mount may be off its potentiometers by more than the width of a hole's border, while the arm knows the
+    base's position more precisely. If the hole is not found, the positions are unchanged.
     """
     for _ in range(ROUNDS):
         steps = _base_steps(old, view, places[0], part.holes[0])
@@ -129,14 +138,16 @@ def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
 
 
 class _BaseSteps(NamedTuple):
-    """Levels: least step across a border in the picture before, and brightness of the face there."""
+    """Thresholds: the least step across a border in the picture before, and the intensity of the face there."""
 
     before: float
     face: float
 
 
 class _Steps(NamedTuple):
-    """Levels: least steps across a border in the difference and in the picture before, and brightness of the face."""
+    """Thresholds: the least steps across a border in the difference and in the picture before, and the intensity of
+    the face.
+    """
 
     after: float
     before: float
@@ -145,7 +156,7 @@ class _Steps(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Check:
-    """Result for one hole; no fault if all is well."""
+    """Result for one hole; `fault` is None if the hole is right."""
 
     fault: BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff | None = None
     found: tuple[float, float] | None = None
@@ -173,7 +184,7 @@ def _check(name: LargeHole, new: Scan, old: Scan, view: View, place: Array, hole
 
 
 def _base_steps(old: Scan, view: View, place: Array, hole: Hole) -> _BaseSteps:
-    """Steps for one hole in the picture before."""
+    """Thresholds for one hole in the picture before."""
     face = float(np.percentile(_around(old, view, place, hole), 25))
     u, v = view.project(place)[0]
     inside = float(np.median(old.patches(np.array([[u, v]]), 3)))
@@ -181,7 +192,7 @@ def _base_steps(old: Scan, view: View, place: Array, hole: Hole) -> _BaseSteps:
 
 
 def _around(scan: Scan, view: View, place: Array, hole: Hole) -> Array:
-    """Intensities on a ring around a hole, of face or gasket and little else, shape (24,)."""
+    """Intensities on a ring around a hole, which shows almost only the face or the gasket, shape (24,)."""
     return np.asarray(scan.patches(_ring(view, place, hole), 1).mean(axis=(1, 2)))
 
 
@@ -195,10 +206,10 @@ def _ring(view: View, place: Array, hole: Hole) -> Array:
 def _centre(
     scan: Scan, view: View, place: Array, hole: Hole, step: float, beyond: float = 0.0
 ) -> tuple[float, float] | None:
-    """Centre (x, y), m, of the hole expected at a place, shape (3,), m.
+    """Centre (x, y), m, of the hole expected at `place`, shape (3,), m.
 
-    By the characteriser, as for the base, and a fitted circle about the result; about the place itself where an
-    aligning pin blocks one of the characteriser's four beams.
+    The characteriser finds the hole, as for the base, and a circle is fitted around the result. If an aligning pin
+    blocks one of the characteriser's four beams, the circle is fitted around the expected place.
     """
     seed, reach = _seen(view, place, hole)
     blob = characterise(scan, seed, step, reach, wide=True, beyond=beyond)
@@ -208,16 +219,17 @@ def _centre(
 
 
 def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], float]:
-    """A place in the picture, and how far from there its hole's border may be, points."""
+    """A place as a picture point, and the greatest distance from there of its hole's border, points."""
     u, v = view.project(place)[0].tolist()
     return (u, v), 0.9 * hole.diameter * view.resolution(place)[0]
 
 
 def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _Steps) -> float | None:
-    """Bulge (m) of the difference's border about the base's hole at `centre`, shape (3,), m.
+    """Bulge (m) of the border in the difference, about the base's hole at `centre`, shape (3,), m.
 
-    Against its own median radius: half of the border of a union of two discs is nearly undisturbed. Only where the
-    base's border is seen in the picture before: an aligning pin may stand in front of it.
+    The bulge is relative to the border's median radius, because half of the border of a union of two discs is
+    nearly undisturbed. Only those rays count on which the base's border is visible in the picture before, because
+    an aligning pin may hide it.
     """
     radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):

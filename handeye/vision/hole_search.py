@@ -1,4 +1,6 @@
-"""Finds the large holes of a part in a picture, tells them by size and distance, and derives the pose of the part."""
+"""Finds the large holes of a part in a picture, identifies them by size and distance, and computes the pose of the
+part.
+"""
 
 import itertools
 import math
@@ -58,7 +60,7 @@ def classify(found: list[Candidate], part: Part) -> Pair | None:
 
 
 def placed(centres: Array, part: Part) -> tuple[float, float, float]:
-    """Pose (x, y, yaw) of the part's frame, m and rad, from the centres of its two holes, shape (2, 2)."""
+    """Pose (x, y, yaw) of the part's frame, m and rad, from the positions of its two holes' centres, shape (2, 2)."""
     model = np.array([[hole.x, hole.y] for hole in part.holes[:2]])
     seen, drawn = centres[1] - centres[0], model[1] - model[0]
     yaw = wrapped(math.atan2(seen[1], seen[0]) - math.atan2(drawn[1], drawn[0]))
@@ -68,7 +70,7 @@ def placed(centres: Array, part: Part) -> tuple[float, float, float]:
 
 
 def hole_places(part: Part, pose: tuple[float, float, float], *, screws: bool = False) -> Array:
-    """Centres of the large holes, or of the screw holes, of a part at a pose, shape (n, 3), m in W."""
+    """Centres of the large holes, or with `screws` of the screw holes, of a part at a pose, shape (n, 3), m in W."""
     x, y, yaw = pose
     c, s = math.cos(yaw), math.sin(yaw)
     z = part.at[2] + part.face
@@ -81,7 +83,7 @@ def hole_places(part: Part, pose: tuple[float, float, float], *, screws: bool = 
 def dark_screw_holes(
     scan: Scan, view: View, part: Part, pose: tuple[float, float, float], face: float
 ) -> int:
-    """Number of screw holes seen as dark spots in the bright face."""
+    """Number of screw holes that are visible as dark spots in the bright face."""
     places = view.project(hole_places(part, pose, screws=True))
     places = places[scan.inside(places)]
     around = np.sort(scan.patches(places, 6, 2).reshape(len(places), 49), axis=1)[:, 24]  # the median
@@ -92,7 +94,7 @@ def dark_screw_holes(
 
 
 def wrapped(angle: float) -> float:
-    """The same angle in [-pi, pi)."""
+    """The angle, rad, in [-pi, pi)."""
     return (angle + math.pi) % (2 * math.pi) - math.pi
 
 
@@ -104,13 +106,17 @@ SEED: Final = 4  # points inside the border where bouncing starts
 
 INNER: Final = 0.25  # start of beams to a hole's border, over its smaller width: half-way to it
 ANGLES: Final = np.linspace(-TURN, TURN, 7)
-"""Angles of beams from the largest hole to the second about its planned direction; no hole fits between two."""
+"""Angles of the beams from the largest hole to the second, relative to the planned direction; they are so close
+that the second hole cannot fit between two.
+"""
 BEFORE: Final = 0.35 * INCH
-"""Start of those beams before the second hole's border, m: beyond the screw holes about the first."""
+"""Distance before the second hole's border at which these beams start, m: beyond the screw holes about the first
+hole.
+"""
 
 
 class HoleSearch(NamedTuple):
-    """Parameters of a search for holes: beam spacing and contrast of a border."""
+    """Parameters of a search for holes: spacing and width of the beams, and contrast of a border."""
 
     spacing: int  # points between beams
     wide: bool  # averages over three points across a beam
@@ -125,20 +131,20 @@ SEARCHES: Final = (
     HoleSearch(5, True, 0.20),
     HoleSearch(5, True, 0.20, face=0.4),
 )
-"""Tried in this order: a small step first would find more that is no hole. The last is for the arm's shadow across
-the face, which the vision study did not have.
+"""Searches in the order in which they are tried; starting with a small contrast would find more false holes. The
+last one is for the arm's shadow across the face, which did not occur in the vision study.
 """
 
 
 class Levels(NamedTuple):
-    """Intensities in a box around the part."""
+    """Intensities of face and dark holes in a box around the part."""
 
     face: float
     dark: float
 
     @classmethod
     def measure(cls, scan: Scan, box: BoundingBox) -> "Levels":
-        """Measured on every fourth point of every fourth line."""
+        """Measure the intensities on every fourth point of every fourth line."""
         where = np.s_[box.top : box.bottom : 4, box.left : box.right : 4]
         scan.read[where] = True
         ordered = np.sort(scan.image[where], axis=None)
@@ -146,7 +152,7 @@ class Levels(NamedTuple):
         return cls(face=face, dark=dark)
 
     def step(self, search: HoleSearch) -> float:
-        """Least step of an edge; two levels are a few times the noise."""
+        """Least step of intensity at an edge; at least two levels, a few times the noise."""
         return max(2.0, search.contrast * (self.face - self.dark))
 
 
@@ -162,17 +168,19 @@ class HoleFinder:
         levels: Levels,
         search: HoleSearch,
     ) -> None:
-        """`resolution`: picture points per metre of the part's upper face, along lines and across."""
+        """`resolution`: picture points per metre on the part's upper face, along the lines and across them."""
         self._scan, self._view, self._part, self._search = scan, view, part, search
         self._z = part.at[2] + part.face
         self._across, self._down = resolution
         self._step, self._bright = levels.step(search), search.face * levels.face
 
     def expected(self, place: tuple[float, float], *, shaded: bool = False) -> list[Candidate]:
-        """The largest hole where the part's reference point (x, y), m, puts it, and holes around it.
+        """Candidates near the expected place: the largest hole, for a reference point of the part at `place` (x,
+        y), m, and holes around it.
 
-        The second hole is met by beams from the first, at all angles that the part may be turned by. `shaded`: a shadow
-        blocks one of the characteriser's four beams on the first, so a circle of its size is fitted instead.
+        The second hole is found by beams from the first, at all angles by which the part may be turned. With
+        `shaded`, a circle of the first hole's size is fitted, because a shadow blocks one of the characteriser's
+        four beams.
         """
         part = self._part
         seed = self._view.project(hole_places(part, (*place, part.at[3]))[0])[0]
@@ -186,7 +194,9 @@ class HoleFinder:
         return found
 
     def _circle(self, middle: Array) -> Candidate | None:
-        """The largest hole by the border met around a point (u, v), then around the fitted centre."""
+        """The largest hole, from a circle fitted to the border found around a point (u, v), then around the fitted
+        centre.
+        """
         diameter = self._part.holes[0].diameter
         width, height = diameter * self._across, diameter * self._down
         for _ in range(2):
@@ -201,7 +211,7 @@ class HoleFinder:
         return Candidate(Blob(u=u, v=v, width=width, height=height, bounces=0), x, y, diameter)
 
     def _around(self, first: Candidate) -> Array:
-        """Points (u, v) just inside the edges met by beams from the largest hole, shape (n, 2)."""
+        """Points (u, v) just beyond the edges that beams from the largest hole find, shape (n, 2)."""
         large, small = self._part.holes[:2]
         planned = self._part.at[3] + math.atan2(small.y - large.y, small.x - large.x)
         spokes = np.column_stack([np.cos(planned + ANGLES), np.sin(planned + ANGLES)])
@@ -216,7 +226,9 @@ class HoleFinder:
         return np.asarray((edges.uv + SEED * ahead)[edges.met & (edges.before >= self._bright)])
 
     def all_over(self, box: BoundingBox) -> list[Candidate]:
-        """Send beams through the box, and characterise at every step from the bright face to dark."""
+        """Candidates in the whole box: beams go through the box, and the characteriser starts at every step from
+        the bright face to dark.
+        """
         found: list[Candidate] = []
         for seed in self._dark_steps(box):
             if not any(_within(seed, known.blob) for known in found):
@@ -241,7 +253,7 @@ class HoleFinder:
         return np.array([starts[n] + k * ahead[n] for n, k in steps]).reshape(-1, 2)
 
     def _tried(self, seed: Array) -> Candidate | None:
-        """The characteriser's result at a point, if it may be a hole of the part."""
+        """The characteriser's result from a seed, if it may be a hole of the part; else None."""
         reach = 1.35 * self._part.holes[0].diameter * self._across
         at, wide, beyond = (float(seed[0]), float(seed[1])), self._search.wide, 0.9 * self._bright
         blob = characterise(self._scan, at, self._step, reach, wide=wide, beyond=beyond)
@@ -256,7 +268,7 @@ class HoleFinder:
         return Candidate(blob, x, y, size)
 
     def refined(self, pair: Pair) -> Array | None:
-        """Centres of both holes by fitted circles, shape (2, 2), m; None if a border is not seen well."""
+        """Centres of both holes by fitted circles, shape (2, 2), m; None if a border is not seen well enough."""
         blobs = [candidate.blob for candidate in pair]
         middles = np.array([(blob.u, blob.v) for blob in blobs])
         reach = np.array([0.75 * blob.width + 3 for blob in blobs])
@@ -273,7 +285,7 @@ class HoleFinder:
 
 
 def _lines(box: BoundingBox, spacing: int) -> tuple[Array, Array, Array]:
-    """Starts, directions and lengths of beams in rows and, half as dense, in columns."""
+    """Starts, directions and lengths of beams along rows and, half as dense, along columns."""
     left, top, right, bottom = box
     rows = np.array([[left, v] for v in range(top + spacing, bottom, spacing)]).reshape(-1, 2)
     columns = np.array([[u, top] for u in range(left + spacing, right, 2 * spacing)]).reshape(-1, 2)

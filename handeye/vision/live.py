@@ -1,4 +1,4 @@
-"""Tells a live camera's picture by its noise, which makes any two differ and never exceeds what it should."""
+"""Recognises a live camera by the noise of its pictures: two live pictures always differ, and the noise is limited."""
 
 import math
 from typing import Final
@@ -8,8 +8,9 @@ import numpy as np
 from handeye.ports.camera import Picture
 
 MAX_NOISE: Final = 1.6
-"""Greatest plausible noise, sigma in levels; 1 is stated. Chosen: sound pictures of two worlds show up to 1.06, those
-with hum and snow of 2 levels 2.07 and more."""
+"""Greatest plausible noise, standard deviation in intensity levels; the stated noise is 1. Chosen: sound pictures
+of two worlds have at most 1.06, pictures with hum and snow of 2 levels have 2.07 and more.
+"""
 _WHITE: Final = 15  # the highest level
 _MEDIAN: Final = 0.6745 * math.sqrt(6)  # median of second differences of noise of 1 level
 _ENOUGH: Final = 1000  # points whose noise can be judged, at least
@@ -21,14 +22,15 @@ def blank(picture: Picture) -> bool:
 
 
 def repeated(picture: Picture, earlier: Picture) -> bool:
-    """True if two pictures are equal."""
+    """True if two pictures are equal in every point."""
     return np.array_equal(picture, earlier)
 
 
 def noise(picture: Picture) -> float:
-    """Noise of a picture, sigma in levels, by how points differ from the mean of their neighbours on the line.
+    """Noise of a picture, as standard deviation in intensity levels, from the deviation of points from the mean of
+    their neighbours on the line.
 
-    Edges are few, so the median gives it. Black and white points show no noise, and do not count.
+    The median is used, because edges are few. Fully black and white points show no noise and do not count.
     """
     levels = picture.astype(np.int16)
     counts = (levels > 0) & (levels < _WHITE)

@@ -1,9 +1,9 @@
-"""Marks for what was found in a picture, in picture points.
+"""Marks for the findings in a picture, in picture points.
 
-The box of general location is white; holes have a red cross and a yellow box, with the line of centres between them.
-The line of the first grasp is blue: picture 10 of the paper has these two lines. Expected centres of a gasket are red
-crosses, found ones discs, green if it is right. The outline of a part that is looked at again is green if it stands as
-it stood, else red.
+The box of general location is white; holes have a red cross and a yellow box, with a line between their centres.
+The line of the first grasp is blue; picture 10 of the paper shows these two lines. Expected centres of a gasket's
+holes are red crosses, found centres are discs, green if the gasket is right. The outline of a part that is looked
+at again is green if the part stands as before, else red.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,9 @@ GraspLine = tuple[tuple[float, float], tuple[float, float]]  # two ends (u, v)
 
 
 def grasp_line(view: View, X_WT: Pose, gap: float, z: float) -> GraspLine | None:
-    """The line in which fingers `gap` (m) apart cross height `z` (m) below a hand; None unless all in view."""
+    """The line along which fingers `gap` (m) apart cross the height `z` (m) below a hand; None unless it lies
+    within the picture.
+    """
     ends = X_WT[:3, 3] + np.array([[-0.5], [0.5]]) * gap * X_WT[:3, 1]
     ends[:, 2] = z
     (u, v), (across, down) = view.project(ends).tolist()
@@ -45,7 +47,7 @@ ARM: Final = 4.0  # arm length of a cross, and diameter of a disc, in points
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Loop:
-    """A closed line through points; `width` in points."""
+    """A closed line through points; `width` in picture points."""
 
     points: tuple[Point, ...]
     colour: Colour
@@ -54,7 +56,7 @@ class Loop:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """A line; `width` in points."""
+    """A line; `width` in picture points."""
 
     ends: tuple[Point, Point]
     colour: Colour
@@ -63,7 +65,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Disc:
-    """A filled circle; `diameter` in points."""
+    """A filled circle; `diameter` in picture points."""
 
     centre: Point
     colour: Colour
@@ -81,7 +83,7 @@ def marks(
     inspection: GasketInspection | None = None,
     match: PartMatch | None = None,
 ) -> list[Mark]:
-    """Marks for findings in a picture, in drawing order."""
+    """Marks for the findings in a picture, in the order in which they are drawn."""
     drawn: list[Mark] = []
     if general:
         left, top, right, bottom = general.box

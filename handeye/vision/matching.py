@@ -1,8 +1,8 @@
-"""Tells whether a part stands in a picture as in an earlier one.
+"""Decides whether a part stands in a picture as in an earlier one.
 
-No assumption is made on how the part looks: the earlier picture is the model. A vidicon does not put every picture in
-quite the same place, so the part is compared with its surroundings: its relative shift is measured to fractions of a
-point, and other changes show as changed points. An addition of ours.
+Nothing is assumed about the appearance of the part: the earlier picture is the model. A vidicon displaces each
+picture slightly, so the part is compared with its surroundings. Its shift relative to them is measured in fractions
+of a point, and other differences appear as changed points. This is our addition.
 """
 
 from typing import Final
@@ -20,24 +20,25 @@ from handeye.vision.base import Failure, PartMatch, silhouettes
 from handeye.vision.camera_model import View, in_picture
 
 MOVED: Final = 0.03 * INCH
-"""m that a part may seem to have moved.
+"""Greatest apparent movement of a part that still counts as none, m.
 
-Two pictures of a pump at rest show .02 to .07 mm, of one pushed to its blocks in between .13 and .16 (nominal seeds 3
-and 15); a base .05 in off its place is wrong (reference test 59).
+Two pictures of a pump at rest show .02 to .07 mm; if the pump is pushed against its blocks in between, they show
+.13 to .16 mm (nominal level, seeds 3 and 15). A base that is .05 in off its place is wrong (reference test 59).
 """
 SPOT: Final = 5  # side of a square, points: a screw head is about as large
 DIFFERENT: Final = 1.6
-"""Mean difference in a square, levels of the smoothed pictures, above which its middle looks different.
+"""Mean difference in a square, in levels of the smoothed pictures, above which the centre of the square counts as
+changed.
 
-The noise of two pictures gives a mean of .3 (median of 17,500 squares), and at most .77 to 1.08 in a pump at rest (7
-worlds, 4 of them of level high). A screw whose head is gone gives 3.7 to 5.6; one that stands 2.5 mm high gives .8 to
-2.0, so that most such are missed; one behind the crank is not seen at all. With the heads driven again between the two
-pictures, one sound pump of five went beyond the limit (nominal seed 15).
+The noise of two pictures gives a mean of .3 (median of 17,500 squares), and at most .77 to 1.08 on a pump at rest
+(7 worlds, 4 of them of level high). A screw whose head is missing gives 3.7 to 5.6. A screw that stands 2.5 mm high
+gives .8 to 2.0, so most such screws are missed; a screw behind the crank is not visible at all. If the screws were
+driven again between the two pictures, one sound pump of five exceeded the limit (nominal level, seed 15).
 """
 BESIDE: Final = 12
-"""Points beside the part that count neither to it nor to its surroundings.
+"""Width of a strip around the part, in points, that counts neither as part nor as surroundings.
 
-The mount is not quite where its potentiometers say, and a part casts a shadow.
+The aim of the mount is not exactly as its potentiometers say, and the part casts a shadow.
 """
 
 
@@ -46,7 +47,7 @@ def match(
 ) -> PartMatch | Failure:
     """Compare two pictures of a part at `pose` (x, y m, yaw rad).
 
-    Both must be taken with one aim, one target voltage and the arm in one place. The part must have an outline.
+    Both must be taken with the same aim, target voltage and arm position. The part must have an outline.
     """
     if part.outline is None:
         raise BadArgument("matching pictures of a part needs its outline, which the program does not give")

@@ -1,4 +1,4 @@
-"""A picture as the primitives read it, with a record of what they have read."""
+"""A picture as the primitives read it, with a record of the points read."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -17,7 +17,9 @@ MARGIN: Final = 1  # border points that no beam enters, so that it can be three 
 
 
 def numbers(given: object, said: str) -> Array:
-    """What is given as an array of finite numbers; raises BadArgument that says what it should be."""
+    """An argument as an array of finite numbers; raises BadArgument, whose sentence `said` says what the argument
+    must be.
+    """
     try:
         found = np.asarray(given)
         sound = found.dtype.kind in "uif" and bool(np.isfinite(found).all())
@@ -29,7 +31,7 @@ def numbers(given: object, said: str) -> Array:
 
 
 def places(given: object, said: str) -> Array:
-    """Finite numbers that can be places in a picture, points; raises BadArgument."""
+    """An argument as finite positions in or near the picture, points; raises BadArgument."""
     found = numbers(given, said)
     if (np.abs(found) > _FARTHEST).any():
         raise BadArgument(f"{said}, at most {_FARTHEST:g} pixels from the picture")
@@ -37,7 +39,7 @@ def places(given: object, said: str) -> Array:
 
 
 def quadrilateral(given: object) -> Array:
-    """Corners (u, v) of a convex quadrilateral, shape (4, 2); raises BadArgument."""
+    """An argument as the corners (u, v) of a convex quadrilateral, shape (4, 2); raises BadArgument."""
     said = "a window has four corners (u, v) in order, shape (4, 2)"
     found = places(given, said)
     if found.shape != (4, 2):
@@ -53,7 +55,7 @@ def quadrilateral(given: object) -> Array:
 
 
 def _intensities(picture: object) -> NDArray[np.float32]:
-    """A picture as it is read; raises BadArgument."""
+    """An argument as the intensities of a picture; raises BadArgument."""
     if not isinstance(picture, np.ndarray):
         raise BadArgument(
             f"a picture is an array of intensities, shape (rows, columns), not {type(picture).__name__}"
@@ -73,10 +75,12 @@ def _intensities(picture: object) -> NDArray[np.float32]:
 
 
 class Scan:
-    """A picture that beams go through, within a window; it counts beams and pixels, for timing and display."""
+    """A picture for beams, with a window outside which they cannot go. It counts beams and points read, for timing
+    and display.
+    """
 
     def __init__(self, picture: NDArray[np.generic]) -> None:
-        """`picture`: intensities, shape (rows, columns); raises BadArgument if it is none."""
+        """`picture`: intensities, shape (rows, columns); raises BadArgument if it has another form."""
         self.image: NDArray[np.float32] = _intensities(picture)
         self.rows, self.columns = self.image.shape
         self._levels = memoryview(self.image.ravel().data)
@@ -90,11 +94,11 @@ class Scan:
 
     @property
     def points(self) -> int:
-        """Number of points read, each counted once."""
+        """Number of points read, each point counted once."""
         return int(np.count_nonzero(self.read))
 
     def open(self) -> None:
-        """Let beams go everywhere but on the margin, the outermost points."""
+        """Remove the window: beams may go everywhere except on the margin, the outermost points."""
         low, high = MARGIN - 0.5, MARGIN + 0.5
         self._look_within(
             np.array(
@@ -104,9 +108,10 @@ class Scan:
         )
 
     def limit(self, corners: ArrayLike) -> None:
-        """Keep all beams within a convex quadrilateral, in place of any before; raises BadArgument.
+        """Set the window: a convex quadrilateral to which all beams are limited, in place of the previous window;
+        raises BadArgument.
 
-        Its corners (u, v), points, in order, shape (4, 2).
+        `corners` are (u, v), points, in order, shape (4, 2).
         """
         found = quadrilateral(corners)
         along = np.roll(found, -1, axis=0) - found
@@ -118,7 +123,7 @@ class Scan:
 
     @contextmanager
     def within(self, corners: ArrayLike) -> Iterator[None]:
-        """Keep beams within a convex quadrilateral for a while; then the window is the previous one."""
+        """In this context, the window is a convex quadrilateral; afterwards it is the previous one."""
         before = self.sides
         self.limit(corners)
         try:
@@ -128,21 +133,23 @@ class Scan:
 
     def _look_within(self, sides: Array) -> None:
         self.sides = sides
-        """A line for each side, shape (n, 3): inside, a*u + b*v + c is positive."""
+        """The sides of the window, one per row, shape (n, 3): inside, a*u + b*v + c is positive."""
         self._lines = sides.tolist()
 
     def inside(self, places: Array) -> NDArray[np.bool_]:
-        """Which of some places (u, v), shape (n, 2), lie within the window, shape (n,)."""
+        """A mask, shape (n,), of the places (u, v), shape (n, 2), that lie within the window."""
         return np.asarray((self._heights(places) > 0).all(axis=1))
 
     def border(self, places: Array, width: float) -> NDArray[np.bool_]:
-        """Which of some places within the window, shape (n, 2), lie less than a width (points) from its border."""
+        """A mask of the places within the window, shape (n, 2), that lie less than `width` (points) from its
+        border.
+        """
         away = self._heights(places) / np.hypot(*self.sides[:, :2].T)
         nearest = away.min(axis=1)
         return np.asarray((nearest > 0) & (nearest < width))
 
     def runs(self, starts: Array, directions: Array) -> tuple[Array, Array]:
-        """Lengths of rays back and ahead within the window, points, shape (n,) each."""
+        """Lengths of rays within the window, backwards and forwards, points, shape (n,) each."""
         heights, slopes = self._heights(starts), directions @ self.sides[:, :2].T
         back, ahead = np.full((2, *heights.shape), np.inf)
         np.divide(heights, -slopes, out=ahead, where=slopes < -1e-9)
@@ -152,7 +159,7 @@ class Scan:
         return back.min(axis=1), nearest
 
     def run(self, u: int, v: int, du: int, dv: int) -> tuple[int, int]:
-        """Lengths of one ray back and ahead, points; (0, -1) from a start outside the window."""
+        """Lengths of one ray within the window, backwards and forwards, points; (0, -1) if its start is outside."""
         back = ahead = math.inf
         for a, b, c in self._lines:
             height, slope = a * u + b * v + c, a * du + b * dv
@@ -165,11 +172,11 @@ class Scan:
         return math.floor(back), math.floor(ahead)
 
     def _heights(self, places: Array) -> Array:
-        """Signed distances of places to the window's sides, not normalised, shape (n, sides)."""
+        """Signed distances of places from the window's sides, not normalised, shape (n, sides)."""
         return np.asarray(places @ self.sides[:, :2].T + self.sides[:, 2])
 
     def levels(self, places: Places) -> NDArray[np.float32]:
-        """Intensities at points, clipped to the picture."""
+        """Intensities at places given by index in the picture; places outside are clipped."""
         return self.image.take(places, mode="clip")
 
     def account(self, places: Places) -> None:
@@ -177,13 +184,13 @@ class Scan:
         self._read[places] = True
 
     def summed(self, starts: Sequence[int], length: int, stride: int) -> list[float]:
-        """Intensities on parallel lines that begin at these points, summed across."""
+        """Intensities along parallel lines that begin at `starts`, summed across the lines."""
         ends = [slice(start, start + length * stride, stride) for start in starts]
         lines: list[Any] = [self._levels[each].tolist() for each in ends]
         return lines[0] if len(lines) == 1 else [sum(across) for across in zip(*lines, strict=True)]
 
     def account_lines(self, starts: Sequence[int], length: int, stride: int) -> None:
-        """Record that points of such lines have been read."""
+        """Record that the points of these lines have been read."""
         for start in starts:
             self._read[start : start + length * stride : stride] = True
 

@@ -1,6 +1,6 @@
-"""Inverse kinematics: joint positions for a hand pose, or why there are none.
+"""Inverse kinematics: joint positions for a hand pose, or the reason why there are none.
 
-One solver for each structure; `solve` and its like choose the arm's.
+There is one solver for each structure of arm; the functions here choose the solver of the given arm.
 """
 
 from collections.abc import Mapping
@@ -20,7 +20,7 @@ __all__ = ["IKResult", "branches", "rates", "singular", "solve"]
 
 
 class Solver(Protocol):
-    """Inverse kinematics of a structure; each function raises ValueError for an arm of another."""
+    """Inverse kinematics of one structure; each function raises ValueError for an arm of another structure."""
 
     def solve(self, arm: ArmModel, X_WT: Pose, near: Array, /) -> IKResult: ...
 
@@ -41,10 +41,11 @@ _SOLVERS: Final[Mapping[Structure, Solver]] = {
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Joint positions for the hand at `X_WT`: the branch within limits nearest to `near`.
+    """Joint positions for the hand at `X_WT`: the branch within the joint limits that is nearest to `near`.
 
-    Nearest in the sum of joint travel times. Joints that the pose leaves free stay as in `near`; held joints go to
-    where they are held. A pose that only rounding keeps out of reach has the solution within limits nearest to it.
+    Distance is the sum of the joints' travel times. Joints that do not affect the pose stay as in `near`; held
+    joints stay at their fixed positions. If a pose is out of reach only by rounding, the solution is the nearest
+    one within the limits.
     """
     found = _SOLVERS[arm.structure].solve(arm, X_WT, near)
     if found.q is not None:
@@ -55,22 +56,26 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None = None) -> tuple[Array, NDArray[np.bool_]]:
-    """All closed-form solutions for poses of shape (..., 4, 4), ignoring limits.
+    """All closed-form solutions for hand poses of shape (..., 4, 4), ignoring joint limits.
 
-    Joint positions (..., k, n), revolute ones in (-pi, pi], and which exist, (..., k). Free and held joints stay as in
-    `start`, where a motion along the poses begins; without it free joints are 0, held ones where they are held.
+    Returns joint positions (..., k, n), revolute ones in (-pi, pi], and a mask of the branches that exist, (...,
+    k). Free joints, which do not affect the pose, and held joints stay as in `start`, where a motion along the
+    poses begins. Without `start`, free joints are 0 and held joints at their fixed positions.
     """
     return _SOLVERS[arm.structure].branches(arm, X_WT, start)
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """The first of N configurations of a branch in which joints cannot give the hand its twist, and why, or None.
+    """The first of N configurations of a branch that is singular for the wanted twist of the hand, with the reason;
+    None if there is none.
 
-    `V` are the twists at T in world axes, shape (N, 6), on a motion from `q_start`.
+    `V` are twists at T in world axes, shape (N, 6), of a motion that begins at `q_start`.
     """
     return _SOLVERS[arm.structure].singular(arm, q_start, q, V)
 
 
 def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
-    """Joint rates, (N, n), for twists `V` at T in world axes, (N, 6), where not singular; `J`: Jacobian at `q`."""
+    """Joint rates, (N, n), for twists `V` at T in world axes, (N, 6), at configurations that are not singular; `J`
+    is the Jacobian at `q`.
+    """
     return _SOLVERS[arm.structure].rates(arm, q, J, V)

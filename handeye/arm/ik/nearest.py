@@ -1,7 +1,8 @@
-"""The configuration within limits for a pose that rounding has put just beyond what the arm can do.
+"""Finds the nearest configuration within limits for a pose that is out of reach only because its numbers are
+rounded.
 
-A pose at the edge of reach that is written with a few digits, or computed from joints at their limits, need not have
-an exact solution. It has one with the hand as near as the digits tell.
+A pose at the edge of reach need not have an exact solution if it is written with a few digits, or computed from
+joints at their limits. This search finds a solution with the hand as near to the pose as the digits determine it.
 """
 
 from collections.abc import Iterable
@@ -22,9 +23,11 @@ _LEAST: Final = 1e-6  # of a step's singular values: smaller ones belong to join
 
 
 def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array | None:
-    """Joint positions within limits that bring the hand to a pose within `WRITTEN`, or None; sought from solutions.
+    """Joint positions within limits that bring the hand within `WRITTEN` of a pose, or None; the search begins at
+    the solutions `starts`.
 
-    Also from a little beside them: where joints are in line, no first step leads to some of the poses around.
+    It also begins a little beside these solutions: where joints are in line, no first step leads to some of the
+    neighbouring poses.
     """
     turn = np.where(constants(arm).prismatic, 0.0, 2 * np.pi)
     turned = [q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts]
@@ -38,7 +41,9 @@ def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array 
 
 
 def _nearest(arm: ArmModel, X_WT: Pose, q: Array) -> tuple[float, Array]:
-    """How far the hand is off in terms of `WRITTEN`, and where: Gauss-Newton steps within limits, the best of them."""
+    """The least distance of the hand from the pose, in multiples of `WRITTEN`, and its configuration, from
+    Gauss-Newton steps within limits.
+    """
     best = (np.inf, q)
     for _ in range(_STEPS):
         miss = _miss(X_WT, forward(arm, q))
@@ -52,14 +57,16 @@ def _nearest(arm: ArmModel, X_WT: Pose, q: Array) -> tuple[float, Array]:
 
 
 def _miss(X_WT: Pose, X: Pose) -> Array:
-    """Displacement and turn from a pose to the wanted one, in terms of `WRITTEN`; shape (6,)."""
+    """Displacement and turn from pose `X` to the wanted pose, in multiples of `WRITTEN`; shape (6,)."""
     R = X_WT[:3, :3] @ X[:3, :3].T
     turn = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
     return np.concatenate([(X_WT[:3, 3] - X[:3, 3]) / WRITTEN[0], turn / WRITTEN[1]])
 
 
 def _stepped(arm: ArmModel, q: Array, miss: Array) -> Array:
-    """The step that comes nearest; a joint that would pass its limit goes to it, and the others make up for that."""
+    """The configuration after the step that comes nearest; a joint that would pass its limit stops at it, and the
+    others compensate.
+    """
     J = jacobian(arm, q) / np.repeat(WRITTEN, 3)[:, None]
     free: NDArray[np.bool_] = np.array([joint.name not in arm.held for joint in arm.joints])
     there = q.copy()

@@ -1,4 +1,4 @@
-"""All arms by name, each a value in a file of its own."""
+"""All arms by name, each defined as a value in a separate file."""
 
 from typing import Final
 
@@ -11,12 +11,12 @@ _ROBOTS: Final = {STANFORD.name: STANFORD}
 
 
 def robot(name: str) -> ArmModel | None:
-    """The arm of a name, or None."""
+    """The arm with a name, or None."""
     return _ROBOTS.get(name)
 
 
 def register(arm: ArmModel) -> None:
-    """Register an arm under its name, or again with the same figures; raises BadArgument."""
+    """Register an arm under its name; raises BadArgument if the name is taken by an arm with other figures."""
     if not isinstance(arm, ArmModel):
         raise BadArgument(f"an arm is an ArmModel, not {arm!r}")
     if not arm.name:

@@ -1,8 +1,8 @@
 """The Stanford arm (V. Scheinman, 1969) on its table, as data.
 
-Sources: DH rows, masses, mass centres, tensors and drive inertias: the Robotics Toolbox model after Paul
-(1981). Speeds, joint-5 range, hand opening: the data sheet of 1974. Figures without a source say chosen or
-placeholder.
+DH rows, masses, mass centres, inertia tensors and drive inertias are from the Robotics Toolbox model after Paul
+(1981). Speeds, the range of joint 5 and the opening of the hand are from the data sheet of 1974. Figures without a
+source are marked "chosen" or "placeholder".
 """
 
 from math import pi
@@ -19,10 +19,11 @@ Triple = tuple[float, float, float]
 
 
 def _moments_about_centre(about_origin: Triple, mass: float, centre: Triple) -> Triple:
-    """Moments at the mass centre from the published tensors, which are about the link *origins* (Steiner).
+    """Moments of inertia about the mass centre, from the published tensors, which are about the link *origins*
+    (Steiner).
 
-    They come without products of inertia, so the products at the centre are left zero as well (the largest neglected
-    one, of link 1, would be .018 kg m2).
+    The tensors are published without products of inertia, so the products at the mass centre are set to zero as
+    well (the largest neglected one, of link 1, would be .018 kg m2).
     """
     x, y, z = centre
     a, b, c = about_origin
@@ -45,7 +46,7 @@ def _joint(
     brake: float,
     wrist: float = 0.0,
 ) -> Joint:
-    """A joint from published figures; `wrist` is their frame's origin in ours along z."""
+    """Make a joint from published figures; `wrist` is the position of their frame's origin along z in our frame, m."""
     speed, acceleration, effort = drive
     x, y, z = centre
     return Joint(
