@@ -42,6 +42,10 @@ PAIRED: Final = """Pairs of batches in the same worlds, one with a sense left ou
 
 | batch | compared to | assembled | there | only here | only there | p | noticed | silent | unfinished | arm | p |
 |---|---|---|---|---|---|---|---|---|---|---|---|"""
+FAILURES: Final = """The trials that did not assemble the pump; *message* is what the run reported at the time:
+
+| batch | stage | ended | message | worlds | seeds |
+|---|---|---|---|---|---|"""
 FACTS: Final = ("command", "commit", "code", "plan", "worlds", "versions", "renderer")
 """What stands above the trials of a batch."""
 FIGURES: Final = Kind("page of figures", b"# Forces", ending=".md")
@@ -226,20 +230,21 @@ def _pair(first: Batch, other: Batch) -> str:
 
 
 def _failures(batches: Sequence[Batch]) -> Iterator[str]:
-    """What failed, stage by stage."""
-    for batch in batches:
-        failed = [trial for trial in batch.trials if trial["verdict"] != "assembled"]
-        if not failed:
-            continue
-        yield f"Failures of `{batch.facts['command']}`:\n"
-        causes = Counter(map(_why, failed))
-        for (stage, verdict, cause), count in causes.most_common():
-            mine = (stage, verdict, cause)
-            seeds = [trial["seed"] for trial in failed if _why(trial) == mine]
-            more = "" if count <= 3 else ", ..."
-            worlds = "1 world: seed" if count == 1 else f"{count} worlds: seeds"
-            yield f"- {stage}: {verdict}, `{cause}` ({worlds} {', '.join(seeds[:3])}{more})"
+    """A table of what failed, batch by batch and stage by stage."""
+    lines = [line for batch in batches for line in _failed(batch)]
+    if lines:
+        yield FAILURES
+        yield from lines
         yield ""
+
+
+def _failed(batch: Batch) -> Iterator[str]:
+    """Rows of the failures of a batch."""
+    failed = [trial for trial in batch.trials if trial["verdict"] != "assembled"]
+    for (stage, verdict, cause), count in Counter(map(_why, failed)).most_common():
+        seeds = [trial["seed"] for trial in failed if _why(trial) == (stage, verdict, cause)]
+        more = "" if count <= 3 else ", ..."
+        yield f"| {batch.name} | {stage} | {verdict} | `{cause}` | {count} | {', '.join(seeds[:3])}{more} |"
 
 
 def _why(trial: Mapping[str, str]) -> tuple[str, str, str]:

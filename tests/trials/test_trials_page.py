@@ -76,7 +76,7 @@ def test_what_a_batch_has_left_is_told_and_added_up(maker: ModuleType, tmp_path:
         in told
     )
     assert f"| {worlds} | `abababab` | together |  | 0 of 4 | 0 | 0.0% to 49.0% | 0.0% |  | 2.0 |" in told
-    assert "- : failed, `Bad: luck` (2 worlds: seeds 7, 8)" in told
+    assert "| 1 |  | failed | `Bad: luck` | 2 | 9, 10 |" in told
 
 
 def test_a_file_names_the_renderer_that_was_used_and_seeds_that_were_named(
