@@ -1,1 +1,3 @@
-"""The simulated cell: MuJoCo behind the ports. It knows no task; a task composes its own cell of what is here."""
+"""The simulated cell: MuJoCo behind the device interfaces. It contains no task; each task composes a cell from
+these parts.
+"""

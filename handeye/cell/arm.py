@@ -24,35 +24,37 @@ _LATE: Final = 1e-6  # share of a period lost to rounding
 
 @dataclass(slots=True)
 class Watchdog:
-    """Cuts the drives of an arm whose computer does not answer, until the program sets the brakes itself."""
+    """Switches off the drives of an arm whose computer does not answer, until the program sets the brakes itself."""
 
     period: float  # s
     tripped: bool = False
     unanswered: float = 0.0  # s since the arm was driven
 
     def answer(self, *, braked: bool) -> None:
-        """The computer has put something out; brakes acknowledge that a period was missed."""
+        """The computer has sent a command; setting the brakes acknowledges a trip."""
         self.unanswered = 0.0
         self.tripped = self.tripped and not braked
 
     def wait(self, seconds: float) -> None:
-        """Time (s) is about to pass in which the drives hold what was put out last; too much of it trips at once."""
+        """Count `seconds` that are about to pass while the drives hold the last command; trip if a servo period is
+        exceeded.
+        """
         self.unanswered += seconds
         self.tripped = self.tripped or self.unanswered > self.period * (1 + _LATE)
 
 
 class JointSensors:
-    """The sensors of n joints, behind lines called `potentiometer.N` and `tachometer.N`."""
+    """The sensors of n joints, connected by lines named `potentiometer.N` and `tachometer.N`."""
 
     def __init__(self, errors: ArmErrors, noise: np.random.Generator, lines: SignalLines) -> None:
-        """Sensors with errors, and noise from a generator."""
+        """Make sensors with `errors`, and with noise from the generator `noise`."""
         self._errors, self._noise, self._lines = errors, noise, lines
         self._joints = len(errors.offset)
         self._sigma = np.concatenate((errors.pot_noise, errors.tachometer_noise))
         self._converters = Converters(np.concatenate((errors.pot_step, errors.tachometer_step)))
 
     def read(self, q: Array, qd: Array) -> tuple[Array, Array]:
-        """Positions and rates that the sensors show for true ones; shape (n,), rad or m."""
+        """Sensor readings of positions and rates for true ones; shape (n,), rad or m, and per s."""
         n, lines = self._joints, self._lines
         told = np.concatenate((self._errors.readings(q), qd))
         told += self._sigma * self._noise.standard_normal(2 * n)
@@ -64,7 +66,7 @@ class JointSensors:
 
 
 _BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))
-"""It creeps under .01 deg in 10 s, until the arm sleeps."""
+"""Constraint stiffness of the brakes: the arm creeps less than .01 deg in 10 s, until it sleeps."""
 
 
 class ArmState(Record, frozen=True, kw_only=True):
@@ -79,9 +81,10 @@ class ArmState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedArm(Mechanism[ArmState], ArmPort):
-    """Motors, brakes and sensors of n joints, called j1, j2, ... behind a prefix in the MuJoCo model.
+    """Motors, brakes and sensors of n joints, named `<prefix>j1`, `<prefix>j2`, ... in the MuJoCo model.
 
-    A brake is dry friction in the joint: it holds where the arm is and gives way to a torque greater than its own.
+    A brake is dry friction in the joint: it holds the joint where it is, and slips under a torque greater than the
+    brake's own.
     """
 
     kind = ArmState
@@ -99,11 +102,12 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         noise: np.random.Generator,
         lines: SignalLines = SOUND,
     ) -> None:
-        """An arm with its brakes set at a posture, shape (n,), rad or m; `noise` is that of its sensors.
+        """An arm with its brakes set at a posture, shape (n,), rad or m; `noise` generates the noise of its
+        sensors.
 
-        Its lines: `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N`, `friction.N`; `force.x`, `force.y`,
-        `force.z`, which put the drives off zero by the torques of a force at the hand (N, in W); and `servo`, without
-        whose 1 no torque of the computer arrives.
+        The lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N`; `force.x`,
+        `force.y` and `force.z`, which offset the drives by the torques of a force at the hand (N, in W); and
+        `servo`, which must carry 1 for torques of the computer to arrive.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]
@@ -113,7 +117,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self.last_link = int(model.jnt_bodyid[joints[-1]])  # the body that carries the hand
         self.watchdog = Watchdog(arm.servo.period)
         self.motors = np.array([model.actuator(name).id for name in names])
-        """Its motors, actuators of the simulator."""
+        """Ids of the motors, which are actuators of the simulator."""
         self._limits = model.actuator_ctrlrange[self.motors, 1].copy()
         self._friction = model.dof_frictionloss[self.dofs].copy()
         self._brake, self._errors = constants(arm).brake, errors
@@ -152,7 +156,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._put(None if self.watchdog.tripped else self._torque)
 
     def _put(self, torque: Array | None) -> None:
-        """Hold a torque, shape (n,), or the brakes from now on."""
+        """Apply a torque, shape (n,), or with None the brakes, from now on."""
         self._braked = torque is None
         allow(self._model, self._tree, allowed=self._braked)
         if not self._braked:
@@ -165,7 +169,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         )
 
     def _driven(self, torque: Array) -> Array:
-        """Torque that the drives produce when one is put out, shape (n,)."""
+        """Torque that the drives produce for a commanded torque, shape (n,)."""
         torque = self._torque_converters(torque) * self._errors.drive_gain
         if not self._lines.defects:
             return torque
@@ -178,7 +182,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._read(q, qd, braked=self._braked)
 
     def _read(self, q: Array, qd: Array, *, braked: bool) -> None:
-        """Keep readings, which cannot be changed, until time passes again."""
+        """Keep readings, read-only, until time passes again."""
         q.setflags(write=False)
         qd.setflags(write=False)
         self._reading = ArmReading(q=q, qd=qd, braked=braked)

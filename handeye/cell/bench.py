@@ -1,4 +1,4 @@
-"""Bench: machines whose servos are closed outside the computer, in one scene under one clock."""
+"""Bench: machines with servos outside the computer, in one scene under one clock."""
 
 import math
 from collections.abc import Callable
@@ -20,14 +20,16 @@ MICROSECONDS: Final = 1_000_000
 _LATEST: Final = 10**15
 _MOST_AT_ONCE: Final = 100_000  # events between two physics steps
 _FINEST: Final = 10**6
-"""Physics steps in a second, at most, for the step to be known as a fraction of one: 1/960, 1/1200, .001."""
+"""Greatest number of physics steps per second for which the step is recognised as an exact fraction of a second:
+1/960, 1/1200, .001.
+"""
 FASTEST: Final = 1000.0
-"""m/s and rad/s: nothing on a bench gets near it, unless the solver of its contacts has failed."""
+"""Greatest plausible speed, m/s and rad/s: nothing on a bench approaches it unless the contact solver has failed."""
 _STRETCH: Final = Fraction(1, 60)  # s for which mechanisms may hold what they do to the simulator, at most
 
 
 class Due(Record, frozen=True, kw_only=True):
-    """An event that is to happen between two physics steps."""
+    """A pending event; it is handled between two physics steps."""
 
     microseconds: int  # when, on the clock of the bench
     name: str  # of its handler
@@ -41,10 +43,11 @@ class BenchTime(Record, frozen=True, kw_only=True):
 
 
 class Bench(Clock, Mechanism[BenchTime]):
-    """A scene whose time is counted in whole physics steps, so that machines of any periods stay in step.
+    """A scene whose time is counted in whole physics steps, so that machines with different periods stay
+    synchronised.
 
-    Machines add themselves to it. Where the scene allows sleep, bodies that stand still are left out, and time passes
-    at once while all of them sleep: no hook of a step is called then.
+    Machines add themselves to the bench. If the scene allows sleep, bodies at rest are not computed. While all
+    bodies sleep, time passes in one jump, and no hook of a step is called.
     """
 
     name = "clock"
@@ -55,7 +58,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         self.before_step: list[Callable[[], None]] = []  # called before every physics step
         self.after_step: list[Callable[[], None]] = []
         self.before_period: list[Callable[[], None]] = []
-        """Called whenever time is about to pass, for 1/60 s at most unless everything sleeps."""
+        """Functions called before time passes: every 1/60 s at the latest, unless everything sleeps."""
         self.after_period: list[Callable[[], None]] = []
         self.handlers: dict[str, Callable[[], None]] = {}  # handlers of events, by name
         self._tick = Fraction(model.opt.timestep).limit_denominator(_FINEST)
@@ -66,16 +69,18 @@ class Bench(Clock, Mechanism[BenchTime]):
         mujoco.mj_forward(self.model, self.data)
 
     def add(self, part: Mechanism[Any]) -> None:
-        """Let a mechanism act on the scene as time passes, behind those that were added before."""
+        """Add a mechanism, which acts on the scene as time passes, after those added before."""
         self._parts.append(part)
 
     def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
-        """Scene, from now on unchanged, clock, mechanisms and `others` that do not act as time passes, as a cell."""
+        """A cell of this bench, whose scene must not change from now on, and of `others`: mechanisms that do not
+        act as time passes.
+        """
         noise = np.random.Generator(np.random.PCG64(0))
         return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)
 
     def replace(self, spec: mujoco.MjSpec) -> None:
-        """Continue with a changed scene: what was there before is where it was."""
+        """Continue with a changed scene; everything that exists in both scenes keeps its state."""
         self.model, self.data = spec.recompile(self.model, self.data)
         mujoco.mj_forward(self.model, self.data)
         for part in self._parts:
@@ -85,7 +90,7 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     @property
     def tick(self) -> Fraction:
-        """Physics step, s."""
+        """The physics step, s."""
         return self._tick
 
     @property
@@ -93,7 +98,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         return float(self._steps * self.tick)
 
     def set_to_zero(self) -> None:
-        """Let the clock show 0 now, as the program begins; pending events come when they would have come."""
+        """Set the clock to 0 now, as the program begins; pending events keep their distance from now."""
         due = [(self._step_of(each) - self._steps) * self.tick * MICROSECONDS for each in self._due]
         self._due = [replace(was, microseconds=int(at)) for was, at in zip(self._due, due, strict=True)]
         self._steps, self.data.time = 0, 0.0
@@ -112,7 +117,7 @@ class Bench(Clock, Mechanism[BenchTime]):
             self._passing = False
 
     def call_at(self, microseconds: int, name: str) -> None:
-        """Have an event handled at the first physics step that begins at a time or after it, by its name."""
+        """Have the event `name` handled at the first physics step that begins at this time or later."""
         if name not in self.handlers:
             raise NoSuchName(f"the bench has no {name}; there are {', '.join(self.handlers)}")
         if microseconds >= _LATEST:
@@ -125,11 +130,15 @@ class Bench(Clock, Mechanism[BenchTime]):
         return max(self._before_event(), 1) * self.tick if self._due else None
 
     def _before_event(self) -> int:
-        """Physics steps before the next event is handled; more than ever pass if there is none."""
+        """Number of physics steps before the next event is handled; a number that is never reached if there is
+        none.
+        """
         return self._step_of(self._due[0]) - self._steps if self._due else _LATEST
 
     def _step_of(self, due: Due) -> int:
-        """The physics step before which an event is handled: the first that begins at its time or after it."""
+        """Number of the physics step before which an event is handled: the first that begins at the event's time or
+        later.
+        """
         return math.ceil(due.microseconds / (MICROSECONDS * self._tick))
 
     def _handle_due(self) -> None:
@@ -140,7 +149,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         raise HandeyeError(f"events repeat without end at {self.now:g} s; the last is {due.name}")
 
     def _pass(self, most: int) -> None:
-        """Let at most `most` physics steps pass: a stretch of them, or all of them if everything sleeps."""
+        """Let at most `most` physics steps pass: one stretch of them, or all of them if everything sleeps."""
         steps = min(most, self._stretch)
         for part in self._parts:
             part.before(float(steps * self.tick))

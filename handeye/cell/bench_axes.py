@@ -1,4 +1,4 @@
-"""The machines on a bench: joints and tendons with their own servos, what they sense, and what they switch."""
+"""The machines on a bench: joints and tendons with servos, sensor channels and outputs."""
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain
@@ -18,16 +18,16 @@ from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel, Outputs
 from handeye.ports.clock import whole_steps
 
 Sense = Callable[[mujoco.MjModel, mujoco.MjData], Sequence[float] | Array]
-"""Reads the components of a channel off a scene."""
+"""Reads the components of a channel from a scene."""
 
 
 def sensor(name: str) -> Sense:
-    """The values of a sensor of the scene."""
+    """A channel that reads the values of a sensor of the scene."""
     return lambda _, data: np.asarray(data.sensor(name).data)
 
 
 def switch(name: str, above: float = 0.0) -> Sense:
-    """A switch: 1 while the sensor of a name shows more than a threshold, else 0."""
+    """A switch channel: 1 while the sensor `name` shows more than the threshold `above`, else 0."""
     return lambda _, data: (float(data.sensor(name).data[0] > above),)
 
 
@@ -39,11 +39,11 @@ class AxesState(Record, frozen=True, kw_only=True):
     left: int  # physics steps of the period that are left
     powered: bool = True
     latched: dict[str, tuple[float, ...]]
-    """Values of the latched channels that have differed from zero since they were cleared."""
+    """Values of the latched channels that have been different from zero since they were cleared."""
 
 
 class BenchAxes(Axes, Mechanism[AxesState]):
-    """One machine of a bench: joints or tendons with position servos of the same names, and channels."""
+    """One machine of a bench: joints or tendons with position servos of the same names, and its channels."""
 
     kind = AxesState
     changes = ("actuator_gainprm", "actuator_biasprm", "tree_sleep_policy")
@@ -59,14 +59,16 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         at_once: Sequence[str] = (),
         bent: Callable[[Array], Array] = np.zeros_like,
     ) -> None:
-        """Take joints of a scene for a machine, and add it to the bench.
+        """Make a machine of joints in the scene, and add it to the bench.
 
         Args:
-            specs: its axes, by the names of joints and servos; where only the servo is there, it works a tendon.
+            specs: the axes of the machine, by the names of their joints and servos. A servo without a joint of its
+                name drives a tendon.
             period: s between two goals.
-            channels: what it senses, and how.
-            at_once: axes whose servos are given a goal at once, not bit by bit in the course of the period.
-            bent: how far axes are from where their potentiometers show them to be, by what these show, shape (n,).
+            channels: the sensor channels, each with the function that reads it.
+            at_once: axes whose servos get a goal at once, not gradually during the period.
+            bent: a function from the potentiometer readings, shape (n,), to the difference between true and
+                indicated axis positions.
         """
         self.name, self._bench, self._specs, self._period = name, bench, tuple(specs), period
         self._senses, self._bent = channels or {}, bent
@@ -88,7 +90,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
 
     @scene_for("a machine")
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Find its joints and servos in a scene."""
+        """Find the machine's joints and servos in a scene."""
         self._servos = np.array([model.actuator(spec.name).id for spec in self._specs], dtype=int)
         joints = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, spec.name) for spec in self._specs]
         self._jointed = np.array([joint >= 0 for joint in joints], dtype=bool)
@@ -139,7 +141,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         return values
 
     def _true(self) -> Array:
-        """True positions of its axes, shape (n,)."""
+        """True positions of the axes, shape (n,)."""
         data = self._bench.data
         q = data.actuator_length[self._servos].copy()
         q[self._jointed] = data.qpos[self._qpos]
@@ -183,9 +185,11 @@ class BenchAxes(Axes, Mechanism[AxesState]):
     # -- as time passes -------------------------------------------------------------------------------
 
     def _interpolate(self) -> None:
-        """Continue towards the goal, evenly for a period: goals that jump shake what lies on the axes.
+        """Move the set-points evenly towards the goal during a period, because goals that jump shake whatever lies
+        on the axes.
 
-        Measured: a platter's acceleration had peaks of 10.8 m/s2 on ways planned with 1, which drew blocks along.
+        Measured: with jumping goals, the acceleration of a platter reached 10.8 m/s2 on paths planned with 1 m/s2,
+        and moved the blocks on it.
         """
         if self._left:
             self._left -= 1
@@ -195,7 +199,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
 
     @property
     def _set_point(self) -> Array:
-        """Set-points of the servos now, shape (n,)."""
+        """Present set-points of the servos, shape (n,)."""
         return self._goal - self._left * self._way
 
     def after(self) -> None:
@@ -209,13 +213,13 @@ class BenchAxes(Axes, Mechanism[AxesState]):
                     self._latched[channel.name] = values
 
     def _switch(self, *, on: bool) -> None:
-        """Give the servos their gains, or those that do not hold none."""
+        """Give the servos their gains, or with `on` False take the gains from those that do not hold."""
         model, slack = self._bench.model, self._servos[~self._holds]
         gain, bias = (gains[~self._holds] if on else 0.0 for gains in self._gains)
         model.actuator_gainprm[slack], model.actuator_biasprm[slack] = gain, bias
 
     def _allow_sleep(self, *, allowed: bool) -> None:
-        """Let its bodies sleep when they stand still, or keep them awake."""
+        """Allow the machine's bodies to sleep when they are at rest, or keep them awake."""
         if not self._sleeps:
             return
         for dof in self._dofs:
@@ -250,12 +254,12 @@ class OutputsState(Record, frozen=True, kw_only=True):
 
 
 class BenchOutputs(Outputs, Mechanism[OutputsState]):
-    """Outputs of a machine of a bench: each is 0 until it is set."""
+    """Outputs of a machine on a bench; each is 0 until it is set."""
 
     kind = OutputsState
 
     def __init__(self, bench: Bench, name: str, outputs: Mapping[str, Callable[[float], None]]) -> None:
-        """Outputs by name, with the mechanism that acts on the value of each as time passes."""
+        """Outputs by name, each with the function that sets its value in the mechanism concerned."""
         self.name, self._outputs = name, outputs
         self._values = dict.fromkeys(outputs, 0.0)
         bench.add(self)
@@ -272,7 +276,7 @@ class BenchOutputs(Outputs, Mechanism[OutputsState]):
         self._values[name] = float(value)
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Outputs have no part in the scene."""
+        """Do nothing: outputs have no part in the scene."""
 
     def before(self, seconds: float) -> None:
         for name, act in self._outputs.items():

@@ -1,4 +1,4 @@
-"""The simulated television camera: the camera as drawn, off by the errors of the world, behind its port."""
+"""The simulated television camera: the camera of the design with the errors of the world, behind its interface."""
 
 import math
 from dataclasses import replace
@@ -26,13 +26,14 @@ from handeye.vision.camera_model import CameraModel, View
 TURRET: Final = 20.0  # s for which the turret turns
 SLEW: Final = 5 * DEGREE  # rad/s of pan and of tilt, which turn together
 REFOCUS: Final = 0.0347
-"""1/m in a second: rings are divided by the reciprocal of the distance. With these rates the looks of a pump take
-the 90 s that the paper gives for all lens changes and focusing: 40 for the turret, 12 for 60 degrees, 36 for 1.25 1/m,
-2 for four pictures; split as in the layout study, 6."""
+"""Speed of refocusing, 1/m per second: focus rings are divided by the reciprocal of the distance. With these rates
+the looks of a pump take 90 s, the time that the paper gives for all lens changes and focusing: 40 s for the turret,
+12 s for 60 degrees, 36 s for 1.25 1/m and 2 s for four pictures; this division is from the layout study, section 6.
+"""
 
 
 class CameraState(Record, frozen=True, kw_only=True):
-    """The camera's mechanism and tube."""
+    """State of the camera's mechanism and tube."""
 
     noise: str  # state of its generator, as JSON
     lens: float
@@ -43,7 +44,7 @@ class CameraState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedCamera(Mechanism[CameraState], TvCamera):
-    """Takes pictures of the simulated cell."""
+    """The television camera of a simulated cell."""
 
     name = "camera"
     kind = CameraState
@@ -57,10 +58,10 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         drawing: CameraModel,
         lines: SignalLines = SOUND,
     ) -> None:
-        """A camera that looks at the state `data`, as it is when a picture is taken, and never changes it.
+        """A camera that takes pictures of the state `data`, which it never changes.
 
-        `rng`: noise of the tube and of the mount; `lines`: `picture`; `turret`, the focal length commanded (m);
-        `camera.pan` and `camera.tilt`, where the mount really stands (rad).
+        `rng` generates the noise of tube and mount. The lines are `picture`; `turret`, the commanded focal length
+        (m); `camera.pan` and `camera.tilt`, the true angles of the mount (rad).
         """
         self._data = data
         self._lines = lines
@@ -141,7 +142,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         self._vidicon.gain = state.gain
 
     def true_view(self) -> View:
-        """True view at present. For the referee and for tests: the program has `pots` only."""
+        """The true present view, for the referee and for tests; the program knows only `pots`."""
         pan, tilt = self._stand
         return self._model.view(
             self._lens,
@@ -150,12 +151,14 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         )
 
     def shown(self, points_W: Array) -> Array:
-        """True picture points, shape (n, 2), of points, shape (n, 3), m, without the drift. For referee and tests."""
+        """True picture points, shape (n, 2), of points in W, shape (n, 3), m, without the drift of the tube; for
+        the referee and for tests.
+        """
         return self._raster.shown(self.true_view().project(points_W))
 
 
 def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
-    """The camera that really stands there."""
+    """The true camera model: the design with the errors of the world."""
     x, y, z = np.add(drawing.mount, errors.place)
     pan, tilt, roll = errors.turn
     return CameraModel(
@@ -179,13 +182,15 @@ def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
 
 
 def renderer_here(kind: str) -> Literal["gl", "ray"]:
-    """`gl` or `ray`: the renderer that a kind stands for on this computer; raises InvalidInput if there is none."""
+    """`gl` or `ray`: the renderer that `kind` means on this computer; raises InvalidInput if there is none."""
     made = make_renderer(kind, mujoco.MjModel.from_xml_string("<mujoco/>"))
     return "gl" if made.identity.method == "opengl" else "ray"
 
 
 def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:
-    """A renderer: `gl`, `ray`, `auto` (`gl` where it works) or one that a function makes; raises InvalidInput."""
+    """Make a renderer: `gl`, `ray`, `auto` (`gl` if it works here), or one made by a caller's function; raises
+    InvalidInput.
+    """
     if not isinstance(kind, str):
         return kind(model)
     if kind == "ray":

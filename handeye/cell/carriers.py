@@ -1,9 +1,10 @@
-"""Carriers of tapped holes: bodies in the tapped one, the base, that stand for the screws in them.
+"""Carriers of tapped holes: bodies in the base that represent the screws engaged in its threads.
 
-A carrier slides along its axis and turns about it, bound by the pitch. That axis is the tapped hole's, except for a
-screw that entered at an angle: its carrier takes the screw's own axis, so that nothing jumps, and the thread draws it
-straight as it is turned. A crossed one stays as it came. Head and shank of a carrier meet other parts only while a
-screw is in its hole, the shank the bores of gasket and top alone.
+A carrier slides along its axis and turns about it; the two motions are bound by the pitch. The axis is that of the
+tapped hole, except for a screw that entered at an angle. The carrier of such a screw takes the screw's own axis, so
+that nothing jumps, and the thread draws it straight as the screw is turned; a cross-threaded screw stays at its
+angle. Head and shank of a carrier touch other parts only while a screw is in its hole; the shank touches only the
+bores of gasket and top.
 """
 
 from math import exp, pi
@@ -26,13 +27,13 @@ class Carriers:
     """The carriers of one scene, in the order of the tapped holes."""
 
     changes: Final = ("geom_contype", "geom_conaffinity", "geom_group", "body_pos", "body_quat")
-    """Fields of the model that belong to their state."""
+    """Fields of the MuJoCo model that belong to the state of the carriers."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Empty holes."""
+        """Find the carriers in the model; all holes are empty."""
         self._model, self._data = model, data
         self.count = sum(model.body(i).name.startswith("carrier") for i in range(model.nbody))
-        """Their number."""
+        """Number of carriers."""
         holes = range(self.count)
         self._body = np.array([model.body(f"carrier{k}").id for k in holes])
         bases = {int(model.body_parentid[body]) for body in self._body}
@@ -44,7 +45,7 @@ class Carriers:
         self.head = np.array([model.geom(f"head{k}").id for k in holes])  # their heads, geoms
         self.site = [model.site(f"thread{k}").id for k in holes]  # their frames, sites
         self.mouths: Array = model.body_pos[self._body].copy()
-        """Mouths of the tapped holes in the base's frame, m, shape (n, 3)."""
+        """Mouths of the tapped holes in the frame of the base, m, shape (n, 3)."""
         self._lead = float(model.eq_data[_helix(model, self._slide[0], self._turn[0]), 1])  # m per radian
         self._solid = [np.array([self.head[k], model.geom(f"shank{k}").id]) for k in holes]
         self._bits = [(model.geom_contype[g].copy(), model.geom_conaffinity[g].copy()) for g in self._solid]
@@ -59,23 +60,23 @@ class Carriers:
         return int(self._model.jnt_dofadr[self._turn[hole]])
 
     def depth(self, hole: int) -> float:
-        """Depth of the point of a screw below the mouth, along its axis, m."""
+        """Depth of the point of a screw below the mouth of its hole, along the screw's axis, m."""
         return -float(self._data.qpos[self._model.jnt_qposadr[self._slide[hole]]])
 
     def pose(self, hole: int) -> Pose:
-        """`X_WS` of the screw in a hole; its origin is the point."""
+        """The pose `X_WS` of the screw in a hole; its origin is the screw's point."""
         body = self._body[hole]
         return pose(self._data.xmat[body].reshape(3, 3).copy(), self._data.xpos[body].copy())
 
     def velocity(self, hole: int) -> Array:
-        """Rates of turn and of the point of the screw in a hole, in W, shape (6,)."""
+        """Angular velocity of the screw in a hole, and velocity of its point, in W, shape (6,)."""
         found = np.zeros(6)
         kind = mujoco.mjtObj.mjOBJ_XBODY
         mujoco.mj_objectVelocity(self._model, self._data, kind, int(self._body[hole]), found, 0)
         return found
 
     def fill(self, hole: int, X_WS: Pose, rate: float) -> None:
-        """Put the carrier of a hole where a screw is, on the screw's own axis, turning at a rate (rad/s)."""
+        """Put the carrier of a hole where a screw is, on the screw's own axis, turning at `rate` (rad/s)."""
         model, data = self._model, self._data
         X_WB = pose(data.xmat[self.base].reshape(3, 3), data.xpos[self.base])
         X_BS = inverse(X_WB) @ X_WS
@@ -89,18 +90,18 @@ class Carriers:
         self._show(hole, there=True)
 
     def empty(self, hole: int) -> None:
-        """Take the carrier of a hole away."""
+        """Remove the carrier of a hole from the scene."""
         body = self._body[hole]
         self._model.body_pos[body], self._model.body_quat[body] = self.mouths[hole], (1.0, 0.0, 0.0, 0.0)
         self._move(hole, 0.0, 0.0)
         self._show(hole, there=False)
 
     def turn_back(self, hole: int, turns: float) -> None:
-        """Let a screw come up out of its thread by some turns, at rest."""
+        """Raise a screw in its thread by some turns, at rest."""
         self._move(hole, 2 * pi * turns * self._lead - self.depth(hole), 0.0)
 
     def straighten(self, hole: int, seconds: float) -> None:
-        """Let the thread draw a screw straight as it is turned in during a time (s)."""
+        """Let the thread draw a screw straight while it is turned in for `seconds`."""
         model, body = self._model, self._body[hole]
         aside, lean = model.body_pos[body] - self.mouths[hole], model.body_quat[body][1:].copy()
         if not aside.any() and not lean.any():
@@ -114,7 +115,7 @@ class Carriers:
         mujoco.mju_normalize4(model.body_quat[body])
 
     def _move(self, hole: int, along: float, rate: float) -> None:
-        """Put the joints of a carrier where its thread has them, at `along` (m) over the mouth."""
+        """Set the joints of a carrier, bound by the pitch, to `along` (m) above the mouth and to `rate`."""
         model, data = self._model, self._data
         slide, turn = self._slide[hole], self._turn[hole]
         data.qpos[model.jnt_qposadr[slide]] = along
@@ -123,19 +124,19 @@ class Carriers:
         data.qvel[model.jnt_dofadr[slide]] = rate * self._lead
 
     def _show(self, hole: int, *, there: bool) -> None:
-        """Let head and shank meet other parts and be seen, or not."""
+        """Show head and shank and let them touch other parts, or neither."""
         self.meet(hole, self._model, there=there)
         self._model.geom_group[self._looks[hole]] = SEEN if there else LATENT
 
     def meet(self, hole: int, model: mujoco.MjModel, *, there: bool) -> None:
-        """Let head and shank of a hole meet other parts, or not, in a model of this scene."""
+        """Let head and shank of a hole touch other parts, or not, in a model of this scene."""
         solid = self._solid[hole]
         contype, conaffinity = self._bits[hole] if there else (0, 0)
         model.geom_contype[solid], model.geom_conaffinity[solid] = contype, conaffinity
 
 
 def _helix(model: mujoco.MjModel, slide: int, turn: int) -> int:
-    """The constraint that binds a slide to a turn by the pitch."""
+    """The equality constraint that binds a slide to a turn by the pitch."""
     for e in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_JOINT):
         if (model.eq_obj1id[e], model.eq_obj2id[e]) == (slide, turn):
             return int(e)

@@ -1,6 +1,7 @@
-"""The arithmetic of an arm in MuJoCo's C, some twenty times as fast as the formulas for one posture.
+"""Kinematics and dynamics of an arm in MuJoCo's C code, about twenty times as fast as the formulas for a single
+configuration.
 
-The model is made from the controller's figures of the arm and nothing else: it knows no more of a cell than they do.
+The model is made only from the controller's figures of the arm, so it contains nothing about the true cell.
 """
 
 import mujoco
@@ -14,10 +15,12 @@ from handeye.core.pose import Array, Pose
 
 
 class CompiledArm(ArmArithmetic):
-    """An arm as a MuJoCo model of its links and joints. Not to be shared by threads: it computes in one place."""
+    """An arm as a MuJoCo model of its links and joints. Not for use by several threads, because it computes in one
+    buffer.
+    """
 
     def __init__(self, arm: ArmModel) -> None:
-        """Compile the arm; some milliseconds."""
+        """Compile the arm, which takes some milliseconds."""
         self._model = _model(arm)
         self._data = data = mujoco.MjData(self._model)
         self._joints, self._tool = self._model.nv, self._model.nbody - 1
@@ -48,7 +51,7 @@ class CompiledArm(ArmArithmetic):
 
 
 def _model(arm: ArmModel) -> mujoco.MjModel:
-    """Links in their DH frames, one within the other."""
+    """The links in their DH frames, each nested in the previous one."""
     k, spec = constants(arm), mujoco.MjSpec()
     spec.option.gravity = np.array([0.0, 0.0, -GRAVITY])
     turns = link_rotations(

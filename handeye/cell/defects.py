@@ -1,4 +1,4 @@
-"""Defects of the lines between the devices of a cell and its controller, as values."""
+"""Defects of the signal lines between devices and controller, as values."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -13,18 +13,20 @@ PICTURE: Final = "picture"  # the line of the camera's pictures
 
 
 class Effect(ABC):
-    """Effect of a defect on the values of a line: a number, or the points of a picture."""
+    """Effect of a defect on the values of a line, which are numbers or the points of a picture."""
 
     __slots__ = ()
 
     @abstractmethod
     def on(self, values: Values, first: Values, seconds: float) -> Values:
-        """Values that arrive, SI, in place of those sent, `seconds` after it set in, when the line carried `first`."""
+        """Values that arrive, SI, instead of those sent, `seconds` after the defect began; `first` is the value
+        carried when it began.
+        """
 
 
 @dataclass(frozen=True, slots=True)
 class Stuck(Effect):
-    """The line keeps what it carried when the defect set in, or a value."""
+    """The line stays at the value it carried when the defect began, or at a given value."""
 
     at: float | None = None
 
@@ -34,7 +36,7 @@ class Stuck(Effect):
 
 @dataclass(frozen=True, slots=True)
 class OffsetEffect(Effect):
-    """Something is added."""
+    """A constant is added."""
 
     by: float
 
@@ -44,7 +46,7 @@ class OffsetEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class DriftEffect(Effect):
-    """More and more is added, `rate` a second."""
+    """A growing amount is added, `rate` per second."""
 
     rate: float
 
@@ -54,7 +56,7 @@ class DriftEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class SlipEffect(Effect):
-    """Something is added that grows evenly to its full size within some seconds."""
+    """An amount is added that grows evenly to its full size within some seconds."""
 
     by: float
     seconds: float
@@ -65,7 +67,7 @@ class SlipEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class PulseEffect(Effect):
-    """Something is added for some seconds."""
+    """An amount is added for some seconds."""
 
     by: float
     seconds: float
@@ -76,7 +78,7 @@ class PulseEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class GainEffect(Effect):
-    """A share arrives, or a multiple."""
+    """Values are multiplied by a factor."""
 
     by: float
 
@@ -99,9 +101,9 @@ DEAD: Final = GainEffect(0.0)  # nothing arrives
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Defect:
-    """Something broken on a line."""
+    """A defect on a line."""
 
     line: str
     effect: Effect
     stage: int | None = None
-    """Number of the stage with which it sets in, from 1; None: it is there when the cell is switched on."""
+    """Number of the stage with which the defect begins, from 1; None: it is present when the cell is switched on."""

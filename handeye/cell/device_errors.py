@@ -1,4 +1,4 @@
-"""Errors of the devices of a cell: the differences from the controller's model."""
+"""Errors of the devices of a cell: their differences from the controller's model."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -11,7 +11,9 @@ from handeye.core.pose import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmErrors:
-    """Errors of the sensors and drives of an arm of n joints; shape (n,), rad (a prismatic joint: m) unless said."""
+    """Errors of the sensors and drives of an arm with n joints; shape (n,), rad, or m for prismatic joints, unless
+    stated.
+    """
 
     offset: Array
     scale: Array  # relative error of the reading, about `centre`
@@ -28,7 +30,7 @@ class ArmErrors:
 
     @classmethod
     def none(cls, joints: int) -> Self:
-        """Sensors and drives without error."""
+        """Errors of zero."""
         none, ones = np.zeros(joints), np.ones(joints)
         return cls(
             offset=none, scale=none, wave=none, period=ones, phase=none, centre=none, pot_noise=none,
@@ -41,7 +43,7 @@ class ArmErrors:
         return np.asarray(q + self.offset + self.scale * (q - self.centre) + wave)
 
     def positions(self, readings: Array) -> Array:
-        """True positions that give these `readings`, shape (..., n)."""
+        """True positions for given readings without noise, shape (..., n)."""
         q = readings
         for _ in range(6):  # the errors are small and smooth: a few fixed-point steps reach 1e-12
             q = q - (self.readings(q) - readings)
@@ -50,7 +52,9 @@ class ArmErrors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmBuild:
-    """The true build of an arm of n joints; arrays have shape (n,), true over believed unless said."""
+    """True properties of an arm with n joints; arrays have shape (n,) and are ratios of the true value to the
+    model's, unless stated.
+    """
 
     link_mass: Array
     mass_centre: Array  # distance of each link's mass centre from the joint that moves the link
@@ -74,13 +78,13 @@ class HandErrors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraErrors:
-    """Differences between a TV camera and its drawing."""
+    """Differences between a TV camera and its design."""
 
     place: tuple[float, float, float]  # error of the mount in W, m
     turn: tuple[float, float, float]  # error of pan, tilt and roll, rad
     focal_scale: tuple[float, float]  # true over nominal focal length of the 25 mm and the 50 mm lens
     lens_place: tuple[tuple[float, float, float], tuple[float, float, float]]
-    """Error of the place of either lens: forwards, to the right and upwards in its picture, m."""
+    """Position error of each lens: forwards, to the right and upwards in its picture, m."""
     pot_noise: float  # sigma of the pan and tilt readings, rad
     raster: Raster
     drift: float  # sigma of where a picture lies, along its lines and across, over half its length and height

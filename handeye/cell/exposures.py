@@ -1,7 +1,7 @@
 """Fine photographs: the mean of many exposures, each through another point of the lens, of the lamp and of the sky.
 
-OpenGL draws hard shadows, sharp all over, with edges in steps. The mean, taken of light and not of the values of the
-screen, has soft shadows, what is out of focus blurred, and smooth edges.
+OpenGL draws hard shadows, everything in focus, and jagged edges. The mean, taken of the light and not of the screen
+values, has soft shadows, blur where the picture is out of focus, and smooth edges.
 """
 
 from collections.abc import Callable, Iterator
@@ -23,7 +23,7 @@ _TOLD: Final = "gloss/"
 
 
 def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
-    """Give the shapes of a prepared scene the gloss that the scene states for their materials."""
+    """Set the gloss of the shapes in a prepared scene as the scene states it for their materials."""
     told = _told(model)
     for shape in scene.geoms[: scene.ngeom]:
         if shape.matid in told:
@@ -33,7 +33,7 @@ def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
 
 
 def _told(model: mujoco.MjModel) -> dict[int, tuple[float, float]]:
-    """Metalness and roughness, by the number of the material."""
+    """Metalness and roughness of materials, by their number."""
     figures = {
         model.numeric(number).name: tuple(model.numeric(number).data.tolist())
         for number in range(model.nnumeric)
@@ -52,7 +52,7 @@ _MIDDLE: Final = 20  # the focus is measured in the middle of the picture, 1/20 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lens:
-    """A lens that looks from a place, upright in the picture."""
+    """A lens at a place, looking in a direction, with the picture upright."""
 
     eye: Array  # its middle in W, m
     forward: Array
@@ -63,7 +63,7 @@ class Lens:
 
     @classmethod
     def of(cls, scene: mujoco.MjvScene, size: tuple[int, int]) -> Self:
-        """The lens of the camera that a scene was prepared for."""
+        """The lens of the camera for which a scene was prepared."""
         left, right = scene.camera  # two, next to the camera
         high = (left.frustum_top - left.frustum_bottom) / 2 / left.frustum_near
         wide = left.frustum_width / left.frustum_near or high * size[0] / size[1]
@@ -76,7 +76,9 @@ class Lens:
         )
 
     def aim(self, scene: mujoco.MjvScene, at: Array, shift: Array) -> None:
-        """Look through a point of the lens, (2,), in radii right and up, focused as before, shifted by points, (2,)."""
+        """Look through a point of the lens, (2,), in radii to the right and up, with the focus unchanged and the
+        picture shifted by `shift`, (2,), points.
+        """
         right = np.cross(self.forward, self.up)
         aside = APERTURE * at
         across = -aside / self.focus + 2 * np.array(self.slopes) * shift / np.array(self.size)
@@ -91,7 +93,7 @@ class Lens:
 
     @staticmethod
     def looked_at(depth: NDArray[np.float32]) -> float:
-        """Distance (m) of the object in the middle of a picture, from its depth buffer."""
+        """Distance (m) of the object in the centre of a picture, from its depth buffer."""
         rows, columns = (
             slice(side // 2 - side // _MIDDLE, side // 2 + side // _MIDDLE + 1) for side in depth.shape
         )
@@ -104,11 +106,11 @@ _SHADOW: Final = 2048  # points along a side of the map of shadows: their edges 
 _TURN: Final = np.pi * (3 - np.sqrt(5))  # golden angle: from one point of a spiral to the next
 _SEED: Final = 1
 _LIGHT: Final = ((np.arange(256) / 255) ** GAMMA).astype(np.float32)
-"""Light of a point of the screen by its value."""
+"""Amount of light for each value of a screen point."""
 _PLASTIC: Final = np.array([0.7548776662466927, 0.5698402909980532])
-"""Steps of an even sequence in a square, from the root of x^3 = x + 1."""
+"""Steps of an evenly distributed sequence in a square, from the root of x^3 = x + 1."""
 Progress = Callable[[int, int], None]
-"""Called with the number of each exposure, from 1, before it is made, and with how many there are."""
+"""Called before each exposure with its number, from 1, and the total number."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,7 +121,7 @@ class ExposurePlan:
     film: str = "colour"
 
     def __post_init__(self) -> None:
-        """Raises InvalidInput if there is no such film, or the number of exposures is out of range."""
+        """Raises InvalidInput if the film is unknown, or the number of exposures is out of range."""
         if self.film not in FILMS:
             raise NoSuchName(f"there is no film {quoted(self.film)}; there are {', '.join(FILMS)}")
         whole = isinstance(self.exposures, (int, np.integer))
@@ -128,7 +130,7 @@ class ExposurePlan:
 
 
 def exposing(*, fine: bool, film: str | None, exposures: int | None) -> ExposurePlan | None:
-    """The settings asked for; None for a plain photograph; raises as `ExposurePlan`."""
+    """The requested settings; None for a plain photograph; raises as `ExposurePlan`."""
     if not (fine or film is not None or exposures is not None):
         return None
     return ExposurePlan(
@@ -138,7 +140,7 @@ def exposing(*, fine: bool, film: str | None, exposures: int | None) -> Exposure
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Exposure:
-    """Points of unit discs from which an exposure is seen and lit, and its shift in pixels; shape (2,) each."""
+    """Points of the unit discs of lens, lamp and sky for one exposure, and its shift in pixels; shape (2,) each."""
 
     lens: Array
     lamp: Array
@@ -150,7 +152,7 @@ def photographed(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int, how: ExposurePlan | None,
     told: Progress = lambda number, of: None,
 ) -> Photograph:  # fmt: skip
-    """A fine photograph by a camera of the scene, or a plain one; raises as `fine_photograph`."""
+    """A photograph by a camera of the scene: fine, or plain if `how` is None; raises as `fine_photograph`."""
     if how is None:
         return smooth_photograph(model, data, camera=camera, width=width, height=height)
     return fine_photograph(model, data, view=camera, width=width, height=height, how=how, told=told)
@@ -160,7 +162,9 @@ def fine_photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, view: str | Near, width: int, height: int, how: ExposurePlan,
     told: Progress = lambda number, of: None,
 ) -> Photograph:  # fmt: skip
-    """A photograph of many exposures; raises InvalidInput if there is no such camera, size or OpenGL."""
+    """A photograph of many exposures; raises InvalidInput if the camera or OpenGL is missing, or the size is
+    impossible.
+    """
     check_size(width, height)
     stock = FILMS[how.film]
     photographer = Photographer(model, width=width, height=height, shadow=_SHADOW, samples=0)
@@ -180,7 +184,7 @@ def fine_photograph(
 
 
 def _exposures(number: int) -> Iterator[_Exposure]:
-    """Exposures, always the same, spread evenly over lens, lamp, sky and point, and each in another order."""
+    """Always the same exposures, spread evenly over lens, lamp, sky and pixel, each of the four in another order."""
     k, order = np.arange(number), np.random.default_rng(_SEED)
     radius, angle = np.sqrt((k + 0.5) / number), _TURN * k
     disc = np.column_stack(

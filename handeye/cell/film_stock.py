@@ -1,4 +1,4 @@
-"""Films: the light that goes with each, and what its photographs make of the light that fell on it."""
+"""Films: the lighting that belongs to each, and the picture that each makes of the light."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -19,7 +19,7 @@ _GRAZING: Final = 0.2  # least height of a point of the sky, over its distance
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lighting:
-    """A lamp with a disc, and a sky."""
+    """The lighting of a photograph: a lamp with a disc, and a sky."""
 
     lamp: Colour
     gloss: float  # share of the lamp that shiny shapes mirror
@@ -30,7 +30,9 @@ class Lighting:
     cutoff: float = 48.0  # half of the angle of the lamp's cone, degrees
 
     def throw(self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array) -> None:
-        """Light a scene from a point of the lamp, in radii, and one of the sky, as seen from above, shape (2,) each."""
+        """Light a scene from one point of the lamp, in radii, and one of the sky, as seen from above, shape (2,)
+        each.
+        """
         middle = np.array(model.stat.center)
         scene.nlight = 2
         self._lamp(scene.lights[0], middle, model.stat.extent, lamp)
@@ -72,32 +74,34 @@ _VIGNETTE: Final = 0.11  # how much less light falls into the corners
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FilmStock:
-    """A film, and the light that goes with it."""
+    """A film, and the lighting that belongs to it."""
 
     lighting: Lighting
     developed: Callable[[Array], Array]
-    """Values on the screen, 0 to 1, from light, both of shape (height, width, 3)."""
+    """Converts light to screen values from 0 to 1; both have shape (height, width, 3)."""
 
     def develop(self, light: Array) -> NDArray[np.uint8]:
-        """The photograph that light (1: white), shape (height, width, 3), makes."""
+        """The photograph made by light of shape (height, width, 3), in which 1 is white."""
         y, x = (np.linspace(-1, 1, side) for side in light.shape[:2])
         values = self.developed(light * (1 - _VIGNETTE * np.add.outer(y**2, x**2))[..., None])
         return np.asarray(np.rint(255 * np.clip(values, 0, 1)), dtype=np.uint8)
 
 
 def _contrast(values: Array, share: float) -> Array:
-    """Values that are darker where they are dark and lighter where they are light, by a share of the way to a curve."""
+    """Raise the contrast: dark values become darker and light values lighter, by a fraction `share` of a full
+    curve.
+    """
     return np.asarray((1 - share) * values + share * values**2 * (3 - 2 * values))
 
 
 def _on_screen(light: Array, gain: float) -> Array:
-    """Light is not cut off where it is much, but pressed together."""
+    """Screen values for light; strong light is compressed, not cut off."""
     bright = gain * light
     return np.asarray(np.clip(1.28 * bright * (1 + bright / 9) / (1 + bright), 0, 1) ** (1 / GAMMA))
 
 
 def _black_and_white(light: Array) -> Array:
-    """Hard paper: deep shadows, and a tone of its own where it is white."""
+    """Print on hard paper: deep shadows, and paper white with a slight tint."""
     grey = _contrast(_on_screen(light @ _PANCHROMATIC, 4.5), 0.6)
     tone = 0.06 + 0.90 * grey + _grain(*grey.shape)
     return np.asarray(tone[..., None] * _PAPER)
@@ -110,7 +114,7 @@ _GRAIN: Final = 0.016  # how much a point differs by the grain, standard deviati
 
 
 def _grain(height: int, width: int) -> Array:
-    """Always the same in a picture of the same size."""
+    """The grain of the film, always the same for pictures of the same size."""
     noise = np.random.default_rng(_SEED).standard_normal((height, width))
     soft = cv2.GaussianBlur(noise, (0, 0), max(0.3, 0.8 * height / _LINES))
     return np.asarray(_GRAIN * soft / soft.std())

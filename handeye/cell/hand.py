@@ -1,4 +1,4 @@
-"""A simulated hand with a motor for both fingers, a potentiometer and two switches; its lamp; its screwdriver."""
+"""A simulated hand with one motor for both fingers, a potentiometer and two switches; its lamp; its screwdriver."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -20,7 +20,7 @@ _LAG: Final = 0.03  # s, time constant of the finger servo. Assembly study: 60 N
 
 
 class HandState(Record, frozen=True, kw_only=True):
-    """State of a hand: readings, and its servo."""
+    """State of a hand: its readings, and the state of its servo."""
 
     gap: float
     touch: tuple[bool, bool]
@@ -29,10 +29,11 @@ class HandState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedHand(Mechanism[HandState], HandPort):
-    """Two fingers, their motor and sensors `switch_a` and `switch_b` behind a prefix in the MuJoCo model.
+    """Two fingers, their motor `grip`, and the sensors `switch_a` and `switch_b`, with a common prefix in the
+    MuJoCo model.
 
-    The activation of the motor `grip` is the set-point of its servo, its control the rate of that: between two commands
-    the fingers continue as smoothly as by an analogue servo.
+    The activation of the actuator `grip` is the set-point of the finger servo, and the actuator's control is the
+    rate of that set-point, so that the fingers move on smoothly between two commands, as with an analogue servo.
     """
 
     kind = HandState
@@ -51,8 +52,9 @@ class SimulatedHand(Mechanism[HandState], HandPort):
     ) -> None:
         """A hand at rest.
 
-        Its lines: `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y` and `.minus_y`; `switch_force.plus_y` and
-        `.minus_y`, by how many times its force a switch fires at; and `switches`, at whose 1 the two are exchanged.
+        The lines of a hand are `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y` and `.minus_y`;
+        `switch_force.plus_y` and `.minus_y`, a factor on the force at which a switch closes; and `switches`, which
+        exchanges the two switches while it carries 1.
         """
         self.name = f"{prefix}hand"
         self._model, self._data = model, data
@@ -70,7 +72,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
 
     @property
     def gap(self) -> float:
-        """The true opening between the finger tips, m."""
+        """The true gap between the finger tips, m."""
         qpos = self._data.qpos
         return sum(float(qpos[finger]) for finger in self._fingers)
 
@@ -84,7 +86,9 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._command = gap, grip
 
     def before(self, seconds: float) -> None:
-        """Move the set-point towards the commanded gap (all as read), never far ahead of fingers that are held up."""
+        """Move the set-point towards the commanded gap (as the sensor reads gaps), but never far ahead of fingers
+        that are blocked.
+        """
         if self._command is None:
             return
         gap, grip = self._command
@@ -102,10 +106,11 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._press(grip, start, moved / seconds)
 
     def _press(self, grip: float, start: float, rate: float) -> None:
-        """Set force limit (N), stiffness in proportion, and set-point: `start` (m, as read), moving at `rate` (m/s).
+        """Set the force limit (N), a stiffness in proportion, and the set-point: `start` (m, as the sensor reads
+        gaps), moving at `rate` (m/s).
 
-        The actuator uses the true gap, which the servo does not know: its set-point is off as the reading is,
-        and ahead by what the servo lags.
+        The actuator uses the true gap, which the servo does not know. Its set-point is therefore shifted by the
+        error of the reading, and moved ahead by the lag of the servo.
         """
         model, motor, stiffness = self._model, self._motor, grip / self._hand.grasp.give
         model.actuator_gainprm[motor, 0] = stiffness
@@ -126,7 +131,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         )
 
     def _told(self, finger: str, number: int) -> bool:
-        """State of a finger's switch as it is read."""
+        """The reading of a finger's switch."""
         force = self._errors.switch_force[number] * self._lines.carried(f"switch_force.{finger}", 1.0)
         closed = self._data.sensordata[self._switches[number]] > force
         return bool(self._lines.carried(f"finger_switch.{finger}", float(closed)))
@@ -150,7 +155,7 @@ class LampState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedLamp(Mechanism[LampState], LampPort):
-    """A lamp that is a material of the MuJoCo model."""
+    """A lamp that is represented by a material of the MuJoCo model."""
 
     kind = LampState
     changes = ("mat_rgba", "mat_emission")
@@ -158,7 +163,7 @@ class SimulatedLamp(Mechanism[LampState], LampPort):
     _LIT: Final = ((1.0, 0.96, 0.85, 1.0), 1.0)
 
     def __init__(self, model: mujoco.MjModel, material: str, lines: SignalLines = SOUND) -> None:
-        """A lamp that is off; its line is `lamp`."""
+        """A lamp, switched off; its line is `lamp`."""
         self.name = material
         self._lines = lines
         self._model = model
@@ -190,7 +195,9 @@ class ScrewdriverState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
-    """Its torque is that of actuators of the model; what its speed does is a matter of the task's threads."""
+    """The motor of a screwdriver. Its torque is that of actuators in the model; the effect of its speed is computed
+    by the task's threads.
+    """
 
     name = "screwdriver"
     kind = ScrewdriverState
@@ -206,22 +213,22 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         watchdog: Watchdog,
         lines: SignalLines = SOUND,
     ) -> None:
-        """A screwdriver that is off; `torque_noise` is a sigma, N m.
+        """A screwdriver at rest; `torque_noise` is the standard deviation of its torque reading, N m.
 
-        The torques of its `motors`, counter-clockwise about the spindle, add up to its own. The watchdog of the arm
-        that carries it cuts it, too. Its lines: `screwdriver.current`, by which its torque is read,
-        and `screwdriver.motor`.
+        The torque of the screwdriver is the sum of the torques of `motors`, counter-clockwise about the spindle.
+        The watchdog of the arm that carries the screwdriver also stops its motor. The lines are
+        `screwdriver.current`, from which the torque is read, and `screwdriver.motor`.
         """
         self._data, self._watchdog, self._lines = data, watchdog, lines
         self._motors = [model.actuator(name).id for name in motors]
         self._torque_noise, self._noise = torque_noise, noise
         self._command = self._torque = 0.0
         self.magnet = True
-        """The magnet of the bit is to be on; what it attracts is a matter of the task's threads."""
+        """True if the magnet of the bit is to be on; the attraction is computed by the task's threads."""
 
     @property
     def speed(self) -> float:
-        """The speed its motor is to turn with now, rad/s, positive drives a screw in."""
+        """Present speed command of the motor, rad/s, positive to drive a screw in."""
         return 0.0 if self._watchdog.tripped else self._lines.carried("screwdriver.motor", self._command)
 
     def torque(self) -> float:

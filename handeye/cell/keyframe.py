@@ -1,4 +1,4 @@
-"""The state of a simulation as a part of its scene: what stood somewhere then stands there in the scene's files."""
+"""Stores the state of a simulation in its scene, so that the scene's files show every body where it was then."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -13,10 +13,11 @@ HINGE: Final = mujoco.mjtJoint.mjJNT_HINGE
 
 
 def add_keyframe(spec: mujoco.MjSpec, name: str, data: mujoco.MjData, elsewhere: Mapping[str, Pose]) -> None:
-    """Let a scene, which may lack some bodies, stand as its simulation does, and keep that as its last keyframe.
+    """Set the bodies of a scene, which may lack some of the simulation's bodies, as they are in the simulation, and
+    store them as the scene's last keyframe.
 
-    It stands so from the beginning too, so that a viewer that loads no keyframe shows the same. `elsewhere` has `X_WP`
-    of free bodies that are elsewhere than in the simulation, and at rest there.
+    The initial state of the scene is set as well, so that a viewer that loads no keyframe shows the same.
+    `elsewhere` has the poses `X_WP` of free bodies that are to be at rest elsewhere than in the simulation.
     """
     for body in spec.bodies:
         if body.joints:
@@ -33,13 +34,13 @@ def add_keyframe(spec: mujoco.MjSpec, name: str, data: mujoco.MjData, elsewhere:
 
 
 def body_pose(data: mujoco.MjData, name: str) -> Pose:
-    """`X_WP` of a body."""
+    """The pose `X_WP` of a body."""
     body = data.body(name)
     return pose(body.xmat.reshape(3, 3).copy(), body.xpos.copy())
 
 
 def _stand(body: mujoco.MjsBody, data: mujoco.MjData, elsewhere: Pose | None) -> None:
-    """Put a body with joints where it stands; where the joints are now is where they begin."""
+    """Set the pose of a body with joints; the present positions of its joints become their initial positions."""
     X_WP = body_pose(data, body.name) if elsewhere is None else elsewhere
     X = inverse(body_pose(data, body.parent.name)) @ X_WP
     body.pos = X[:3, 3]

@@ -1,4 +1,6 @@
-"""A scene as files that plain MuJoCo opens: XML with every figure in full, meshes as OBJ, textures as PNG."""
+"""Writes a scene as files that plain MuJoCo opens: XML with figures in full precision, meshes as OBJ, textures as
+PNG.
+"""
 
 import ctypes
 import locale
@@ -24,10 +26,11 @@ _DIGITS: Final = 10  # places of a vertex, m: finer than the single precision th
 
 
 def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[str, bytes]:
-    """The files of a scene by their names in its folder; raises Refused if this MuJoCo cannot write figures in full.
+    """The files of a scene, by their names in its folder; raises Refused if this MuJoCo cannot write figures in
+    full precision.
 
-    Meshes and textures of the specification become files: it is changed. `mark` is a comment in the first line of the
-    XML, `told` has texts for `<custom>`, by name.
+    The specification is changed, because its meshes and textures become files. `mark` is a comment in the first
+    line of the XML; `told` has texts for `<custom>`, by name.
     """
     for name, text in told.items():
         spec.add_text(name=name, data=text)
@@ -39,7 +42,7 @@ def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[
 
 
 def mesh_of(mesh: mujoco.MjsMesh) -> trimesh.Trimesh:
-    """A mesh of a specification, m; of one that is points only, their hull."""
+    """A mesh of a specification, m; if it has only points, their convex hull."""
     points = np.array(mesh.uservert).reshape(-1, 3)
     if not len(mesh.userface):
         hull: trimesh.Trimesh = trimesh.Trimesh(points).convex_hull
@@ -75,7 +78,9 @@ def _textures(spec: mujoco.MjSpec) -> dict[str, bytes]:
 
 @contextmanager
 def _in_full() -> Iterator[None]:
-    """While figures are written in full. MuJoCo has a setting for it, and no name for that setting in Python."""
+    """In this context, MuJoCo writes figures in full precision. MuJoCo has a setting for that, but no name for it
+    in Python.
+    """
     try:
         (library,) = Path(mujoco.__file__).parent.glob("*mujoco.[0-9ds]*")
         functions = ctypes.CDLL(str(library))
@@ -93,7 +98,7 @@ def _in_full() -> Iterator[None]:
 
 @contextmanager
 def _decimal_points() -> Iterator[None]:
-    """While MuJoCo reads meshes, by the C locale of this program, which may have decimal commas."""
+    """In this context, the C locale of this process has decimal points, which MuJoCo needs to read meshes."""
     before = locale.setlocale(locale.LC_NUMERIC)
     locale.setlocale(locale.LC_NUMERIC, "C")
     try:
@@ -103,7 +108,7 @@ def _decimal_points() -> Iterator[None]:
 
 
 def _short(figure: re.Match[str]) -> str:
-    """The shortest text of a figure: as a double, or in single precision if it is no finer than that."""
+    """The shortest text of a figure: as a double, or in single precision if the figure is no more precise."""
     value = float(figure[0])
     single = np.float32(value)
     text = str(single) if float(single) == value else repr(value)

@@ -1,7 +1,7 @@
-"""Pictures by OpenGL, off-screen, on a machine without a display.
+"""Pictures by OpenGL, off-screen, on a computer without a display.
 
-The OpenGL context is made here, after its libraries have been tried, rather than by the environment variable
-that MuJoCo reads when it is first imported: what works must not depend on who imported what first.
+The OpenGL context is made here, after its libraries have been tested, and not by the environment variable that
+MuJoCo reads when it is first imported, so that the result does not depend on the order of imports.
 """
 
 import contextlib
@@ -25,21 +25,23 @@ PLATFORMS: Final = (
     ("EGL", "mujoco.egl", ("libEGL.so.1",), ("libOpenGL.so.0", "libGL.so.1")),
     ("OSMesa", "mujoco.osmesa", ("libOSMesa.so.8", "libOSMesa.so"), ()),
 )
-"""Name, module, and alternatives for the libraries it needs."""
+"""Platforms: name, module, and alternatives for the libraries that each needs."""
 SETTINGS: Final = ("EGL_", "GALLIUM_", "LIBGL_", "MESA_", "MUJOCO_EGL_", "PYOPENGL_", "__EGL_", "__GLX_")
-"""Prefixes of the environment variables with which a user chooses a device or a driver."""
+"""Prefixes of the environment variables with which a user selects a device or a driver."""
 NEAR, FAR = 0.3, 10.0  # clipping planes, m
 MOST_GEOMS: Final = 10000
 
 _WIDTH, _HEIGHT = COLUMNS * FINE, ROWS * FINE
 
 _QUALITY: Final = {"shadowsize": 1024, "offsamples": 0, "numstacks": 2}
-"""Points of the shadow map, samples of a fine point, and rings along a cylinder: what four fine points and a vidicon
-blur. With those of photographs a picture takes three times as long, and differs by .001 of white in the mean."""
+"""Quality of pictures: points of the shadow map, samples per fine point, and rings along a cylinder. Finer detail
+is lost, because four fine points are averaged and the vidicon blurs. With the quality of photographs, a picture
+takes three times as long and differs by .001 of white on average.
+"""
 
 
 class OpenGlRenderer(SceneRenderer):
-    """Renders with shadows at twice the resolution of the picture."""
+    """Renders pictures with shadows by OpenGL, at twice the resolution of the picture."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
         """Raises InvalidInput if there is no usable OpenGL."""
@@ -64,7 +66,9 @@ class OpenGlRenderer(SceneRenderer):
 
     @cached_property
     def _context(self) -> mujoco.MjrContext:
-        """The scene as OpenGL keeps it, made for the first picture: longer work than building the cell."""
+        """The OpenGL context with the scene, made for the first picture, because making it takes longer than
+        building the cell.
+        """
         return drawing(self._model, _QUALITY, _WIDTH, _HEIGHT)
 
     def render(self, data: mujoco.MjData, view: View) -> Luminance:
@@ -88,7 +92,7 @@ class OpenGlRenderer(SceneRenderer):
         return averaged(rgb[::-1].astype(np.float32) @ (LUMA / 255).astype(np.float32))
 
     def _aim(self, view: View) -> None:
-        """Look from where the television camera stands, through a raster of points that are not square."""
+        """Place the OpenGL camera where the television camera is, with a raster of non-square points."""
         X_WC, (fx, fy) = view.X_WC, view.focal
         for eye in self._scene.camera:
             eye.pos[:] = X_WC[:3, 3]
@@ -103,7 +107,7 @@ class OpenGlRenderer(SceneRenderer):
 
 @contextlib.contextmanager
 def replaced(record: Any, values: Mapping[str, int]) -> Iterator[None]:
-    """Other values in a record of the simulator, for a while."""
+    """In this context, a record of the simulator has other values."""
     before = {name: getattr(record, name) for name in values}
     for name, value in values.items():
         setattr(record, name, value)
@@ -115,7 +119,9 @@ def replaced(record: Any, values: Mapping[str, int]) -> Iterator[None]:
 
 
 def drawing(model: mujoco.MjModel, quality: Mapping[str, int], width: int, height: int) -> mujoco.MjrContext:
-    """A scene as OpenGL keeps it, for pictures of a size in points; raises Refused where the driver cannot keep it."""
+    """An OpenGL context with a scene, for pictures of a size in points; raises Refused if the driver cannot hold
+    the scene.
+    """
     context()[1].make_current()
     try:
         with replaced(model.vis.quality, quality):
@@ -128,7 +134,7 @@ def drawing(model: mujoco.MjModel, quality: Mapping[str, int], width: int, heigh
 
 @cache
 def driver() -> str:
-    """Names that the OpenGL library here gives itself; raises what `context` does."""
+    """Renderer and version that the OpenGL library reports; raises the same errors as `context`."""
     context()[1].make_current()
     gl = importlib.import_module("OpenGL.GL")  # which MuJoCo needs, too
     return ", ".join(gl.glGetString(name).decode() for name in (gl.GL_RENDERER, gl.GL_VERSION))
@@ -136,11 +142,11 @@ def driver() -> str:
 
 @cache
 def context() -> tuple[str, Any]:
-    """The platform's name and the one OpenGL context of this program.
+    """The platform's name and the only OpenGL context of this process.
 
-    Every renderer shares it, so that the objects of one are never freed in the context of another.
-    Raises InvalidInput if OpenGL does not work here: it is tried with an empty scene, since one that is too old says
-    so only when it is given a scene.
+    All renderers share the context, so that the objects of one are never freed in the context of another. Raises
+    InvalidInput if OpenGL does not work here. This is tested with an empty scene, because an OpenGL version that is
+    too old only fails when it is given a scene.
     """
     set_here = sorted(
         name for name, value in os.environ.items() if name.startswith(SETTINGS) and value != "egl"

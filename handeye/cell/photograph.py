@@ -1,4 +1,4 @@
-"""Colour photographs of the cell, through the cameras of the scene. The program never sees them."""
+"""Colour photographs of the cell, through the cameras of the scene; the arm program never sees them."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -24,23 +24,25 @@ Photograph = NDArray[np.uint8]  # red, green and blue of every point, shape (hei
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Near:
-    """A view of a place from nearby, from the side on which a camera of the scene stands."""
+    """A close view of a place, from the side on which a camera of the scene stands."""
 
     camera: str
     place: tuple[float, float, float]  # W, m
     distance: float  # m
     turned: float = 0.0
-    """Angle of the eye round the place from there, counterclockwise seen from above, degrees."""
+    """Angle by which the viewpoint is turned about the place, counterclockwise seen from above, degrees."""
 
 
 class Photographer:
-    """Takes photographs of one scene, which OpenGL is given once; bodies may stand elsewhere in each."""
+    """Takes photographs of one scene, which is loaded into OpenGL once; bodies may be elsewhere in each photograph."""
 
     def __init__(
         self, scene: mujoco.MjModel, *, width: int, height: int, shadow: int = FINE_SHADOW,
         samples: int = FINE_SAMPLES,
     ) -> None:  # fmt: skip
-        """Make ready for pictures; a smaller map of shadows takes half the time; raises InvalidInput without OpenGL."""
+        """Prepare for pictures; raises InvalidInput without OpenGL. A smaller shadow map halves the time per
+        picture.
+        """
         _, self._gl = context()
         self._drawing = drawing(scene, {"shadowsize": shadow, "offsamples": samples}, width, height)
         self._viewport = mujoco.MjrRect(0, 0, width, height)
@@ -50,25 +52,29 @@ class Photographer:
         self._option.sitegroup[:] = 0
 
     def take(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> Photograph:
-        """A photograph of the scene, or of a copy with other groups shown; raises InvalidInput without the camera."""
+        """A photograph of the scene, or of a copy with other groups visible; raises InvalidInput if there is no
+        such camera.
+        """
         self.aimed(model, data, view)
         return self.exposed()
 
     def aimed(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvScene:
-        """Shapes, camera and lights of a view, to be changed before it is exposed; raises InvalidInput without it."""
+        """Shapes, camera and lights of a view, which may be changed before the exposure; raises InvalidInput if
+        there is no such camera.
+        """
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
         mujoco.mjv_updateScene(model, data, self._option, None, _eye(model, data, view), every, self._scene)
         return self._scene
 
     def exposed(self) -> Photograph:
-        """The picture of the target."""
+        """The picture of the view that was aimed at."""
         self._draw()
         rgb = np.zeros((self._viewport.height, self._viewport.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(rgb, None, self._viewport, self._drawing)
         return rgb[::-1]
 
     def depth(self) -> NDArray[np.float32]:
-        """The depth of the target, 0 at the near clipping plane and 1 at the far one, shape (height, width)."""
+        """The depth of each point, 0 at the near clipping plane and 1 at the far one, shape (height, width)."""
         self._draw()
         depth = np.zeros((self._viewport.height, self._viewport.width), dtype=np.float32)
         mujoco.mjr_readPixels(None, depth, self._viewport, self._drawing)
@@ -83,7 +89,7 @@ class Photographer:
 def photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
 ) -> Photograph:
-    """Photograph by a camera of the scene; raises InvalidInput if there is no such camera or no OpenGL."""
+    """Take a photograph with a camera of the scene; raises InvalidInput if the camera or OpenGL is missing."""
     _number(model, camera)
     return Photographer(model, width=width, height=height).take(model, data, camera)
 
@@ -98,7 +104,7 @@ def _number(model: mujoco.MjModel, camera: str) -> int:
 
 
 def _eye(model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvCamera:
-    """The simulator's camera for a view."""
+    """The simulator's camera object for a view."""
     eye = mujoco.MjvCamera()
     if isinstance(view, str):
         eye.type, eye.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, _number(model, view)
@@ -111,21 +117,23 @@ def _eye(model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco
 
 
 def photograph_png(model: mujoco.MjModel, data: mujoco.MjData, camera: str, width: int, height: int) -> bytes:
-    """A smooth photograph as a PNG file; raises as `smooth_photograph`."""
+    """A smooth photograph as a PNG file; raises the same errors as `smooth_photograph`."""
     return png(smooth_photograph(model, data, camera=camera, width=width, height=height))
 
 
 def smooth_photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
 ) -> Photograph:
-    """A photograph that is drawn at twice the size and averaged; raises as `photograph`, and if the size cannot be."""
+    """A photograph that is drawn at twice the size and averaged; raises the same errors as `photograph`, and
+    InvalidInput for an impossible size.
+    """
     check_size(width, height)
     fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
     return np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), dtype=np.uint8)
 
 
 def check_size(width: int, height: int) -> None:
-    """See that a photograph can have a size; raises InvalidInput if it cannot."""
+    """Check the size of a photograph; raises InvalidInput if it is impossible."""
     whole = all(isinstance(side, (int, np.integer)) for side in (width, height))
     if not (whole and SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
         raise BadArgument(

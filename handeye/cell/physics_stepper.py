@@ -1,11 +1,14 @@
-"""Steps of physics: none while all sleeps, long ones while nothing touches, short ones as soon as something does.
+"""Steps of the physics: none while everything sleeps, long ones while nothing touches, short ones as soon as
+anything does.
 
-Short steps are for contact, whose softness grows with the square of a step. What moves freely needs none: with long
-ones it has the same speeds, and is early by 1.6 ms, half of what a long step is longer. The brakes and the dry friction
-of a joint are constraints, too: a joint that friction holds creeps at up to 9e-6 rad/s instead of 4e-6.
+Short steps are needed for contacts, whose softness grows with the square of the step. Free motion does not need
+them: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between the two steps.
+Brakes and dry friction of joints are constraints too: a joint held by friction creeps at up to 9e-6 rad/s with long
+steps, instead of 4e-6.
 
-MuJoCo puts a tree of bodies to sleep once it, and all that it touches, has hardly moved for ten steps, and wakes it
-when something awake touches it. It does not notice a new command to a motor: code that drives one must wake its tree.
+MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. It
+wakes the tree when an awake body touches it, but not on a new command to a motor: code that drives a motor must
+wake its tree.
 """
 
 from typing import Final
@@ -16,11 +19,15 @@ import numpy as np
 from handeye.core.errors import PhysicsFailed
 
 LONGER: Final = 4
-"""Short steps in a long one. Chosen: a servo period has a whole number of long ones, and friction holds."""
+"""Number of short steps in a long one. Chosen so that a servo period is a whole number of long steps, and friction
+holds.
+"""
 
 
 def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
-    """Raise PhysicsFailed if the simulator has warned, or something moves faster (m/s, rad/s) than anything can."""
+    """Raise PhysicsFailed if the simulator has given a warning, or if anything moves faster than `fastest` (m/s,
+    rad/s).
+    """
     warnings = data.warning.number
     if warnings.any():
         name = mujoco.mjtWarning(int(np.argmax(warnings != 0))).name
@@ -32,10 +39,10 @@ def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
 
 
 class PhysicsStepper:
-    """Lets the physics of a cell continue.
+    """Advances the physics of a cell.
 
-    A long step in which anything comes into contact is taken back, and short ones are made instead, from the last
-    moment at which nothing touched: no contact ever feels a long step.
+    If anything comes into contact during a long step, the step is undone, and short steps are made from the last
+    moment without contact, so that no contact is computed with long steps.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
@@ -44,16 +51,16 @@ class PhysicsStepper:
         self._kept = [values.copy() for values in self._moves]
 
     def step(self, steps: int) -> None:
-        """Make `steps` short steps, or long ones over the same time."""
+        """Advance by `steps` short steps, or by long steps over the same time."""
         if self._data.ncon or steps % LONGER or not self._freely(steps):
             self._closely(steps)
 
     def _closely(self, steps: int) -> None:
-        """Make short steps, which a cell may want to watch."""
+        """Make short steps; a subclass may watch them."""
         mujoco.mj_step(self._model, self._data, steps)
 
     def _freely(self, steps: int) -> bool:
-        """Make long steps; False if something came into contact, and none is made."""
+        """Make long steps; return False, with no step made, if anything came into contact."""
         model, data = self._model, self._data
         began = data.time
         for kept, values in zip(self._kept, self._moves, strict=True):
@@ -85,18 +92,20 @@ _POLICY: Final = {
 
 
 def allow(model: mujoco.MjModel, tree: int, *, allowed: bool = True) -> None:
-    """Let a tree sleep though it has motors, or keep it from falling asleep."""
+    """Allow a tree of bodies with motors to sleep, or keep it awake."""
     model.tree_sleep_policy[tree] = _POLICY[allowed]
 
 
 def wake(data: mujoco.MjData, dof: int) -> None:
-    """Wake the tree that a degree of freedom belongs to, if it sleeps."""
+    """Wake the tree of bodies to which a degree of freedom belongs, if it sleeps."""
     if data.qvel[dof] == 0.0:
         data.qvel[dof] = _NUDGE
 
 
 def asleep(data: mujoco.MjData) -> bool:
-    """True if everything sleeps and nothing has been done to wake any of it: then only time passes."""
+    """True if everything sleeps and nothing has been done to wake any of it, so that time can pass without
+    computing.
+    """
     return data.ntree_awake == 0 and not (
         data.qvel.any() or data.qfrc_applied.any() or data.xfrc_applied.any()
     )

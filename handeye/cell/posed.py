@@ -1,4 +1,4 @@
-"""A scene with its bodies where they once were: for pictures of a recorded run, without simulating it."""
+"""A scene with its bodies at recorded poses, for pictures of a recorded run without simulation."""
 
 import copy
 from collections.abc import Iterable, Mapping, Sequence
@@ -12,19 +12,21 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Array
 
 TURNS: Final = "turns/"
-"""Prefix of the scene's numeric fields for the seconds in which a body of the world turns once."""
+"""Prefix of the scene's numeric fields that give the period, s, of a rotating body fixed in the world, such as a
+clock hand.
+"""
 
 
 def hand_poses(model: mujoco.MjModel, time: float) -> dict[str, Array]:
-    """Poses of the hands at a time of the cell's clock, by the names of their bodies: as `drawn_poses`."""
+    """Poses of the clock hands at a time of the cell's clock, by the names of their bodies, as in `drawn_poses`."""
     return {name: rows[0] for name, rows in drawn_poses(model, _turns(model), np.array([time])).items()}
 
 
 def drawn_poses(model: mujoco.MjModel, names: Iterable[str], times: Array) -> dict[str, Array]:
-    """Poses in W of bodies fixed in the world, at times of the cell's clock (s), by their names, shape (n, 7) each.
+    """Poses in W of bodies fixed in the world, at times of the cell's clock (s), by name, shape (n, 7) each.
 
-    A pose is a place (m), then a unit quaternion w, x, y, z. Hands turn clockwise about their z axis, and stand at
-    twelve when the clock does at 0.
+    A pose is a position (m), then a unit quaternion w, x, y, z. Clock hands turn clockwise about their z axis, and
+    point to twelve at time 0.
     """
     turns, found = _turns(model), {}
     for name in names:
@@ -37,7 +39,7 @@ def drawn_poses(model: mujoco.MjModel, names: Iterable[str], times: Array) -> di
 
 
 def _turns(model: mujoco.MjModel) -> dict[str, float]:
-    """Turns in a second, by the names of the bodies that turn."""
+    """Turns per second of the rotating bodies, by name."""
     told: list[Any] = [model.numeric(number) for number in range(model.nnumeric)]
     hands = [figure for figure in told if figure.name.startswith(TURNS)]
     return {figure.name.removeprefix(TURNS): 1 / float(figure.data[0]) for figure in hands}
@@ -47,10 +49,10 @@ Posed = tuple[mujoco.MjModel, mujoco.MjData]  # a scene as it stands
 
 
 def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: float = 0.0) -> Posed:
-    """A copy of a scene with its bodies where they were, to be looked at only: joints stay as drawn.
+    """A copy of a scene with its bodies at given poses, for viewing only: joints stay as in the model.
 
-    `poses` has place in W (m) and unit quaternion w, x, y, z by the names of bodies. Bodies without one stay as drawn,
-    and those that only an event shows stay hidden. Hands of the scene's clock stand as at `time` (s).
+    `poses` has position in W (m) and unit quaternion w, x, y, z by the names of bodies. Bodies without a pose stay
+    as in the model, and bodies that appear only after an event stay hidden. Clock hands show `time` (s).
     """
     model = copy.copy(scene)
     data = mujoco.MjData(model)
@@ -73,7 +75,7 @@ def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: flo
 
 
 def standing(scene: mujoco.MjModel, qpos: Array) -> Posed:
-    """A scene with its joints where they were, `qpos` as the simulator has them."""
+    """A scene with joint positions `qpos`, in the simulator's order."""
     data = mujoco.MjData(scene)
     data.qpos[:] = qpos
     mujoco.mj_forward(scene, data)
@@ -81,7 +83,9 @@ def standing(scene: mujoco.MjModel, qpos: Array) -> Posed:
 
 
 def as_it_stands(scene: mujoco.MjModel, truth: Truth) -> Posed:
-    """A copy of a scene with its bodies where those of a cell are: for pictures of a cell that has less in it."""
+    """A copy of a scene with its bodies where those of a cell are, for pictures of a cell whose own scene has fewer
+    shapes.
+    """
     model, data = truth.model, truth.data
     waiting = {*model.geom_bodyid[model.geom_group == LATENT].tolist()}
     there = [body for body in range(1, model.nbody) if body not in waiting]

@@ -1,7 +1,8 @@
-"""The raster of a television tube: where on its target the beam reads the points of a picture.
+"""The raster of a television tube: the positions on its target at which the beam reads the points of a picture.
 
-Coils and their currents are not perfect. The raster is drawn out or in towards the corners, uneven along its lines and
-from line to line, and no picture lies quite where the previous one lay. All figures are shares of half the picture.
+Deflection coils and their currents are imperfect. The raster is pulled out or in at the corners, uneven along its
+lines and from line to line, and no picture lies exactly where the previous one did. All figures are fractions of
+half the picture.
 """
 
 from dataclasses import dataclass
@@ -22,13 +23,15 @@ class Raster:
     """Shape of a raster."""
 
     pincushion: float = 0.0
-    """Inward displacement of a corner of the picture, over its distance from the middle."""
+    """Inward displacement of a corner of the picture, divided by its distance from the centre."""
     lines: float = 0.0
-    """Displacement of the middle of each line, over half its length, its ends being right."""
+    """Displacement of the middle of each line, divided by half its length; the ends of the line are in place."""
     field: float = 0.0  # the same down the picture
 
     def read(self, light: NDArray[np.float32], shift: Array) -> NDArray[np.float32]:
-        """The light that the beam meets, shape (256, 333), in a picture that lies `shift` = (columns, rows) off."""
+        """The light that the beam reads, shape (256, 333), in a picture that is shifted by `shift` = (columns,
+        rows).
+        """
         import cv2  # not for plans, which know the pump's worlds
 
         u, v = np.meshgrid(np.arange(COLUMNS) - shift[0], np.arange(ROWS) - shift[1], sparse=True)
@@ -45,11 +48,13 @@ class Raster:
         )
 
     def target(self, uv: Array) -> Array:
-        """Places on the target, in points of an even raster, that are read at points `uv`, shape (..., 2)."""
+        """Positions on the target, in points of an ideal raster, that are read at picture points `uv`, shape (...,
+        2).
+        """
         return np.stack(self._target(uv[..., 0], uv[..., 1]), axis=-1)
 
     def _target(self, u: Array, v: Array) -> tuple[Array, Array]:
-        """The same for columns and rows apart, of shapes that go together."""
+        """Like `target`, for separate columns and rows of shapes that can be broadcast."""
         (p, q), (across, down) = ((u - MIDDLE[0]) / HALF[0], (v - MIDDLE[1]) / HALF[1]), HALF
         stretch = 1 + self.pincushion / 2 * (p**2 + q**2)
         x = MIDDLE[0] + across * (p * stretch + self.lines * (1 - p**2))
@@ -57,7 +62,7 @@ class Raster:
         return x, y
 
     def shown(self, uv: Array) -> Array:
-        """Points at which places on the target are read, shape (..., 2): the inverse of `target`."""
+        """Picture points at which positions on the target are read, shape (..., 2): the inverse of `target`."""
         found = uv
         for _ in range(
             8

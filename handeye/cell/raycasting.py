@@ -1,4 +1,4 @@
-"""Pictures by casting rays: the same on every machine, and without any OpenGL."""
+"""Pictures by ray casting: the same on every computer, and without OpenGL."""
 
 from typing import Final
 
@@ -13,11 +13,11 @@ from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.vision.camera_model import View
 
 SKY: Final = 0.1
-"""Luminance where there is nothing. Placeholder."""
+"""Luminance of the background, where there is no object. Placeholder."""
 
 
 class RayRenderer(SceneRenderer):
-    """Casts a ray for every sample, and another from every light for its shadow. Needs no OpenGL."""
+    """Casts a ray for every sample, and from there a ray to every light for its shadow. Needs no OpenGL."""
 
     identity = Renderer(method="rays")
 
@@ -45,7 +45,7 @@ class RayRenderer(SceneRenderer):
         return averaged(result.reshape(ROWS * FINE, COLUMNS * FINE))
 
     def _light(self, data: mujoco.MjData, index: int, points: Array, normals: Array) -> Array:
-        """Light of one lamp on points, shape (n,)."""
+        """Light of one lamp on surface points, shape (n,)."""
         model = self._model
         source, axis = data.light_xpos[index], data.light_xdir[index]
         directional = model.light_type[index] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
@@ -69,7 +69,9 @@ class RayRenderer(SceneRenderer):
 def cast(
     model: mujoco.MjModel, data: mujoco.MjData, origin: Array, rays: Array
 ) -> tuple[NDArray[np.int32], Array, Array]:
-    """Cast rays, unit vectors of shape (n, 3): geom met (n,) or -1, distance (n,) m, normal (n, 3)."""
+    """Cast rays along unit vectors, shape (n, 3). Returns the geom hit, (n,), or -1; the distance, (n,), m; the
+    normal, (n, 3).
+    """
     n = len(rays)
     geom, distance, normal = np.full(n, -1, dtype=np.int32), np.zeros(n), np.zeros(3 * n)
     if n:
@@ -91,13 +93,17 @@ def cast(
 
 
 def ambient(model: mujoco.MjModel) -> float:
-    """Light everywhere. The rest of the head light is meant for interactive viewers and is not in the picture."""
+    """The ambient light. The rest of MuJoCo's headlight is meant for interactive viewers and does not appear in
+    pictures.
+    """
     head = model.vis.headlight
     return float(LUMA @ head.ambient) if head.active else 0.0
 
 
 def _reflectance(model: mujoco.MjModel) -> tuple[Array, Array]:
-    """Luminance each geom reflects and emits, shape (ngeom,); its own colour counts before its material."""
+    """Luminance that each geom reflects and emits, shape (ngeom,); a geom's own colour takes precedence over its
+    material.
+    """
     rgba = np.array(model.geom_rgba)
     material = np.array(model.geom_matid)
     plain = (material >= 0) & np.all(np.isclose(rgba, [0.5, 0.5, 0.5, 1.0]), axis=1)

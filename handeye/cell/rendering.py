@@ -1,8 +1,8 @@
-"""Two ways to work out how much light falls on the camera's target: OpenGL off-screen, and casting rays.
+"""Two methods to compute the light on the camera's target: OpenGL off-screen, and ray casting.
 
-Both give the same picture up to what a vidicon cannot tell apart: diffuse surfaces without texture or gloss,
-lights with shadows, an ambient level, four samples for every picture point. For one state of the scene each
-gives the same values every time. Neither changes the state.
+Both give the same picture within the resolution of a vidicon: diffuse surfaces without texture or gloss, lights
+with shadows, an ambient level, four samples per picture point. For one state of the scene, each method always gives
+the same values. Neither changes the state.
 """
 
 from abc import ABC, abstractmethod
@@ -23,19 +23,19 @@ from handeye.vision.camera_model import View
 FINE: Final = 2  # samples for a picture point, along the line and across it
 LUMA: Final = np.array([0.299, 0.587, 0.114])  # weights of red, green and blue in luminance, ITU-R BT.601
 SHOWN: Final = np.array([1, 0, 1, 0, 0, 1], dtype=np.uint8)
-"""Geom groups the camera sees: the ground and the parts, and 5, which photographs leave out; not 1, decorative
-scenery.
+"""Geom groups that the camera sees: the ground, the parts, and group 5, which photographs leave out; not group 1,
+decorative scenery.
 """
 
 
 class SceneRenderer(ABC):
-    """Makes luminance of a scene and a view."""
+    """Computes the luminance of a scene in a view."""
 
     identity: Renderer
 
     @abstractmethod
     def render(self, data: mujoco.MjData, view: View) -> Luminance:
-        """Light on the target, shape (256, 333); `data` must be up to date on geoms and lights."""
+        """Light on the target, shape (256, 333); geoms and lights in `data` must be up to date."""
 
 
 RendererMaker = Callable[[mujoco.MjModel], SceneRenderer]  # makes the renderer of a scene
@@ -51,21 +51,25 @@ _SHOWN: Final = 60  # characters of what is no picture: it may be long
 
 
 class PictureMaker(Protocol):
-    """Works out how much light falls on the target of the television camera."""
+    """Computes the light on the target of the television camera; a caller may supply one."""
 
     def render(self, data: mujoco.MjData, view: View, /) -> ArrayLike:
-        """Light on the target, shape (256, 333), 1 for a white surface in full light; `data` is a copy of the scene."""
+        """Light on the target, shape (256, 333); 1 is a white surface in full light. `data` is a copy of the
+        scene's state.
+        """
 
 
 CameraMaker = Callable[[mujoco.MjModel], PictureMaker]
-"""Makes a maker of pictures for a scene: a class will do."""
+"""Makes a `PictureMaker` for a scene; a class can serve as one."""
 
 
 class ReplacedCamera(SceneRenderer):
-    """A user's maker of pictures; it sees copies, so that nothing it does changes the run."""
+    """A picture maker supplied by the user. It gets copies of the state, so that it cannot change the run."""
 
     def __init__(self, name: str, camera: CameraMaker, model: mujoco.MjModel) -> None:
-        """A maker for a scene by the code of a name; raises InvalidInput if it makes no object with `render`."""
+        """Make the user's picture maker for a scene; `name` is the name of its code. Raises InvalidInput if the
+        result has no method `render`.
+        """
         self.identity = Renderer(method="replaced", platform=name)
         self._scene = copy(model)
         self._maker = camera(self._scene)

@@ -1,7 +1,8 @@
-"""Lines between the devices of a cell and its controller: whatever is broken is broken there, and not in physics.
+"""Signal lines between the devices of a cell and its controller; device faults are injected here, and not in the
+physics.
 
-A device passes all that it senses, and all that it puts out, over lines with names: `potentiometer.3`, `drive.1`,
-`lamp`. A defect on a line changes what it carries, from the moment it sets in.
+A device passes all its readings and commands over lines with names such as `potentiometer.3`, `drive.1` and `lamp`.
+A defect on a line changes the values that the line carries, from the moment the defect begins.
 """
 
 from collections.abc import Sequence
@@ -19,20 +20,20 @@ from handeye.ports.camera import COLUMNS, ROWS, Picture
 
 
 def converted(value: float, step: float) -> float:
-    """A number as a converter passes it on: the nearest multiple of its step, or as it is where that is 0."""
+    """A number as a converter passes it on: the nearest multiple of `step`, or unchanged if `step` is 0."""
     return round(value / step) * step if step else value
 
 
 class Converters:
-    """A row of converters, one to a number."""
+    """A row of converters, one for each number."""
 
     def __init__(self, steps: Array) -> None:
-        """Converters with these steps, shape (n,); 0 passes a number on as it is."""
+        """Converters with the steps `steps`, shape (n,); a step of 0 passes a number on unchanged."""
         self._steps, self._there = steps, steps > 0
         self._divisors = np.where(self._there, steps, 1.0)
 
     def __call__(self, values: Array) -> Array:
-        """Numbers as they pass them on, shape (n,)."""
+        """The numbers as the converters pass them on, shape (n,)."""
         return np.where(self._there, np.rint(values / self._divisors) * self._steps, values)
 
 
@@ -48,13 +49,13 @@ class DefectState(Record, frozen=True, kw_only=True):
 
 
 class SignalLinesState(Record, frozen=True, kw_only=True):
-    """States of all defects, in their order."""
+    """States of all defects, in the order of the defects."""
 
     defects: tuple[DefectState, ...]
 
 
 class SignalLines(Mechanism[SignalLinesState]):
-    """The lines of a cell; defects on one act one after the other."""
+    """The signal lines of a cell; several defects on one line act one after another."""
 
     name = "lines"
     kind = SignalLinesState
@@ -65,7 +66,7 @@ class SignalLines(Mechanism[SignalLinesState]):
         self._states = list(starts)
 
     def begin_stage(self, number: int) -> None:
-        """Let those defects set in that do with this stage, or that would have with one that was passed over."""
+        """Start the defects that begin with this stage, or with an earlier stage that was skipped."""
         for place, defect in enumerate(self.defects):
             if self._states[place].seconds is None and defect.stage is not None and defect.stage <= number:
                 self._states[place] = DefectState(seconds=0.0)
@@ -79,17 +80,17 @@ class SignalLines(Mechanism[SignalLinesState]):
         self.before(seconds)  # what is broken drifts on
 
     def carried(self, line: str, value: float) -> float:
-        """The number that arrives when one is sent, SI."""
+        """The number that arrives when `value` is sent, SI."""
         return float(self._arriving(line, np.array(value, dtype=float))) if self.defects else value
 
     def carried_each(self, line: str, values: Array) -> Array:
-        """Numbers that arrive on `line.1`, `line.2` and so on, shape (n,)."""
+        """The numbers that arrive on `line.1`, `line.2` and so on, shape (n,)."""
         if not self.defects:
             return values
         return np.array([self.carried(f"{line}.{number}", value) for number, value in enumerate(values, 1)])
 
     def carried_picture(self, picture: Picture) -> Picture:
-        """The picture that arrives when one is sent."""
+        """The picture that arrives when `picture` is sent."""
         return np.asarray(self._arriving(PICTURE, picture), dtype=picture.dtype)
 
     def _arriving(self, line: str, values: Values) -> Values:

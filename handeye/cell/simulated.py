@@ -1,4 +1,4 @@
-"""A simulated cell: a MuJoCo model, the devices in it, and what a task adds to its physics, under one clock."""
+"""A simulated cell: a MuJoCo model, the devices in it, and the mechanisms of a task, under one clock."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -20,11 +20,13 @@ from handeye.ports.clock import Clock, whole_steps
 from handeye.ports.workcell import Workcell
 
 _HELD: Final = 1 / 60
-"""s for which a device may hold what it does to the simulator: the finger servo moves on, threads take screws."""
+"""Longest time, s, for which a device's action on the simulator may stay constant: the finger servo moves, threads
+engage screws.
+"""
 
 
 class SimulatedCell(Clock, SnapshotCell):
-    """A cell in one drawn world. Equal worlds and equal drives give equal bytes."""
+    """A cell in one world. Equal worlds and equal commands give equal states, byte for byte."""
 
     def __init__(
         self,
@@ -43,8 +45,9 @@ class SimulatedCell(Clock, SnapshotCell):
     ) -> None:
         """Switch a cell on; its devices are read for the first time.
 
-        `mechanisms` act on the model in order: threads, more arms. `noise` is drawn from by all sensors but the camera.
-        Raises ValueError if two devices or mechanisms have one name, by which their states are found.
+        `mechanisms`, such as threads and further arms, act on the model in their order. All sensors except the
+        camera draw their noise from `noise`. Raises ValueError if two devices or mechanisms have the same name,
+        because their states are stored by name.
         """
         self.arm = arm  # the experimenter may push it
         self.lines = lines  # lines of its devices, with what is broken on them
@@ -59,7 +62,7 @@ class SimulatedCell(Clock, SnapshotCell):
         self.devices = Workcell(
             clock=self, arm=arm, hand=hand, screwdriver=screwdriver, lamp=lamp, camera=camera
         )
-        """The cell as the working phase knows it."""
+        """The devices of the cell, as the working phase knows them."""
         self._most = max(1, round(_HELD / model.opt.timestep))
         self._stepper = stepper or PhysicsStepper(model, data)
         mujoco.mj_forward(model, data)
@@ -67,7 +70,7 @@ class SimulatedCell(Clock, SnapshotCell):
 
     @property
     def renderer(self) -> Renderer:
-        """The renderer of its camera, if it has one."""
+        """The renderer of the cell's camera, or of method `none` without a camera."""
         camera = self.devices.camera
         return Renderer(method="none") if camera is None else camera.renderer
 
@@ -76,16 +79,18 @@ class SimulatedCell(Clock, SnapshotCell):
         return float(self._data.time)
 
     def set_to_zero(self) -> None:
-        """Let the clock show 0 now, as the program begins."""
+        """Set the clock to 0 now, as the program begins."""
         self._data.time = 0.0
 
     def begin_stage(self, number: int) -> None:
-        """Begin a stage of the program, by its number from 1: faults may begin with it."""
+        """Begin a stage of the program, given by its number from 1; faults may begin with it."""
         for part in self._mechanisms:
             part.begin_stage(number)
 
     def advance(self, seconds: float) -> None:
-        """Let time pass; raises BadArgument unless it is whole physics steps, PhysicsFailed if they fail."""
+        """Let time pass; raises BadArgument unless it is a whole number of physics steps, and PhysicsFailed if the
+        simulation fails.
+        """
         model, data = self._model, self._data
         left = whole_steps(seconds, model.opt.timestep)
         while left:
@@ -110,7 +115,9 @@ class SimulatedCell(Clock, SnapshotCell):
 
 @contextmanager
 def pushed(cell: SimulatedCell, force: Vector3) -> Iterator[None]:
-    """Push the hand with a force (N, in W) for a while: an act of the experimenter, which no program can do."""
+    """In this context, a force (N, in W) pushes the hand: an action of the experimenter that no program can
+    perform.
+    """
     applied, body = cell.truth.data.xfrc_applied, cell.arm.last_link
     applied[body, :3] = force
     try:

@@ -1,4 +1,4 @@
-"""A cell whose state can be saved and restored: a MuJoCo model, and mechanisms with their own states."""
+"""A cell whose state can be saved and restored: a MuJoCo model, and mechanisms with states."""
 
 import copy
 from collections.abc import Sequence
@@ -15,11 +15,11 @@ from handeye.core.errors import BadFile, InvalidInput
 from handeye.ports.camera import Renderer
 
 INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
-"""MuJoCo's integration state: enough to continue from a state."""
+"""MuJoCo's integration state, which suffices to continue a simulation."""
 
 
 class SnapshotCell:
-    """A cell for a run of any system: its state can be saved, restored and viewed."""
+    """A cell for runs of any system; its state can be saved, restored and viewed."""
 
     def __init__(
         self,
@@ -28,7 +28,7 @@ class SnapshotCell:
         mechanisms: Sequence[Mechanism[Any]],
         noise: np.random.Generator,
     ) -> None:
-        """Take a scene that will not change, and mechanisms in the order of their action, each of a name of its own."""
+        """Take a scene that will not change, and mechanisms with distinct names, in the order in which they act."""
         self._model, self._data, self._noise = model, data, noise
         self._drawn = copy.deepcopy(model)
         self._mechanisms = tuple(mechanisms)
@@ -41,7 +41,7 @@ class SnapshotCell:
 
     @property
     def truth(self) -> Truth:
-        """The truth; for the referee, the trace and tests only."""
+        """The true state of the cell, for the referee, the trace and tests only."""
         return Truth(
             model=self._model,
             data=self._data,
@@ -52,11 +52,11 @@ class SnapshotCell:
 
     @property
     def renderer(self) -> Renderer:
-        """The renderer of its camera, if it has one."""
+        """The renderer of the cell's camera, or of method `none` without a camera."""
         return Renderer(method="none")
 
     def capture(self) -> CellState:
-        """The complete state of this cell; `restore` puts it back, in this cell or one like it."""
+        """The complete state of the cell; `restore` restores it in this cell or in one like it."""
         physics = np.empty(mujoco.mj_stateSize(self._model, INTEGRATION))
         mujoco.mj_getState(self._model, self._data, physics, INTEGRATION)
         return CellState(
@@ -67,11 +67,12 @@ class SnapshotCell:
         )
 
     def restore(self, state: CellState) -> None:
-        """Put the cell into a state; what follows is the same, to the byte, whatever was before.
+        """Restore the cell to a state; what follows is then identical, to the byte, whatever happened before.
 
-        Sleep is not part of a state: everything wakes, and falls asleep again where it stands still. Therefore a run
-        is the same with and without a stop only if its cell is put into its own state wherever it might be stopped.
-        Raises InvalidInput if it is the state of another kind of cell, or no state at all.
+        Sleep is not part of a state: everything wakes, and falls asleep again where it is at rest. Therefore a run
+        that is interrupted equals an uninterrupted run only if the cell's own state is restored at every point
+        where the run might be interrupted. Raises InvalidInput if the state belongs to another kind of cell, or is
+        no valid state.
         """
         try:
             self._check(state)
@@ -92,7 +93,7 @@ class SnapshotCell:
         mujoco.mj_setState(model, data, state.physics, INTEGRATION)  # what the solver starts from, too
 
     def _check(self, state: CellState) -> None:
-        """Raises ValueError unless every figure of a state has its place in this cell."""
+        """Raises ValueError unless every figure of a state fits this cell."""
         if state.physics.shape != (mujoco.mj_stateSize(self._model, INTEGRATION),):
             raise ValueError("its physics belong to another scene")
         if set(state.figures) != set(self._changes):

@@ -1,17 +1,19 @@
 """Screw threads: when a screw's tip enters a tapped hole rightly turned, the hole's carrier takes its place.
 
 Threads are too fine to simulate by contact. Each tapped hole has a carrier in the model (`carriers.py`). A loose
-screw is an ordinary body until the events here find, at a tick, that its tip is in the bore, near the axis, deep
-enough, turned clockwise and at the phase of the thread; then it is parked out of sight, and the carrier is where it
-was. A screw that enters tilted cuts its own thread, stays tilted and jams high. From there all is physics again: the
-shank meets the holes of the parts above, the head the part beneath, friction grows with the clamp force, and the motor
-turns the carrier against the driver's body, so that whatever holds driver and tapped body feels the torque. A screw
-that is turned back to where its thread began is loose again. Limits of the model are in scenes/water_pump/README.md.
+screw is an ordinary body until, at some tick, its tip is in the bore, near the axis, deep enough, and the screw
+turns clockwise and is at the phase of the thread. Then the screw's body is parked out of sight, and the carrier
+takes its position. A screw that enters tilted cuts its own thread, stays tilted and jams high. From there on
+everything is physics again: the shank touches the holes of the parts above, the head touches the part beneath,
+friction grows with the clamp force, and the motor turns the carrier against the driver's body, so that whatever
+holds driver and tapped body carries the torque. A screw that is turned back to where its thread began is loose
+again. The limits of the model are in scenes/water_pump/README.md.
 
-A scene with screws names them by number from 0: free bodies `screw0` (the origin is the point) with geoms
-`screw_head0`, and sites `park0` out of sight; carriers `carrier0` in the tapped body with site `thread0`, joints
-`thread_slide0` and `thread_turn0`, geoms `head0` and `shank0`; of the driver, of which there is one, the geom `bit`,
-joint and actuator `spindle`, and the actuators `drive`, from the site of a thread to the driver's body, and `magnet`.
+A scene with screws numbers them from 0 and has these names: free bodies `screw0` (the origin is the point) with
+geoms `screw_head0`, and sites `park0` out of sight; carriers `carrier0` in the tapped body with site `thread0`,
+joints `thread_slide0` and `thread_turn0`, and geoms `head0` and `shank0`. The only driver has the geom `bit`, the
+joint and actuator `spindle`, and the actuators `magnet` and `drive`; `drive` acts from the site of a thread on the
+driver's body.
 """
 
 from collections.abc import Set
@@ -49,7 +51,9 @@ BACKING_TORQUE: Final = (
 THREAD_FRICTION: Final = 0.15  # steel on steel, dry. Assembly study.
 THREAD_RADIUS: Final = 0.00345  # m, mean thread radius over the cosine of the flank. Assembly study.
 STIFF: Final = (0.999, 0.9999, 0.0001)
-"""Impedance of a thread. Measured: with MuJoCo's own a screw turns twice more under load, no deeper."""
+"""Constraint impedance of a thread. Measured: with MuJoCo's default, a screw under load turns twice more without
+going deeper.
+"""
 
 MOTOR_STIFFNESS: Final = 0.032  # N m s/rad: twice the stall torque at 20 rad/s. Assembly study.
 IN_SLOT: Final = 1e-4  # m between bit and head: contacts chatter by less, and a slot is 1.2 mm deep.
@@ -59,44 +63,46 @@ Number = Annotated[int, msgspec.Meta(ge=0)]
 
 
 class Thread(Record, frozen=True, kw_only=True):
-    """State of one tapped hole."""
+    """State of the thread in one tapped hole."""
 
     screw: Number | None = None  # the screw in it
     crossed: bool = False  # it has cut a thread of its own
     scarred: bool = False  # a screw has been crossed in it, now or before
     clamp: float = 0.0
-    """Force of the head on the part beneath, N, smoothed over a few ticks, when it was last turned."""
+    """Force of the screw's head on the part beneath, N, smoothed over a few ticks, at the last turn of the screw."""
 
 
 class ThreadsState(Record, frozen=True, kw_only=True):
-    """States of all holes."""
+    """States of all tapped holes, and the hole whose screw is driven."""
 
     holes: tuple[Thread, ...]  # in the order of the carriers
     driven: Number  # the hole whose carrier the driver's motor is coupled to
 
 
 class Driver(Protocol):
-    """A powered screwdriver, as its motor is set."""
+    """A powered screwdriver, with the settings of its motor."""
 
     @property
     def speed(self) -> float:
-        """Speed of its spindle, rad/s; positive drives a screw in."""
+        """Speed of the spindle, rad/s; positive drives a screw in."""
 
     @property
     def magnet(self) -> bool:
-        """The magnet of its bit is on."""
+        """True if the magnet of the bit is on."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ThreadFigures:
-    """Dimensions of threads and screws as made; holes and screws are numbered from 0."""
+    """True dimensions of threads and screws; holes and screws are numbered from 0."""
 
     phases: tuple[float, ...]  # where the thread of each hole starts, rad
     friction: float = THREAD_FRICTION
     scarred: Set[int] = frozenset()  # holes in which a screw has been crossed before
     crossing: Set[int] = frozenset()  # holes in which every screw crosses
     slipping: Set[int] = frozenset()
-    """Screws on which the bit slips; no thread takes one, also if something else than the bit turns it a little."""
+    """Screws on which the bit slips; no thread takes such a screw, even if something other than the bit turns it a
+    little.
+    """
 
 
 class Threads(Mechanism[ThreadsState]):
@@ -115,7 +121,7 @@ class Threads(Mechanism[ThreadsState]):
         figures: ThreadFigures,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Empty holes; `lines`: `magnet`, the force of the bit's."""
+        """Empty holes. The line `magnet` carries a factor on the force of the bit's magnet."""
         self._model, self._data, self._driver, self._lines = model, data, driver, lines
         self._carriers, self._figures = Carriers(model, data), figures
         if len(figures.phases) != self._carriers.count:
@@ -137,7 +143,7 @@ class Threads(Mechanism[ThreadsState]):
 
     @property
     def driven(self) -> int:
-        """The hole whose carrier the motor is coupled to."""
+        """The hole whose carrier is coupled to the motor."""
         return self._carriers.site.index(int(self._model.actuator_trnid[self._drive, 0]))
 
     @driven.setter
@@ -145,7 +151,7 @@ class Threads(Mechanism[ThreadsState]):
         self._model.actuator_trnid[self._drive, 0] = self._carriers.site[hole]
 
     def before(self, seconds: float) -> None:
-        """Turn the spindle with the speed of the driver's motor, and let screws into their threads and out of them."""
+        """Turn the spindle at the speed of the driver's motor, and let screws enter and leave their threads."""
         data, speed = self._data, self._driver.speed
         data.ctrl[self._spindle] = -speed
         self._attract()
@@ -161,7 +167,7 @@ class Threads(Mechanism[ThreadsState]):
         self._couple(speed)
 
     def _attract(self) -> None:
-        """Let the bit's magnet pull, if it is on."""
+        """Apply the force of the bit's magnet if it is on."""
         self._data.ctrl[self._magnet] = self._lines.carried("magnet", float(self._driver.magnet))
 
     def state(self) -> ThreadsState:
@@ -182,7 +188,7 @@ class Threads(Mechanism[ThreadsState]):
     # --- loose screws ---
 
     def _engage(self, seconds: float) -> None:
-        """Let every loose screw that meets the conditions take its thread in the time to come (s)."""
+        """Let each loose screw that meets the conditions enter its thread within the next `seconds`."""
         taken = {hole.screw for hole in self.holes}
         mouths = self._data.xpos[self._base] + self._carriers.mouths @ self._axes().T
         for j, body in enumerate(self._screw):
@@ -206,7 +212,9 @@ class Threads(Mechanism[ThreadsState]):
         return pose(self._data.xmat[body].reshape(3, 3).copy(), self._data.xpos[body].copy())
 
     def _bites(self, screw: int, hole: int, offset: Array, seconds: float) -> bool:
-        """True if the tip of a screw, `offset` from the mouth of a hole (3,), takes the thread within a time (s)."""
+        """True if the tip of a screw, at `offset` from the mouth of a hole, (3,), m, enters the thread within
+        `seconds`.
+        """
         in_bore = np.hypot(offset[0], offset[1]) < CAPTURE and -offset[2] > START_DEPTH
         rate = -self._rate(screw)
         if not in_bore or rate < START_RATE or self._tilt(self._pose(screw)) > STEEPEST:
@@ -219,7 +227,7 @@ class Threads(Mechanism[ThreadsState]):
         return acos(min(1.0, float(X_WS[:3, 2] @ self._axes()[:, 2])))
 
     def _rate(self, screw: int) -> float:
-        """Rate of a loose screw about its own axis, rad/s, counter-clockwise positive."""
+        """Rotation rate of a loose screw about its axis, rad/s, positive counter-clockwise."""
         return float(self._data.qvel[self._free(screw)[1] + 5])  # free joints turn in body axes
 
     def _free(self, screw: int) -> tuple[int, int]:
@@ -228,7 +236,7 @@ class Threads(Mechanism[ThreadsState]):
         return int(self._model.jnt_qposadr[self._model.body_jntadr[body]]), int(self._model.body_dofadr[body])
 
     def take(self, screw: int, hole: int, X_WS: Pose) -> None:
-        """Replace a loose screw by the carrier of a hole, which is then where the screw is."""
+        """Replace a loose screw by the carrier of a hole, at the pose of the screw."""
         scarred = self.holes[hole].scarred
         crossed = hole in self._figures.crossing or self._tilt(X_WS) > (SCARRED if scarred else SQUARE)
         self._carriers.fill(hole, X_WS, self._rate(screw))
@@ -238,14 +246,16 @@ class Threads(Mechanism[ThreadsState]):
         mujoco.mj_forward(self._model, self._data)
 
     def _disengage(self) -> None:
-        """Let a screw go that has been turned back to where its thread began."""
+        """Release a screw that has been turned back to where its thread began."""
         hole = self._under_bit()
         if hole is None or self._carriers.depth(hole) > START_DEPTH:
             return
         self._let_go(hole)
 
     def loosen(self, screw: int, turns: float | None = None) -> bool:
-        """Let a screw come up by some turns, or fall out of its thread; False if it is in none, or the bit is on it."""
+        """Raise a screw in its thread by some turns, or release it; return False if it is in no thread, or the bit
+        is on it.
+        """
         hole = next((k for k, thread in enumerate(self.holes) if thread.screw == screw), None)
         if hole is None or hole == self._under_bit():
             return False
@@ -260,7 +270,7 @@ class Threads(Mechanism[ThreadsState]):
         return True
 
     def _let_go(self, hole: int) -> None:
-        """Make the screw in a hole a loose one, where it is."""
+        """Replace the screw in a hole by a loose screw at the same pose."""
         screw = self.holes[hole].screw
         assert screw is not None
         self._put(screw, self._carriers.pose(hole), self._carriers.velocity(hole))
@@ -269,7 +279,7 @@ class Threads(Mechanism[ThreadsState]):
         mujoco.mj_forward(self._model, self._data)
 
     def _put(self, screw: int, X_WS: Pose, velocity: Array) -> None:
-        """Put a loose screw somewhere; its rates of turn and way are those in W, shape (6,)."""
+        """Move a loose screw to a pose, with angular and linear velocity in W, shape (6,)."""
         data, (start, dof) = self._data, self._free(screw)
         data.qpos[start : start + 3] = X_WS[:3, 3]
         mujoco.mju_mat2Quat(data.qpos[start + 3 : start + 7], X_WS[:3, :3].ravel())
@@ -278,7 +288,7 @@ class Threads(Mechanism[ThreadsState]):
     # --- the motor ---
 
     def _couple(self, speed: float) -> None:
-        """Let the motor turn the head that the bit is on, if any."""
+        """Let the motor turn the screw head on which the bit stands, if there is one."""
         model, data = self._model, self._data
         hole = self._under_bit()
         gain = MOTOR_STIFFNESS if hole is not None and speed != 0.0 else 0.0
@@ -290,12 +300,12 @@ class Threads(Mechanism[ThreadsState]):
             self.rub(hole, back=speed < 0)
 
     def _under_bit(self) -> int | None:
-        """The hole in whose screw's slot the bit is."""
+        """The hole with the screw in whose slot the bit is; None if there is none."""
         filled = (k for k, thread in enumerate(self.holes) if thread.screw is not None)
         return next(filter(self._on, filled), None)
 
     def _on(self, hole: int) -> bool:
-        """True if the bit stands on the head of a hole's screw, upright over its slot."""
+        """True if the bit stands upright on the head of a hole's screw, over the slot."""
         data, head = self._data, self._carriers.head[hole]
         apart = data.geom_xpos[head] - data.geom_xpos[self._bit]
         if apart @ apart > NEAR**2:
@@ -306,7 +316,7 @@ class Threads(Mechanism[ThreadsState]):
         return mujoco.mj_geomDistance(self._model, data, self._bit, int(head), 2 * IN_SLOT, None) < IN_SLOT
 
     def rub(self, hole: int, *, back: bool = False) -> None:
-        """Set the friction of a thread for its present clamp force, as it is turned in or back."""
+        """Set the friction of a thread for its present clamp force, for turning in or back."""
         if not self._data.body_awake[self._base]:  # its contacts are not kept up to date, but nothing moves
             return
         state = self.holes[hole]
@@ -316,20 +326,20 @@ class Threads(Mechanism[ThreadsState]):
         self._set(hole, rubbed)
 
     def _torque(self, thread: Thread, *, back: bool = False) -> float:
-        """Torque with which a thread rubs as its screw is turned in or back, N m."""
+        """Friction torque of a thread while its screw is turned in or back, N m."""
         if thread.crossed:
             return BACKING_TORQUE if back else CROSSED_TORQUE
         return min(RUNNING_TORQUE + self._figures.friction * THREAD_RADIUS * thread.clamp, CROSSED_TORQUE)
 
     def write(self, holes: tuple[Thread, ...], model: mujoco.MjModel) -> None:
-        """Write the effect of the threads in these states into a model of this scene at its start."""
+        """Apply these thread states to a model of this scene in its initial state."""
         for hole, thread in enumerate(holes):
             self._carriers.meet(hole, model, there=thread.screw is not None)
             if thread.screw is not None:
                 model.dof_frictionloss[self._carriers.friction_of(hole)] = self._torque(thread)
 
     def head_force(self, hole: int) -> float:
-        """Force with which the head of a hole's screw presses on the part beneath it, N."""
+        """Force of the head of a hole's screw on the part beneath, N."""
         contact, head = self._data.contact, self._carriers.head[hole]
         pairs = contact.geom
         mine = (pairs == head).any(axis=1) & ~np.isin(pairs, self._driver_geoms).any(axis=1)
@@ -338,7 +348,7 @@ class Threads(Mechanism[ThreadsState]):
 
 
 def holes_of(truth: Truth) -> tuple[Thread, ...]:
-    """The tapped holes of the base, in the order of the carriers."""
+    """The thread states of the base's tapped holes, in the order of the carriers."""
     state = truth.states[Threads.name]
     assert isinstance(state, ThreadsState)
     return state.holes

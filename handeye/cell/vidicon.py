@@ -1,4 +1,4 @@
-"""Model of a vidicon and its digitiser: blur, shading, gamma, gain, noise, sixteen levels."""
+"""Model of a vidicon and its digitiser: blur, shading, gamma, gain, noise, and sixteen intensity levels."""
 
 import math
 from functools import cache
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from handeye.ports.camera import COLUMNS, RASTER, ROWS, Picture
 
 Luminance = NDArray[np.float32]
-"""Light that falls on the target, shape (256, 333), 1 = a white surface in full light."""
+"""Light on the target, shape (256, 333); 1 is a white surface in full light."""
 
 BLUR: Final = (0.65, 0.45)  # sigma, points along the line and across
 SHADING: Final = 0.10  # loss in the corners
@@ -19,24 +19,28 @@ GAMMA: Final = 0.7
 NOISE: Final = 1.0  # sigma, levels
 PEAK: Final = 12.5  # level of the bright parts
 BRIGHT: Final = 97  # percentile that counts as the bright parts
-"""The chain of the vision study, 0.1; its numbers are placeholders that look right."""
+"""Percentile of the signal that counts as the bright parts. This and the constants above are the signal chain of
+the vision study, section 0.1; its numbers are placeholders that give a realistic picture.
+"""
 GAIN_WINDOW: Final = 0.6
-"""Share of width and height, about the middle, that the target voltage is adjusted to. Placeholder."""
+"""Fraction of width and height, about the centre, for which the target voltage is adjusted. Placeholder."""
 
 F_NUMBER: Final = 2.8
 PITCH: Final = RASTER[0] / COLUMNS  # m
-"""For focus; the aperture is a placeholder."""
+"""Width of a picture point on the target, m, for the blur of focus; the aperture is a placeholder."""
 
 
 class Vidicon:
-    """The tube and the digitiser. It remembers its gain (the target voltage) from picture to picture."""
+    """The tube and the digitiser, which keeps its gain (target voltage) from picture to picture."""
 
     def __init__(self, rng: np.random.Generator) -> None:
         self._rng = rng
         self.gain: float | None = None  # the target voltage of the last picture; None before the first
 
     def expose(self, light: Luminance, *, disc: float = 0.0, hold_target: bool = False) -> Picture:
-        """Digitise light that is out of focus by a disc of a diameter (points); the gain may be held."""
+        """Digitise light that is out of focus by a disc of diameter `disc` (points); `hold_target` keeps the gain
+        of the last picture.
+        """
         image = _defocused(light, disc) if disc > 0.5 else light
         image = np.asarray(cv2.GaussianBlur(image, (0, 0), sigmaX=BLUR[0], sigmaY=BLUR[1]), np.float32)
         signal = np.clip(image * _shading(), 0, None) ** GAMMA
@@ -49,7 +53,9 @@ class Vidicon:
 
 
 def blur_disc(focal_length: float, focused: float, distance: float) -> float:
-    """Diameter (points) of the image of a point at a distance when the lens is focused elsewhere; m, or infinite."""
+    """Diameter (points) of the image of a point at `distance` when the lens is focused at `focused`; both in m, or
+    infinite.
+    """
     spread = 1 / distance if math.isinf(focused) else abs(focused - distance) / (distance * focused)
     lens = 1 if math.isinf(focused) else focused / (focused - focal_length)
     return focal_length**2 / F_NUMBER * spread * lens / PITCH
@@ -62,7 +68,7 @@ def _shading() -> Luminance:
 
 
 def _defocused(image: Luminance, disc: float) -> Luminance:
-    """Averaged over a disc, its border drawn with eight steps a point."""
+    """The image averaged over a disc, with a border resolved to an eighth of a point."""
     fine = 8
     n = 2 * math.ceil(disc / 2) + 3
     y, x = (np.mgrid[0 : n * fine, 0 : n * fine] + 0.5) / fine - n / 2
