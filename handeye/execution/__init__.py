@@ -1,1 +1,1 @@
-"""The working phase: a plan meets a cell through its ports."""
+"""The working phase: executes a plan in a cell through the cell's device interfaces."""

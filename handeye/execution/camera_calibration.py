@@ -1,7 +1,8 @@
 """Camera-arm calibration by observation: the arm carries its lamp through the camera's view.
 
-Done once when the camera is set up, before pumps are made: its time is not in the table of 1973. The arm's belief of
-its own place enters here, and the same arm grasps later, so what is common to both cancels.
+The camera is calibrated once when it is set up, before pumps are made, so the duration is not in the table of 1973.
+The calibration uses the position of the hand by the arm's own sensors. The same arm grasps later, so errors common
+to calibration and grasping cancel.
 """
 
 import math
@@ -44,11 +45,11 @@ def calibrate_camera(
     viewed: Callable[[int, int], None] = lambda *_: None,
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas,
 ) -> Calibration:
-    """Show the lamp to the camera, and fit the camera model to the arm's positions.
+    """Show the lamp to the camera, and fit the camera model to the positions of the hand.
 
-    `state` has the arm's measurements of itself, `drawing` is the camera as known so far, and `viewed` is called with
-    number and count of each view. Raises CalibrationFailed if the lamp is seen too few times or the picture does not
-    change, Halted on panic.
+    `state` has the arm's measurements of itself, `drawing` is the design of the camera, and `viewed` is called with
+    the number and the count of the views. Raises CalibrationFailed if the lamp is seen too few times or the picture
+    does not change, and Halted on panic.
     """
     drive = ArmDrive(cell=cell, arm=arm, state=state, halt=halt, arithmetic=arithmetic)
     home = drive.state.q.copy()
@@ -92,7 +93,9 @@ def _camera(drive: ArmDrive) -> TvCamera:
 
 
 def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3, ready: float) -> Iterator[Sighting]:
-    """Show the lamp at a place to a camera that is ready at a time (s); nothing where it is not reached or seen."""
+    """Show the lamp at a place to a camera that is ready at time `ready` (s); yields nothing if the arm cannot
+    reach the place, or the camera does not see the lamp.
+    """
     camera = _camera(drive)
     assert drive.arm.hand.lamp is not None
     on_hand = np.array(drive.arm.hand.lamp)

@@ -1,7 +1,7 @@
-"""Compliant straight motions: measured force moves the set-point.
+"""Compliant straight motions, in which the measured force moves the set-point.
 
-An admittance: speed follows force. Every joint stays under its position servo, so that an error of the gravity model
-does not make the hand drift as slack joints would.
+This is admittance control: the speed of the set-point follows the force. Every joint stays under its position
+servo, so that an error of the gravity model does not make the hand drift, as it would with slack joints.
 """
 
 import math
@@ -15,7 +15,7 @@ from handeye.core.pose import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Course:
-    """A straight path and its response to force; vectors in W."""
+    """A straight path, and its response to force; vectors are in W."""
 
     compliance: ComplianceModel
     direction: Array  # unit vector, (3,)
@@ -23,32 +23,34 @@ class Course:
     speed: float  # m/s, if not pressing
     force: float | None = None  # force to press with, N; None: move at `speed`
     free: Array = field(default_factory=lambda: np.zeros(3))
-    """1 for each axis of W along which the hand complies, else 0, shape (3,)."""
+    """for each axis of W along which the hand yields to force, else 0, shape (3,)."""
     moment: Array = field(default_factory=lambda: np.zeros(3))
-    """Moment to exert about the tool centre point, turning, N m, shape (3,)."""
+    """Moment to exert about the tool centre point while turning, N m, shape (3,)."""
     spin: Array = field(default_factory=lambda: np.zeros(3))
-    """1 for each axis of W about which the hand complies, else 0, shape (3,)."""
+    """for each axis of W about which the hand yields to moment, else 0, shape (3,)."""
     friction: Array = field(default_factory=lambda: np.zeros(6))
-    """Felt joint friction along and about each axis of W, N and N m, shape (6,): the dead band of compliance."""
+    """Sensed joint friction along and about each axis of W, N and N m, shape (6,): the dead band of the compliance.
+
+    """
 
     def patience(self, pressing: int, period: float) -> int:
-        """Servo periods (s) the motion may take: `pressing` ones beyond an unhindered motion."""
+        """Greatest number of servo periods for the motion: those of an unhindered motion, and `pressing` more."""
         return pressing + math.ceil(self.distance / self.speed / period)
 
     def advance(self, wrench: Array, tick: int) -> float:
-        """Speed along the path (m/s) for an external wrench, in servo period number `tick`."""
+        """Speed along the path (m/s) for an external wrench, in the servo period numbered `tick`."""
         if self.force is None:
             return self.speed * min(1.0, (tick + 1) / self.compliance.ramp)
         felt, k = float(-wrench[:3] @ self.direction), self.compliance
         return float(np.clip((self.force - felt) * k.gain, -k.speed, k.speed))
 
     def yielding(self, wrench: Array) -> Array:
-        """Compliance velocity (m/s), shape (3,)."""
+        """Velocity with which the hand yields to a wrench (m/s), shape (3,)."""
         k = self.compliance
         return np.clip(_beyond(self.free * wrench[:3], self.friction[:3]) * k.gain, -k.speed, k.speed)
 
     def turned(self, turn: Array, wrench: Array, period: float) -> Array:
-        """Rotation vector (rad) of the hand one servo period (s) after `turn`, shape (3,)."""
+        """Rotation vector (rad) of the hand one servo period (s) after it was `turn`, shape (3,)."""
         felt, k = wrench[3:], self.compliance
         missing = _beyond(self.spin * felt, self.friction[3:])
         wanted = float(np.linalg.norm(self.moment))
@@ -60,5 +62,5 @@ class Course:
 
 
 def _beyond(felt: Array, deadband: Array) -> Array:
-    """Force or moment less a dead band for each axis."""
+    """A force or moment reduced by a dead band on each axis."""
     return np.asarray(np.sign(felt) * np.maximum(np.abs(felt) - deadband, 0.0))

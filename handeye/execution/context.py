@@ -1,4 +1,4 @@
-"""The context of a working phase: plan, arm, cell, and the state that operations share."""
+"""The context of a working phase: plan, arm, cell, and the state that all operations share."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -23,14 +23,14 @@ from handeye.vision.camera_model import CameraModel
 
 @dataclass(slots=True)
 class Stopwatch:
-    """Adds up seconds while running, by a given clock; without one it stays at zero."""
+    """Adds up the seconds for which it runs, by a given clock; without a clock it stays at zero."""
 
     clock: Callable[[], float] = lambda: 0.0
     seconds: float = 0.0
 
     @contextmanager
     def running(self) -> Iterator[None]:
-        """Run while entered."""
+        """In this context, the stopwatch runs."""
         begun = self.clock()
         try:
             yield
@@ -40,7 +40,7 @@ class Stopwatch:
 
 @dataclass(slots=True, kw_only=True)
 class ExecutionContext:
-    """Plan, arm and cell of a working phase; drive and world model live in parts of its state."""
+    """Plan, arm and cell of a working phase. The drive and the world model keep their state in parts of its state."""
 
     plan: Plan
     arm: ArmModel
@@ -51,7 +51,7 @@ class ExecutionContext:
     without: frozenset[str] = frozenset()  # senses not used; see `program.senses`
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # what computes an arm at one posture
     vision: Stopwatch = field(default_factory=Stopwatch)
-    """CPU time of vision; the working phase itself reads no host clock."""
+    """CPU time of vision, s; the working phase itself reads no host clock."""
     state: ExecutionState = field(init=False)
     drive: ArmDrive = field(init=False)
     world: WorldModel = field(init=False)
@@ -65,37 +65,43 @@ class ExecutionContext:
 
     @property
     def time(self) -> float:
-        """The cell's clock, rounded to its period so that it prints the same everywhere."""
+        """Time on the cell's clock, s, rounded to its period so that it prints the same on every computer."""
         period = self.arm.servo.period
         return round(round(self.drive.sensed.time / period) * period, 6)
 
     @property
     def felt_friction(self) -> Array:
-        """Wrench felt here from each joint's measured friction, as columns, shape (6, n); see `arm.friction`."""
+        """The wrench sensed at the present configuration because of each joint's measured friction, as columns,
+        shape (6, n); see `arm.friction`.
+        """
         return felt_friction(self.arm, self.drive.state.q, self.drive.state.friction)
 
     def watching(self, guards: Guards) -> Guards:
-        """Guards whose senses are in use."""
+        """The guards whose senses are switched on."""
         return tuple(guard for guard in guards if guard.sense() not in self.without)
 
     @property
     def part_here(self) -> str:
-        """The part at whose place the hand should be since the last MOVE; empty if its goal is no part's."""
+        """The part at whose position the hand should be since the last MOVE; empty if the goal of that MOVE belongs
+        to no part.
+        """
         place = self.plan.program.positions.get(self.state.place)
         return "" if place is None or place.of is None else place.of
 
     @property
     def planned(self) -> PlannedMotion:
-        """The planned motion of the present step, which must have one."""
+        """The planned motion of the present step; the step must have one."""
         assert self.state.at is not None
         return self.plan.motions[self.state.at]
 
     def restore(self, state: ExecutionState) -> None:
-        """Restore a state; the cell must be as it was then. Raises BadFile if it does not fit the plan."""
+        """Restore a state; the cell must have been restored to the same moment. Raises BadFile if the state does
+        not fit the plan.
+        """
         check_fits(state, self.plan, self.arm)
         put_back(self.state, state)
 
 
 Action = Callable[[ExecutionContext, Any], Fault | None]
-"""Executes an operation and returns the error it raises."""
+"""Executes an operation, and returns the error that the operation raises, or None."""
 Decision = Callable[[ExecutionContext, Any], bool]  # True if the step takes its branch

@@ -1,4 +1,4 @@
-"""Drives an arm: motions of its servo loop, with time passing."""
+"""Drives a single arm: executes motions of its servo loop and lets time pass."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,23 +14,23 @@ from handeye.execution.servo_loop import Outcome, ServoLoop
 from handeye.touch.guards import Monitor
 
 _STANDS: Final = 0.1
-"""s in which the brakes bring the arm to rest. Chosen."""
+"""Time, s, in which the brakes bring the arm to rest. Chosen."""
 
 
 @dataclass(slots=True, kw_only=True)
 class ArmDrive(ServoLoop):
-    """A servo loop alone under its clock: the only place of the working phase that lets time pass."""
+    """A servo loop that is alone under its clock; only here does the working phase let time pass."""
 
     def brake(self, seconds: float) -> None:
-        """Set the brakes and let time pass; the set-point becomes where the arm then is."""
+        """Set the brakes and let time pass; the set-point becomes the arm's position at the end."""
         self._pass(self.braking(seconds))
 
     def stop(self) -> None:
-        """Set the brakes, and wait until the arm stands."""
+        """Set the brakes, and wait until the arm is at rest."""
         self.brake(_STANDS)
 
     def float(self, seconds: float) -> None:
-        """Let go of the arm and let time pass: gravity and load are balanced, and a push moves the hand."""
+        """Release the arm and let time pass: gravity and load are balanced, so that a push moves the hand."""
         self._pass(self.floating(seconds))
 
     def follow(
@@ -40,7 +40,7 @@ class ArmDrive(ServoLoop):
         direction: Array | None = None,
         beside: Callable[[int], None] = lambda _: None,
     ) -> Outcome:
-        """Follow set-points; end early when `guard` trips. See `following`."""
+        """Follow set-points; end early if `guard` trips. See `following`."""
         return self._pass(self.following(samples, guard, direction, beside))
 
     def glide(
@@ -50,15 +50,15 @@ class ArmDrive(ServoLoop):
         return self._pass(self.gliding(samples, guard, direction))
 
     def comply(self, course: Course, guard: Monitor | None) -> Outcome:
-        """Go straight, pressing, turning or giving way as the course says; end early when `guard` trips."""
+        """Move along a straight course, pressing, turning or yielding as it says; end early if `guard` trips."""
         return self._pass(self.complying(course, guard))
 
     def shift(self, here: Dynamics, X_WT: Pose) -> Outcome:
-        """One period towards a pose close by."""
+        """Move for one servo period towards a pose nearby."""
         return self._pass(self.shifting(here, X_WT))
 
     def zero(self) -> Outcome:
-        """Hold still, and take the force felt as zero. See `zeroing`."""
+        """Hold still, and take the sensed force as zero. See `zeroing`."""
         return self._pass(self.zeroing())
 
     def hold(self, ticks: int) -> None:

@@ -1,4 +1,4 @@
-"""The executor: runs the graph of a plan, step by step, with error tests."""
+"""The executor: executes the steps of a plan one by one, and follows error tests to the next step."""
 
 from dataclasses import dataclass
 from typing import Final, Literal
@@ -38,7 +38,7 @@ _CALLED: Final[dict[Device, str]] = {"camera": "television camera"}  # names of 
 
 
 def check_devices(program: Program, cell: Workcell) -> None:
-    """Raise Refused if a step needs a device that the cell lacks."""
+    """Raise Refused if a step needs a device that the cell does not have."""
     devices = {"hand": cell.hand, "screwdriver": cell.screwdriver, "camera": cell.camera}
     for step in program.steps:
         needed = step.needs
@@ -60,11 +60,11 @@ class Executor:
 
     @property
     def state(self) -> ExecutionState:
-        """Its state, shared with the actions."""
+        """The state of the run, shared with the actions."""
         return self.run.state
 
     def step(self) -> None:
-        """Do one step, or reverse one; an error that the next step does not test calls the operator."""
+        """Execute one step, or reverse one; an error that the next step does not test calls the operator."""
         if self.state.undoing is not None:
             stopped = undo_last(self.run)
             if stopped is not None:
@@ -103,7 +103,7 @@ class Executor:
         self._leave()
 
     def answer(self, choice: Choice) -> None:
-        """Continue after an operator call, or (`proceed`) after a reversal."""
+        """Continue after a call of the operator, or with `proceed` after a reversal."""
         run, stage = self.run, self.state.stage
         assert stage is not None or choice == "proceed"
         going_on = {"proceed": self.state.onward}
@@ -118,7 +118,9 @@ class Executor:
         self._leave("skipped" if choice == "skip" else "done")
 
     def undo(self, undoing: ReversalOrder) -> None:
-        """Order the reversal of executed steps, last first, until `left` remain; raises Refused if none are left."""
+        """Order the reversal of executed steps, the last first, until `undoing.left` remain; raises Refused if
+        there are none to reverse.
+        """
         if undoing.asked_by == "person":
             self.state.unwound.clear()
         order(self.state, undoing)
@@ -126,7 +128,7 @@ class Executor:
         self.run.emit(UndoOrdered(time=self.run.time, left=left, halts=halts, asked_by=asked_by))
 
     def finish(self) -> bool:
-        """End the run; True if the program is complete."""
+        """End the run; True if the program has been completed."""
         run = self.run
         if self.state.stage is not None:
             stage = run.plan.program.stages[self.state.stage]
@@ -136,7 +138,7 @@ class Executor:
         return completed
 
     def _perform(self, step: Step) -> int | None:
-        """Execute the operation; returns the number of the next step."""
+        """Execute the operation of a step; returns the number of the next step."""
         operation = step.operation
         if operation.branch is not None:
             taken = DECISIONS[type(operation)](self.run, operation)
@@ -157,24 +159,24 @@ class Executor:
         return step.next
 
     def _past(self, number: int | None) -> int | None:
-        """The step itself, or the first behind calls of macros that the run goes without."""
+        """The step itself, or the first step after it if it belongs to calls of macros that the run leaves out."""
         steps = self.run.plan.program.steps
         while number is not None and steps[number].called in self.run.without:
             number = number + 1 if number + 1 < len(steps) else None
         return number
 
     def _tests(self, number: int | None) -> bool:
-        """True if a step tests an error."""
+        """True if a step tests for an error."""
         branch = None if number is None else self.run.plan.program.steps[number].operation.branch
         return branch is not None and branch.error is not None
 
     def _first(self, stage: int) -> int | None:
-        """The first step of a stage, or of a later one; None past the last."""
+        """The first step of a stage, or of the next stage that has steps; None after the last."""
         steps = self.run.plan.program.steps
         return next((number for number, step in enumerate(steps) if step.stage >= stage), None)
 
     def _leave(self, status: Literal["done", "skipped"] = "done") -> None:
-        """Report a stage as the program leaves it or ends."""
+        """Report the end of a stage when the program leaves it or ends."""
         run = self.run
         program = run.plan.program
         if self.state.stage is None or self.state.stopped is not None:

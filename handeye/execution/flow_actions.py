@@ -1,4 +1,6 @@
-"""Actions of flow and memory: tests, counters, searches, saved differences and positions, load and screwdriver."""
+"""Actions of program flow and memory: tests, counters, searches, saved differences and positions, load and
+screwdriver.
+"""
 
 from typing import Final
 
@@ -28,7 +30,7 @@ from handeye.program.world_model import rounded_place
 
 
 def test_error(run: ExecutionContext, operation: Test) -> bool:
-    """Test for an error of the last action, and clear it."""
+    """Test for an error of the last action, and clear it; True if that error was raised."""
     pending = run.state.pending
     occurred = pending is not None and pending.number == operation.number
     if TESTED.get(operation.number) in run.without:
@@ -56,13 +58,13 @@ def assign(run: ExecutionContext, operation: Assign) -> None:
 
 
 def count_down(run: ExecutionContext, operation: Countdown) -> bool:
-    """Decrement a counter; True while it is positive."""
+    """Decrement a counter; True while the counter is positive."""
     left = run.state.counters[operation.counter] = run.state.counters.get(operation.counter, 0) - 1
     return left > 0
 
 
 def search(run: ExecutionContext, operation: Search) -> None:
-    """Set up a search; the present place is the first."""
+    """Start a search; the present place is its first place."""
     run.state.search = SearchState(step=operation.step, limit=operation.limit, along=operation.along)
 
 
@@ -83,7 +85,7 @@ def advance(run: ExecutionContext, _: Advance) -> Fault | None:
 
 
 def save(run: ExecutionContext, operation: Save) -> None:
-    """Save the distance of the hand from the goal of the last motion to a position."""
+    """Save the difference between the present hand position and the goal of the last motion to a position."""
     difference = run.drive.hand()[:3, 3] - run.state.goal
     if operation.name in run.state.restored:  # what it has added already still belongs to it
         difference = difference + run.state.restored[operation.name]
@@ -96,7 +98,7 @@ def save(run: ExecutionContext, operation: Save) -> None:
 
 
 def here(run: ExecutionContext, operation: Here) -> None:
-    """Define a position as the present hand pose."""
+    """Define a position as the present pose of the hand."""
     name = operation.position
     seen = run.world.seen_from(run.world.positions[name].of, run.drive.hand())
     run.state.world.moved[name] = seen
@@ -104,23 +106,23 @@ def here(run: ExecutionContext, operation: Here) -> None:
 
 
 def where(run: ExecutionContext, _: Where) -> None:
-    """Report the hand pose."""
+    """Report the pose of the hand."""
     run.emit(HandTold(time=run.time, at=rounded_place(run.drive.hand())))
 
 
 def load(run: ExecutionContext, operation: Load) -> None:
-    """Let the servo compensate a weight."""
+    """Tell the servo to compensate a weight in the hand."""
     run.drive.state.load = operation.weight
 
 
 def tool(run: ExecutionContext, operation: Tool) -> None:
-    """Run the screwdriver."""
+    """Set the speed of the screwdriver's motor."""
     drive = run.drive.state
     drive.tool, drive.current, drive.starting, drive.lately = operation.speed, 0.0, [], []
 
 
 def nothing(_: ExecutionContext, __: Operation) -> None:
-    """No action: only the next step, or the operator call, matters."""
+    """Do nothing; for operations that only determine the next step or call the operator."""
 
 
 FLOW_ACTIONS: Final[dict[type[Operation], Action]] = {

@@ -1,10 +1,11 @@
-"""Measurement of joint friction and link weights by the arm itself, before its first instruction.
+"""Measures joint friction and link weights with the arm itself, before the first instruction.
 
-The textbook method: each joint moves slowly out and back over the same range at a constant rate. Drive torque besides
-weight and inertia changes sign between out and back, so half the difference is friction. Its part proportional to the
-rate is removed by a second, quicker pass: the line through both meets rate 0 at the Coulomb friction (Armstrong-
-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, on identification). All joints move at once, as each one's
-friction stays in it. The mean of out and back is weight, whatever the friction.
+This is the textbook method: each joint moves slowly out and back over the same range at a constant rate. The drive
+torque beyond weight and inertia changes sign between out and back, so half the difference is friction. A second,
+quicker pass removes the part of friction that is proportional to the rate: the line through both passes gives the
+Coulomb friction at rate 0 (Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, on identification).
+All joints move at once, because the friction of each joint appears only in that joint's torque. The mean of out and
+back is the weight torque, whatever the friction.
 """
 
 from collections.abc import Callable, Sequence
@@ -29,16 +30,17 @@ from handeye.program.diagnosis.cause_text import cause_sentence
 RAMP: Final = 0.1  # s to the constant rate, and again until the servo has taken friction up; chosen
 MIN_TRAVEL: Final = 0.5  # fraction of its range that a joint must move, or it is stuck; chosen
 MAX_RATIO: Final = 1.8
-"""Greatest plausible ratio of friction to the joint's data.
+"""Greatest plausible ratio of measured friction to the friction in the joint's data.
 
-Chosen between faultless joints and drives that give half of their torque. Measured: at most 1.61 in sixty worlds; at
-most 1.87 in eighty with twice the errors, of which one goes beyond; 1.4 to 2.3 at half a drive.
+Chosen between sound joints and drives that give half of their torque. Measured: sound joints reach 1.61 in sixty
+worlds, and 1.87 in eighty worlds with twice the errors, of which one exceeds the limit; with half a drive the ratio
+is 1.4 to 2.3.
 """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pass:
-    """A motion out and back at a constant rate, a fraction of the joint limits, with `seconds` averaged each way."""
+    """A motion out and back at a constant rate; torques are averaged over `seconds` in each direction."""
 
     rate: float
     seconds: float
@@ -46,7 +48,9 @@ class Pass:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JointMeasurement:
-    """Coulomb friction (N m, N if prismatic) of each joint, and link weights over the model's, shape (n,) each."""
+    """Coulomb friction of each joint (N m, or N if prismatic), and link weights divided by the model's, shape (n,)
+    each.
+    """
 
     friction: Array
     links: Array
@@ -54,7 +58,9 @@ class JointMeasurement:
 
 SLOW: Final = Pass(rate=0.01, seconds=0.4)
 QUICK: Final = Pass(rate=0.03, seconds=0.2)
-"""Chosen: some twenty steps of a 12-bit tachometer, as slow as the hand presses; 3.3 s and a range of some 2 in."""
+"""The quick pass. Chosen: about twenty steps of a 12-bit tachometer, as slow as the hand presses; it takes 3.3 s
+and a range of about 2 in.
+"""
 
 
 def measure_joints(
@@ -66,8 +72,8 @@ def measure_joints(
 ) -> JointMeasurement:
     """Measure joint friction and link weights; the arm ends where it began.
 
-    The arm is moved about the set-point of `state`. Raises FrictionUnknown if a joint does not move as driven or takes
-    far more torque than its friction, or if a link weight is implausible; Halted on panic.
+    The arm moves about the set-point in `state`. Raises FrictionUnknown if a joint does not move as commanded or
+    takes far more torque than its friction, or if a link weight is implausible; raises Halted on panic.
     """
     periods: list[ServoPeriod] = []
     drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt, arithmetic=arithmetic)
@@ -80,9 +86,10 @@ def measure_joints(
 
 
 def at_rest(slow: Array, quick: Array) -> Array:
-    """Coulomb friction from both passes, shape (n,): the line through them at rate 0.
+    """Coulomb friction from both passes, shape (n,): the value at rate 0 of the line through the passes.
 
-    Friction cannot fall with the rate here: where it seems to, the line of least squares that does not is level.
+    Friction cannot fall with the rate here; where it seems to, the mean of both passes is used, weighted by their
+    duration.
     """
     line = (QUICK.rate * slow - SLOW.rate * quick) / (QUICK.rate - SLOW.rate)
     level = (SLOW.seconds * slow + QUICK.seconds * quick) / (SLOW.seconds + QUICK.seconds)
@@ -90,7 +97,7 @@ def at_rest(slow: Array, quick: Array) -> Array:
 
 
 def _check_weighed(arm: ArmModel, links: Array) -> None:
-    """Raise FrictionUnknown for implausible link weights."""
+    """Raise FrictionUnknown if a link weight is implausible."""
     doubted = int(np.argmax(np.abs(links - 1)))
     if abs(links[doubted] - 1) > PLAUSIBLE:
         joint = arm.joints[doubted].name
@@ -101,7 +108,9 @@ def _check_weighed(arm: ArmModel, links: Array) -> None:
 
 
 def _check_rubbing(arm: ArmModel, coulomb: Array) -> None:
-    """Raise FrictionUnknown if a joint takes far more torque than its data say, if they say anything."""
+    """Raise FrictionUnknown if a joint takes far more torque than its data say; joints without friction data are
+    not checked.
+    """
     stated = np.array(arm.compliance.friction)
     times = np.divide(coulomb, stated, out=np.zeros(len(stated)), where=stated > 0)
     doubted = int(np.argmax(times))
@@ -114,14 +123,14 @@ def _check_rubbing(arm: ArmModel, coulomb: Array) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PassTorques:
-    """Torques beyond the model's in a pass, shape (n,)."""
+    """Torques beyond the arm model in a pass, split into friction and weight, shape (n,)."""
 
     rubbing: Array  # opposing the motion
     weight: Array  # equal out and back
 
 
 def _drag(drive: ArmDrive, periods: list[ServoPeriod], way: Pass) -> _PassTorques:
-    """Torques of a pass; `periods` receives the servo periods."""
+    """Execute a pass and return its torques; `periods` receives the servo periods."""
     k, share = constants(drive.arm), _profile(way, drive.period)
     inwards = np.where(drive.state.q < (k.lower + k.upper) / 2, 1.0, -1.0)
     first, ramp = drive.state.q, round(RAMP / drive.period)
@@ -137,14 +146,14 @@ def _drag(drive: ArmDrive, periods: list[ServoPeriod], way: Pass) -> _PassTorque
 
 
 def _profile(way: Pass, period: float) -> Array:
-    """Fraction of the constant rate at the end of each servo period (s), symmetric in time."""
+    """The rate at the end of each servo period, as a fraction of the constant rate; symmetric in time."""
     ramp, measured = round(RAMP / period), round(way.seconds / period)
     rise = np.linspace(0.0, 1.0, ramp + 1)
     return np.concatenate((rise[1:], np.ones(measured + 2 * ramp), rise[-2::-1]))
 
 
 def _stroke(q: Array, rate: Array, share: Array, period: float) -> Samples:
-    """Set-points from rest at `q` to rest, at fractions `share` of a rate of each joint, shape (n,)."""
+    """Set-points from rest at `q` to rest, at fractions `share` of a rate for each joint, shape (n,)."""
     before = np.concatenate(([0.0], share[:-1]))
     gone = np.cumsum((before + share) / 2) * period
     shares = (gone, share, (share - before) / period)
@@ -153,7 +162,7 @@ def _stroke(q: Array, rate: Array, share: Array, period: float) -> Samples:
 
 
 def _go(drive: ArmDrive, samples: Samples, periods: Sequence[ServoPeriod]) -> None:
-    """Follow set-points; raises FrictionUnknown on failure."""
+    """Follow set-points; raises FrictionUnknown if the motion fails."""
     outcome = drive.follow(samples)
     if len(periods) >= len(samples):
         _check_moved(drive.arm, samples, periods)
@@ -163,7 +172,7 @@ def _go(drive: ArmDrive, samples: Samples, periods: Sequence[ServoPeriod]) -> No
 
 
 def _check_moved(arm: ArmModel, samples: Samples, periods: Sequence[ServoPeriod]) -> None:
-    """Raise FrictionUnknown if a joint stood still."""
+    """Raise FrictionUnknown if a joint did not move."""
     wanted = samples.q[-1] - samples.q[0]
     gone = periods[-1].sensed.q - periods[0].sensed.q
     stuck = np.flatnonzero(gone / wanted < MIN_TRAVEL)
@@ -173,7 +182,7 @@ def _check_moved(arm: ArmModel, samples: Samples, periods: Sequence[ServoPeriod]
 
 
 def _unexplained(arm: ArmModel, periods: Sequence[ServoPeriod], period: float) -> Array:
-    """Mean torque beyond weight and inertia, shape (n,), from the end of the first period on."""
+    """Mean torque beyond weight and inertia, shape (n,), from the end of the first servo period on."""
     before, *after = periods
     q = np.array([each.sensed.q for each in after])
     efforts = np.array([each.effort for each in after])

@@ -1,4 +1,4 @@
-"""Actions of the hand: opening, closing and centring, with checks of its sensors."""
+"""Actions of the hand: opening, closing and centring, with checks of the hand's sensors."""
 
 from typing import Final
 
@@ -66,7 +66,9 @@ def _to_gap(run: ExecutionContext, goal: float) -> None:
 
 
 def close(run: ExecutionContext, operation: Close) -> Fault | None:
-    """Close until both switches fire or the gap is too small for any object, then check what is held."""
+    """Close the fingers until both switches close, or the gap is too small for any object; then check what the hand
+    holds.
+    """
     fault = _begin_to_close(run)
     if fault is not None:
         return fault
@@ -84,7 +86,7 @@ def close(run: ExecutionContext, operation: Close) -> Fault | None:
 
 
 def center(run: ExecutionContext, operation: Center) -> Fault | None:
-    """Close on an object, moving the arm so that the object stays in place."""
+    """Close the fingers on an object, and move the arm so that the object stays in place."""
     if "centring" in run.without:
         fault = close(run, Close(minimum=operation.minimum))  # the object moves to the middle of the hand
         run.state.finger_line = forward(run.arm, run.drive.state.q)[:3, 1] if fault is None else None
@@ -141,7 +143,7 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
 
 
 def _touch(run: ExecutionContext) -> tuple[bool, bool]:
-    """The finger switches."""
+    """State of the finger switches; (False, False) if touch is switched off."""
     return (False, False) if "touch" in run.without else run.drive.sensed.touch
 
 
@@ -149,7 +151,7 @@ def _touch(run: ExecutionContext) -> tuple[bool, bool]:
 
 
 def _begin_to_close(run: ExecutionContext) -> Fault | None:
-    """Check that no switch is closed; a finger that stands against something lets the hand open a little first."""
+    """Check that no switch is closed before closing; if a finger touches an object, the hand first opens a little."""
     drive, already = run.drive, run.state.grasping
     run.state.grasping, drive.state.in_air = True, False
     if already or not any(_touch(run)):
@@ -161,19 +163,21 @@ def _begin_to_close(run: ExecutionContext) -> Fault | None:
 
 
 def _driven(start: float, goal: float) -> float:
-    """Distance (m) the fingers were driven, at most until they are shut."""
+    """Distance (m) for which the fingers were driven, at most until they are closed."""
     return start - max(goal, 0.0)
 
 
 def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
-    """Check that the gap has changed after driving the fingers by `driven` (m); without touch nothing is known."""
+    """Check that the gap has changed after the fingers were driven by `driven` (m); without touch the check is left
+    out.
+    """
     if "touch" in run.without or not stood_still(start - run.drive.sensed.gap, driven):
         return None
     return _gap_wrong(GapStill(gap=round(run.drive.sensed.gap, 6), driven=round(driven, 6)))
 
 
 def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault | None:
-    """Check that something is held, by the gap and both switches."""
+    """Check by the gap and both switches that the hand holds an object."""
     gap, touching = run.drive.sensed.gap, all(_touch(run)) or "touch" in run.without
     unlike = _unlike(run, least, maximum) if all(_touch(run)) else None
     if unlike is not None:
@@ -189,10 +193,10 @@ def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault |
 
 
 def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUnlike | None:
-    """Compare the gap with the drawn thickness of what is held here.
+    """Compare the gap with the nominal thickness of the object held here; None if they agree.
 
-    Outside the limits of the program it may be another object, or lie askew, the first time; not when it reads the same
-    again.
+    A gap outside the program's limits is passed over the first time, because the hand may hold another object, or
+    hold it askew. If the next grasp reads the same gap, it is reported.
     """
     state, gap = run.state, run.drive.sensed.gap
     objects = run.plan.program.held.items()

@@ -55,7 +55,7 @@ PLAN_TOLERANCE: Final = 1e-4  # a goal or start within this (m, rad) of its plan
 
 
 def move(run: ExecutionContext, operation: Move) -> Fault | None:
-    """Move to a position at its measured place, shifted by saved differences and the search."""
+    """Move to a position at its measured place, shifted by saved differences and the search offset."""
     X_WT = run.world.position(operation.goal)
     run.state.restored = {}
     for restore in operation.restore:
@@ -85,7 +85,7 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
 def _trajectory(
     run: ExecutionContext, operation: Move, via: list[Pose], X_WT: Pose
 ) -> Trajectory | Unreachable:
-    """The planned trajectory if the world is as planned, else an adjusted one."""
+    """The planned trajectory if all poses are as planned, else an adjusted trajectory."""
     motion = run.planned
     knots = np.array(motion.knots)
     as_planned = np.abs(knots[0] - run.drive.state.q).max() < PLAN_TOLERANCE
@@ -101,7 +101,9 @@ def _trajectory(
 
 
 def change(run: ExecutionContext, operation: Change) -> Fault | None:
-    """Move straight from the present place, stopping on force or torque, pressing if asked to."""
+    """Move straight from the present place; guards on force or torque end the motion, and the hand presses if the
+    operation says so.
+    """
     start = run.drive.hand()[:3, 3]
     displacement = np.array(operation.displacement)
     distance = float(np.linalg.norm(displacement))
@@ -146,7 +148,7 @@ def _axes(wanted: Vector3 | None) -> Array:
 
 
 def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
-    """Turn about the vertical through a position."""
+    """Turn about a vertical axis through a position."""
     samples = turn_samples(run.arm, run.drive.state.q, run.world.position(operation.centre), operation)
     if isinstance(samples, IKResult):
         return Fault(number=errors.NO_SOLUTION, cause=samples.cause(run.arm))
@@ -159,8 +161,8 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
 
 
 def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
-    """Report, once per statement, a guard that is hard to distinguish from friction; the motion begins `along`, (3,),
-    W.
+    """Report, once per statement, a guard that is hard to distinguish from friction; the motion begins in direction
+    `along`, (3,), W.
     """
     assert run.state.at is not None
     place = run.plan.program.steps[run.state.at].place
@@ -177,7 +179,7 @@ def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
 
 
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
-    """The error of a motion's outcome: none after a trip, and one if guards did not trip."""
+    """The error of a motion: none if a guard tripped, and the guards' error if none did."""
     if outcome.error is not None:
         cause = outcome.cause
         if isinstance(cause, HandAstray | JointBehind):
@@ -199,9 +201,10 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
 
 
 def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow | None:
-    """Check the current of the screwdriver's motor against the torques that are known, of its start and of its clutch.
+    """Compare the current of the screwdriver's motor with the known torques, of starting and of the clutch.
 
-    It may start against something, and takes more then; it never takes less, nor more than its clutch lets through.
+    The motor may start against a resistance and then takes more torque; it never takes less, nor more than its
+    clutch transmits.
     """
     drive, least = run.drive.state, STARTING_TORQUE - 4 * CURRENT_NOISE / math.sqrt(STARTING_PERIODS)
     if drive.current > STALLED_TORQUE + 5 * CURRENT_NOISE:
@@ -219,9 +222,11 @@ def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow |
 
 
 def _held_fast(run: ExecutionContext, guards: Guards) -> Fault | None:
-    """The error of a motor that something held fast, by the torque of the last second, below the torque asked for.
+    """The error of a motor that is held fast: its torque of the last second is high, but below the torque of the
+    guard.
 
-    No thread and no bit that slips takes so much for so long; a motor held fast takes what its clutch lets through.
+    No thread and no slipping bit takes that much torque for that long; a motor held fast takes the torque of its
+    clutch.
     """
     lately, asked = run.drive.state.lately, min(each.torque for each in guards if isinstance(each, Torque))
     enough = len(lately) >= round(PLATEAU / run.drive.period) and asked <= STALLED_TORQUE
@@ -232,7 +237,7 @@ def _held_fast(run: ExecutionContext, guards: Guards) -> Fault | None:
 
 
 def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
-    """Check how far the last straight motion went."""
+    """Check the length of the last straight motion."""
     if operation.minimum <= run.state.travel <= operation.maximum:
         return None
     gone = round(run.state.travel, 6)
@@ -241,7 +246,7 @@ def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
 
 
 def height(run: ExecutionContext, operation: Height) -> Fault | None:
-    """Check how much higher the hand is than where a difference was saved."""
+    """Check how much higher the hand is than at a saved difference."""
     saved = run.state.heights.get(operation.name)
     if saved is None:
         return Fault(number=errors.WRONG_HEIGHT, cause=HeightUnknown(name=operation.name))

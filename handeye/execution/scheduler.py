@@ -1,6 +1,7 @@
 """Tasks that run together under one clock: each waits for a time or a condition, and their order is deterministic.
 
-Time is counted exactly, in rational seconds or whole microseconds: periods of 10 ms and 1/60 s do not drift apart.
+Time is counted exactly, in rational seconds or whole microseconds, so that periods of 10 ms and 1/60 s do not drift
+apart.
 """
 
 from collections.abc import Callable, Generator, Sequence
@@ -26,8 +27,8 @@ _MOST_AT_ONCE: Final = 1_000_000  # turns of a task at one moment
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Until:
-    """Wait for a condition, which is tested after another task has acted, time has passed, or an event of the clock
-    was handled.
+    """Wait for a condition. The condition is tested after another task has acted, time has passed, or an event of
+    the clock was handled.
     """
 
     met: Callable[[], bool]
@@ -39,7 +40,7 @@ Task = Generator[Wait, None, T]
 
 
 class Deadlock(HandeyeError):
-    """All tasks that are left wait for conditions, and none is met."""
+    """All remaining tasks wait for conditions, and none of the conditions is met."""
 
     def __init__(self, waiting: dict[str, str]) -> None:
         said = ", ".join(f"{task} waits for {what}" for task, what in waiting.items())
@@ -48,19 +49,20 @@ class Deadlock(HandeyeError):
 
 
 class Agenda(MutableRecord, Generic[Time], kw_only=True):
-    """Which task continues next, and when: a record, so that a system whose tasks are data can keep it in its state.
+    """The order and times at which tasks continue, as a record that a system can keep in its state.
 
-    The task that is due first continues; of those due at once, the first in `due`, but none twice before the others.
+    The task that is due first continues. Of several tasks due at once, the first in `due` continues, but no task
+    continues twice before the others.
     """
 
     now: Time
     due: dict[str, tuple[Time, int]] = msgspec.field(default_factory=dict)
-    """For each task, the time since when it is due or waits, and how often it has gone on at that time."""
+    """For each task: the time since which it is due or waits, and how often it has continued at that time."""
     waits: dict[str, str] = msgspec.field(default_factory=dict)
-    """The tasks that wait for a condition, with its name."""
+    """The tasks that wait for a condition, each with the condition's name."""
 
     def add(self, task: str) -> None:
-        """Let another task begin now, behind those there are."""
+        """Add a task that begins now, after the tasks already due."""
         self.due[task] = self.now, 0
 
     def turn(
@@ -69,10 +71,11 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         pass_until: Callable[[Time], Time],
         next_event: Callable[[], Time | None] = lambda: None,
     ) -> str | None:
-        """The task whose turn it is: call `sleep`, `wait` or `end` for it then. None: all have ended.
+        """The task that continues next, for which the caller must then call `sleep`, `wait` or `end`; None if all
+        tasks have ended.
 
-        `met` says whether what a task waits for has come about; `pass_until` lets time pass at least until a time, and
-        returns when it then is; `next_event` says when something happens by itself that tasks may wait for.
+        `met` tells whether the condition of a waiting task is met; `pass_until` lets time pass at least until a
+        given time and returns the new time; `next_event` gives the time of the next event for which tasks may wait.
         """
         while self.due:
             ready = [
@@ -94,7 +97,7 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         return None
 
     def sleep(self, task: str, duration: Time) -> None:
-        """Let a task continue this long after it was due, however late it was served."""
+        """Let a task continue `duration` after the time at which it was due, even if it continued late."""
         time, again = self.due[task]
         if duration < 0:
             raise BadArgument(f"{task} cannot wait for a negative time")
@@ -103,25 +106,25 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         self.due[task] = (time + duration, 0) if duration else (time, again + 1)
 
     def wait(self, task: str, name: str) -> None:
-        """Let a task wait for a condition."""
+        """Let a task wait for the condition `name`."""
         self.sleep(task, self.now - self.now)
         self.waits[task] = name
 
     def end(self, task: str) -> None:
-        """Take a task out."""
+        """Remove a task that has ended."""
         del self.due[task]
 
 
 def microseconds(count: int) -> Fraction:
-    """Whole microseconds as a duration, s."""
+    """A whole number of microseconds as a duration, s."""
     return Fraction(count, 1_000_000)
 
 
 def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> list[T]:
-    """Run tasks together under one clock, each when it is due; returns how each ended.
+    """Run tasks together under one clock, each when it is due; returns the result of each.
 
-    An arm whose motion has ended is no longer driven while others move on, so that its watchdog sets its brakes.
-    A deadlock calls the tasks by `names`, by default `task 1`, `task 2` and so on.
+    An arm whose motion has ended is no longer driven while other arms move, so its watchdog sets its brakes.
+    `names` are the names of the tasks in a deadlock, by default `task 1`, `task 2` and so on.
     """
     names = names or [f"task {number + 1}" for number in range(len(tasks))]
     running = dict(zip(names, tasks, strict=True))
@@ -163,7 +166,7 @@ def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> li
 
 @lru_cache(maxsize=64)
 def _exact(seconds: float | Fraction) -> Fraction:
-    """The rational duration that a number stands for: 1/60 s for 0.016666666666666666."""
+    """The exact duration that a floating-point number stands for: 1/60 s for 0.016666666666666666."""
     if isinstance(seconds, Fraction):
         return seconds
     if not isfinite(seconds):

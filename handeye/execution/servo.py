@@ -1,8 +1,8 @@
-"""A servo: one period of the control of an arm, in which torques are put out and force on the hand is felt.
+"""The servo of an arm: one servo period, in which torques are commanded and the force on the hand is estimated.
 
-Everything here goes through the ports: positions are the potentiometers', refined by tachometers; forces are what the
-joint torques leave unexplained. A period does not let time pass: it yields when it has put out everything, and reads
-the cell when it is asked to continue.
+The servo uses only the device interfaces: positions come from the potentiometers, refined by the tachometers, and
+forces from the residual of the joint torques. A period does not let time pass itself: it yields after commanding
+all devices, and reads the cell when it is resumed.
 """
 
 from collections.abc import Callable, Generator
@@ -29,30 +29,34 @@ from handeye.touch.senses import PLATEAU, STARTING_PERIODS, kept_apart, leapt
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ServoPeriod:
-    """Readings, torques, felt force and guards of a servo period."""
+    """Readings, torques, sensed force and guards of one servo period."""
 
     sensed: Sensed  # readings of all devices at its end
     effort: Array
-    """Torques put out in it, shape (n,), N m (N if prismatic); zero under the brakes and where servos are closed
-    outside the computer."""
+    """Commanded joint torques, shape (n,), N m (N if prismatic); zero under brakes, and for servos outside the
+    computer.
+    """
     wrench: Array | None = None
-    """Force (N) of the hand on the world and moment (N m) about its tool centre point in W, shape (6,), as estimated,
-    or the force alone, shape (3,), by a sensor; None: not estimated, or only for the tare."""
+    """Force (N) of the hand on the world and moment (N m) about its tool centre point in W, shape (6,), as
+    estimated; or only the force, shape (3,), from a sensor; None if not estimated, or only for the tare.
+    """
     guards: tuple[ActiveGuard, ...] = ()  # guards that watch at its end
 
 
 T = TypeVar("T")
 Motion = Generator[float, None, T]
-"""A motion under way: it yields the time, s, after which it must continue, and returns how it ended."""
+"""A motion in progress: a generator that yields the time, s, after which it must be resumed, and returns its
+result.
+"""
 
 
 class Halted(Exception):
-    """The panic button was hit: drives are off and brakes set since this servo period."""
+    """The panic button was pressed: drives are off and brakes set since this servo period."""
 
 
 @dataclass(slots=True, kw_only=True)
 class Servo:
-    """The servo of one arm, and all that is put out to its cell with every torque."""
+    """The servo of one arm, and the commands that it sends to its cell with every torque."""
 
     cell: Workcell
     arm: ArmModel
@@ -70,13 +74,13 @@ class Servo:
 
     @property
     def built(self) -> ArmModel:
-        """The arm with links as heavy as it has found them to be."""
+        """The arm model with the link weights that the arm has measured."""
         links = self.state.links
         return self.arm if links is None else weighed(self.arm, tuple(links.tolist()))
 
     @property
     def chain(self) -> ArmArithmetic:
-        """The arithmetic of `built`."""
+        """The arithmetic for the model `built`."""
         built = self.built
         if self._chain is None or self._chain[0] is not built:
             self._chain = built, self.arithmetic(built)
@@ -90,15 +94,15 @@ class Servo:
         return self.cell.sense()
 
     def hand(self) -> Pose:
-        """`X_WT` by the arm's own sensors."""
+        """The hand pose `X_WT` by the arm's own sensors."""
         return self.chain.forward(self.state.here)
 
     def dynamics(self) -> Dynamics:
-        """Inertia, bias torques and Jacobian at rest at the present set-point."""
+        """Mass matrix, bias torques and Jacobian at rest, at the present set-point."""
         return self.chain.at_rest(self.state.q)
 
     def _reading(self, direction: Array) -> Reading:
-        """Reading for the guards."""
+        """The sensor reading for the guards."""
         sensed = self.sensed
         return Reading(
             force=-self.state.wrench[:3], moment=-self.state.wrench[3:], direction=direction,
@@ -118,7 +122,7 @@ class Servo:
         dither: Array | float = 0.0,
         guards: tuple[ActiveGuard, ...] = (),
     ) -> Motion[Array]:
-        """One servo period towards a set-point close by; see `_servo`."""
+        """One servo period towards a set-point nearby; see `_servo`."""
         qd, rest = (q - self.state.q) / self.period, np.zeros(len(self.state.q))
         spare = yield from self._servo(
             here, self.state.q, qd, rest,
@@ -142,10 +146,10 @@ class Servo:
     ) -> Motion[Array]:
         """One servo period in which the arm should begin at `q` with rates `qd`.
 
-        The force on the hand is estimated at its end if `estimate` is set, for `guards` or, if `taring`, as what the
-        tare is made of. `sense` is which way joints slide, -1 to 1: friction that opposes it is overcome, and not felt.
-        `dither` are torques beside those that the servo needs. Returns the torques, (n,), that weight, inertia and
-        load leave unexplained, friction included.
+        If `estimate` is set, the force on the hand is estimated at the end of the period, for `guards` or, if
+        `taring`, for the tare. `sense` is the direction in which each joint slides, -1 to 1: friction against it is
+        compensated and not sensed as force. `dither` are torques in addition to those of the servo. Returns the
+        torque residual, (n,), beyond weight, inertia and load, with friction included.
         """
         q_was, qd_was = self.state.here, self.sensed.qd
         load = here.J[2] * self.state.load
@@ -175,7 +179,7 @@ class Servo:
         taring: bool = False,
         periods: int = 1,
     ) -> Motion[None]:
-        """One servo period under a torque, or several under the brakes (None), at whose end `feel` estimates force."""
+        """One servo period with torques `tau`, or under brakes (None); `feel` estimates the force at its end."""
         halted = self.halt()
         if halted:
             tau, self.state.tool = None, 0.0
@@ -221,7 +225,7 @@ class Servo:
             raise Halted
 
     def _put_out(self, tau: Array | None) -> None:
-        """Command every device of the cell for the next servo period."""
+        """Command all devices of the cell for the next servo period."""
         cell = self.cell
         cell.arm.drive(tau)
         if cell.hand is not None:

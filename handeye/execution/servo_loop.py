@@ -1,7 +1,7 @@
-"""The servo loop: motions of an arm along set-points, a servo period at a time, while guards watch.
+"""The servo loop: motions of an arm along set-points, one servo period at a time, watched by guards.
 
-A motion does not let time pass. It is an iterator that has put out everything for a period when it yields, and reads
-the cell when it is asked to continue; the caller lets the clock advance in between. So any number of arms move under
+A motion does not let time pass itself. It is a generator that yields after commanding all devices for a period, and
+reads the cell when it is resumed; in between, the caller advances the clock. Any number of arms can thus move under
 one clock.
 """
 
@@ -39,27 +39,37 @@ from handeye.touch.guards import ActiveGuard, Monitor, Trip
 from handeye.touch.senses import FREE_FORCE, off_zero
 
 DITHER = 2.0
-"""Torque that shakes a joint, over its friction. Chosen: as much again is left to move it."""
+"""Torque that shakes a joint, as a multiple of its friction. Chosen: half of it overcomes friction, the other half
+moves the joint.
+"""
 _FRESH = 0.25  # weight of the last servo period in the mean over the last few; chosen
 _AT_ONCE = 15
-"""Servo periods, at most, for which an arm that the brakes hold is left alone: the panic button waits .25 s."""
+"""Greatest number of servo periods for which an arm under brakes is not served; the panic button then waits up to
+.25 s.
+"""
 LIGHT = 5.0
-"""Heaviest load (N) with which the drag of the joints is judged: a heavier one that is lost is felt as much. Chosen."""
+"""Greatest load (N) with which the drag of joints is judged: the loss of a heavier load would be sensed as just as
+much drag. Chosen.
+"""
 SWING = 0.3
-"""Share of its limit by which a joint that swings has been off to either side. Chosen: what stops it pushes one way."""
+"""Fraction of the limit by which a swinging joint is off its set-point on both sides; a joint that is stopped is
+off on one side. Chosen.
+"""
 PRESS_TIME = 10.0
-"""s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
+"""Time, s, after which a pressing motion ends if it neither advances nor meets its guard. Chosen."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
-    """Outcome of a motion."""
+    """The outcome of a motion."""
 
     trip: Trip | None = None  # the guard that ended it
     error: int | None = None  # an error of the motion itself (servo lag, watchdog)
     cause: Cause | None = None  # cause of that error, if there is more to say of it
     off: float = 0.0
-    """Distance of the hand from its set-points in the middle of the way, m, if it is too far from the last."""
+    """Distance of the hand from its set-points in the middle of the motion, m, if the hand ended too far from the
+    last set-point.
+    """
 
 
 REACHED = Outcome()
@@ -68,16 +78,16 @@ CUT = Outcome(error=errors.WATCHDOG)
 
 @dataclass(slots=True, kw_only=True)
 class ServoLoop(Servo):
-    """The motions of one arm, and what ends them."""
+    """The motions of one arm, and the checks that end them."""
 
     def _periods(self, seconds: float) -> int:
-        """Servo periods in a time (s): one at least, if it is any time at all."""
+        """Number of servo periods in a time (s): at least one if the time is positive."""
         return max(1, round(seconds / self.period)) if seconds > 0 else 0
 
     # -- motions, a servo period at a time -----------------------------------------------------------
 
     def braking(self, seconds: float) -> Motion[None]:
-        """Set the brakes; the set-point becomes where the arm then is."""
+        """Set the brakes; the set-point becomes the arm's position at the end."""
         left = self._periods(seconds)
         while left:
             periods = 1 if left == self._periods(seconds) else min(left, _AT_ONCE)
@@ -88,7 +98,9 @@ class ServoLoop(Servo):
         self.state.q, self.state.met = self.state.here.copy(), None
 
     def floating(self, seconds: float) -> Motion[None]:
-        """Bear gravity and load only, so that a push moves the hand; the set-point becomes where the arm then is."""
+        """Carry only gravity and load, so that a push moves the hand; the set-point becomes the arm's position at
+        the end.
+        """
         for _ in range(self._periods(seconds)):
             here = self.chain.at_rest(self.state.here)
             borne = here.bias + here.J[2] * self.state.load
@@ -104,11 +116,11 @@ class ServoLoop(Servo):
         drag: tuple[JointDrag, JointDrag] | None = None,
         balance: TorqueBalance | None = None,
     ) -> Motion[Outcome]:
-        """Follow set-points; end early when `guard` trips. `drag`, of all of it and of its first half, and `balance`
-        take down what torques that takes.
+        """Follow set-points; end early if `guard` trips. `drag`, for the whole motion and for its first half, and
+        `balance` record the torques.
 
-        The guard looks along `direction`, unit vectors in W, shape (3,) or (N, 3); `beside` sets what else is put out
-        in a servo period, by the number of its set-point.
+        The guard watches along `direction`, unit vectors in W, shape (3,) or (N, 3); `beside` sets further commands
+        of a servo period, by the number of its set-point.
         """
         if len(samples) == 0:
             return REACHED
@@ -157,7 +169,8 @@ class ServoLoop(Servo):
     def gliding(self, samples: Samples, guard: Monitor | None, direction: Array | None) -> Motion[Outcome]:
         """Follow set-points through free air; see `following`.
 
-        A hand that something stops is off its set-point there, and one on which a force acts is off it all the way.
+        The hand's distance from its set-points in the middle tells two errors apart: a hand that is stopped is off
+        from there on, a hand on which a force acts is off all the way.
         """
         held = not self.state.in_air and off_zero(self.state.wrench[:3])  # it comes from what it pressed on
         self.state.in_air = False
@@ -178,9 +191,10 @@ class ServoLoop(Servo):
         return outcome
 
     def complying(self, course: Course, guard: Monitor | None) -> Motion[Outcome]:
-        """Go straight, pressing, turning or giving way as the course says; end early when `guard` trips.
+        """Move along a straight course, pressing, turning or yielding as it says; end early if `guard` trips.
 
-        A position servo in which the measured force moves the set-point: it needs no joint to be slack.
+        The arm stays under a position servo whose set-point is moved by the measured force, so that no joint needs
+        to be slack.
         """
         self.state.met = None
         zeroed = yield from self.zeroing()
@@ -221,13 +235,15 @@ class ServoLoop(Servo):
         return Outcome(error=errors.SERVO_LAG, cause=HandStuck(moved=round(gone, 6)))
 
     def _sense(self, X_WT: Pose, course: Course) -> Array:
-        """Which way the joints slide on a course that begins at a pose, shape (n,); see `sliding`."""
+        """Direction in which each joint slides on a course that begins at a pose, shape (n,); see `sliding`."""
         ahead = solve(self.arm, translated(X_WT, course.speed * self.period * course.direction), self.state.q)
         goal = self.state.q if ahead.q is None else ahead.q
         return sliding(self.arm, (goal - self.state.q) / self.period)
 
     def shifting(self, here: Dynamics, X_WT: Pose, *, feeling: bool = False) -> Motion[Outcome]:
-        """One period towards a pose close by; force on the hand is estimated at its end if it is `feeling`."""
+        """Move for one servo period towards a pose nearby; with `feeling`, the force on the hand is estimated at
+        the end.
+        """
         self.state.met = None
         step = solve(self.arm, X_WT, self.state.q)
         if step.q is None:
@@ -237,17 +253,17 @@ class ServoLoop(Servo):
         return CUT if self.state.cut else REACHED
 
     def holding(self, ticks: int) -> Motion[Array]:
-        """Hold the set-point; returns the torques that are left unexplained on average, shape (n,)."""
+        """Hold the set-point; returns the mean torque residual, shape (n,)."""
         here, met = self.dynamics(), np.zeros(len(self.state.q))
         for _ in range(ticks):
             met += yield from self._approach(here, self.state.q, estimate=False)
         return met / max(ticks, 1)
 
     def zeroing(self) -> Motion[Outcome]:
-        """Hold still and take what is felt now as zero force; in free air that is next to none.
+        """Hold still and take the present force as zero; in free air the force is close to zero.
 
-        Where friction is known, dither keeps the joints sliding to and fro before: else they rest anywhere within their
-        friction, and the tare with it.
+        If friction is known, dither first keeps the joints sliding to and fro. Without dither, the joints could
+        rest anywhere within their friction, and the tare would contain that friction.
         """
         here, dither, settle = self.dynamics(), DITHER * self.state.friction, self.arm.servo.settle
         felt = []
@@ -268,14 +284,17 @@ class ServoLoop(Servo):
     def height(self) -> float:
         """Height in W (m) at which the hand has stopped, by its set-point.
 
-        A converter's steps are read as up to .05 in at the hand. A set-point has none; and a moving arm passes many
-        readings, whose steps average out, so that two motions that end on the same force end as high on average.
+        The steps of the converters are up to .05 in at the hand, and a set-point has no steps. A moving arm passes
+        many readings, over which the steps average out, so two motions that end on the same force end at the same
+        mean height.
         """
         met = self.state.met
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])
 
     def _freeze(self, direction: Array) -> None:
-        """Hold where the hand is along `direction`, with no reference velocity left to kick it back."""
+        """Hold the hand at its present place along `direction`, with zero reference velocity, so that it is not
+        kicked back.
+        """
         self.state.met = self.chain.forward(self.state.q)[:3, 3]
         X_set, X_is = self.chain.forward(self.state.q), self.chain.forward(self.state.here)
         along = float((X_is[:3, 3] - X_set[:3, 3]) @ direction)
@@ -283,10 +302,10 @@ class ServoLoop(Servo):
         self.state.q = self.state.here.copy() if held.q is None else held.q
 
     def _arrived(self, on_the_way: Array, met: Array, swing: Array) -> Outcome:
-        """Check that the hand is at its set-point.
+        """Check that the hand has reached its set-point.
 
-        `on_the_way`, shape (n,): by how much joints were off theirs; `met`, (n,): torques that are left unexplained;
-        `swing`: see `_lagging`.
+        `on_the_way`, shape (n,): deviation of the joints from their set-points during the motion; `met`, (n,):
+        torque residual; `swing`: see `_lagging`.
         """
         off = float(np.linalg.norm(self.hand()[:3, 3] - self.chain.forward(self.state.q)[:3, 3]))
         if off < self.arm.servo.short:
@@ -301,21 +320,23 @@ class ServoLoop(Servo):
     # -- doubting -----------------------------------------------------------------------------------
 
     def _unloaded(self) -> Array:
-        """Force on the hand by the last tare, less the load that the servo bears: shape (3,), N."""
+        """Force on the hand by the last tare, without the load that the servo carries, shape (3,), N."""
         return np.asarray(self.state.tare[:3] + np.array((0.0, 0.0, self.state.load)))
 
     def _force_in_air(self) -> Outcome:
-        """The error that the last tare is no zero force."""
+        """The error if the force taken as zero at the last tare is too large for free air."""
         x, y, z = (round(float(component), 6) for component in self._unloaded())
         cause = ForceInAir(force=(x, y, z), limit=FREE_FORCE, load=self.state.load)
         return Outcome(error=errors.FORCE_WRONG, cause=cause)
 
     def _sensors(self) -> JointAgreement:
-        """The sensors of the joints, to be compared from now on."""
+        """Start a comparison of the sensors of all joints."""
         return JointAgreement(arm=self.arm, start=self.sensed.q, rate=self.sensed.qd)
 
     def _doubted(self, sensors: JointAgreement) -> Outcome | None:
-        """Compare the sensors of the joints; the set-point becomes where the arm says it is if they disagree."""
+        """Compare the sensors of the joints; if they disagree, the set-point becomes the measured position of the
+        arm.
+        """
         change, self.state.crept = self.state.crept, None  # under the brakes; reported once
         rested = None if change is None else crept(self.arm, change)
         leapt, self.state.jump = self.state.jump, None
@@ -335,7 +356,9 @@ class ServoLoop(Servo):
         return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
 
     def _behind(self, met: Array, swing: Array) -> Outcome | None:
-        """See that every joint keeps up with its set-point, which else becomes where it is; see `_lagging`."""
+        """Check that every joint follows its set-point; if one does not, the set-point becomes the arm's position.
+        See `_lagging`.
+        """
         joint, lag = self._lagging(swing)
         if lag <= 1.0:
             return None
@@ -344,9 +367,9 @@ class ServoLoop(Servo):
         return self._alone(met) or Outcome(error=errors.SERVO_LAG, cause=cause)
 
     def _lagging(self, swing: Array) -> tuple[int, float]:
-        """The joint that is furthest behind for its limit, and by what multiple of that.
+        """The joint whose following error is largest relative to its limit, and the ratio.
 
-        `swing`, shape (2, n), takes down how far each joint has been off to either side, as such a multiple.
+        `swing`, shape (2, n), records the largest such ratio of each joint to either side.
         """
         off = (self.state.here - self.state.q) / constants(self.arm).lag
         np.maximum(swing, (off, -off), out=swing)
@@ -354,9 +377,10 @@ class ServoLoop(Servo):
         return joint, abs(float(off[joint]))
 
     def _dragging(self, drag: JointDrag, lagging: str = "") -> Outcome | None:
-        """See that no joint took far more than its friction on a motion through free air, if friction is known.
+        """Check that no joint took far more torque than its friction in a motion through free air, if friction is
+        known.
 
-        If a joint lagged behind, no other one is to be blamed.
+        If a joint lagged behind, no other joint is blamed.
         """
         stiff = drag.stiff(self.state.friction) if self.state.friction.any() else None
         if stiff is None or lagging not in ("", self.arm.joints[stiff.joint].name):
@@ -368,7 +392,7 @@ class ServoLoop(Servo):
         return Outcome(error=errors.JOINT_STIFF, cause=cause)
 
     def _off_balance(self, balance: TorqueBalance) -> Outcome | None:
-        """Compare the torques of a motion through free air with the weight of the arm, as it knows that by now."""
+        """Compare the torques of a motion through free air with the arm's present estimate of its weight."""
         borne = jacobian(self.arm, balance.postures[len(balance.postures) // 2])[2] * self.state.load
         self.state.weights, found = balance.weighed(self.state.weights, borne)
         if found is None:
@@ -380,7 +404,7 @@ class ServoLoop(Servo):
         return Outcome(error=errors.FORCE_WRONG, cause=cause)
 
     def _alone(self, met: Array) -> Outcome | None:
-        """The error of the joint that alone keeps the arm from its set-point, unless a force at the hand does."""
+        """The error of the joint that alone keeps the arm from its set-point; None if a force on the hand does."""
         joint = alone(self.arm, jacobian(self.arm, self.state.here), met)
         if joint is None:
             return None
@@ -393,5 +417,5 @@ class ServoLoop(Servo):
 
 
 def _active(guard: Monitor | None, direction: Array) -> tuple[ActiveGuard, ...]:
-    """The guards of a motion in a servo period in which it goes along a unit vector."""
+    """The active guards of a motion in a servo period, while the motion goes along the unit vector `direction`."""
     return () if guard is None else guard.active(direction)

@@ -1,7 +1,7 @@
 """The state of a working phase: one record for executor, actions, servo loop and world model.
 
-Plan, arm and cell are no part of it: they are given again on resuming. A snapshot is a copy of the record
-(`handeye.core.mutable_records`).
+Plan, arm and cell are not part of the state: they are given again when a run is resumed. A snapshot is a copy of
+the record (`handeye.core.mutable_records`).
 """
 
 from dataclasses import dataclass, fields, is_dataclass
@@ -32,7 +32,7 @@ from handeye.vision.marks import GraspLine, Mark, marks
 
 
 class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """An executed step; `before` and `after` refer to its start and end."""
+    """An executed step. Pairs give the values before and after the step."""
 
     step: Natural
     way: bytes = b""  # set-points, see `undo.way`; empty: nothing moved
@@ -45,7 +45,7 @@ class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
     ended: GuardKind | None = None  # the guard that ended it
     risen: float = 0.0  # rise of the hand, m, while its screw was being turned out, if that was interrupted
     remembered: dict[str, bytes] = msgspec.field(default_factory=dict)
-    """Memory before it, where it has changed; see `undo.memory`."""
+    """Fields of the program's memory that the step changed, with their values before it; see `undo.memory`."""
     enters: bool = False  # first of its stage
     called: bool = False  # called the operator
 
@@ -75,14 +75,14 @@ class SearchState(MutableRecord, kw_only=True):
     along: float | None = None  # direction of its line, rad from table x; None: a pattern
 
     def offset(self, pattern: SearchPattern) -> tuple[float, float]:
-        """Horizontal offset of the present place in a pattern, m."""
+        """Horizontal offset of the present place of the search, m."""
         found = self.place(pattern, self.count)
         if found is None:
             raise Refused(f"the search has no place {self.count}, which it has reached")
         return found
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:
-        """Horizontal offset of a place on the line or in a pattern, m; None past the last."""
+        """Horizontal offset of a place on the line or in a pattern, m; None after the last place."""
         if number >= self.limit:
             return None
         found = pattern(number) if self.along is None else line(number, self.along)
@@ -91,7 +91,7 @@ class SearchState(MutableRecord, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shot:
-    """A picture with its view."""
+    """A picture, and the view in which it was taken."""
 
     picture: Picture
     view: View
@@ -99,7 +99,7 @@ class Shot:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VisionResult:
-    """Results of vision in a picture."""
+    """The findings of vision in a picture."""
 
     general: GeneralLocation | None = None
     specific: SpecificLocation | None = None
@@ -108,7 +108,7 @@ class VisionResult:
     match: PartMatch | None = None
 
     def marks(self) -> list[Mark]:
-        """Marks on the picture."""
+        """Marks for the findings in the picture."""
         return marks(
             general=self.general,
             specific=self.specific,
@@ -128,29 +128,31 @@ class DriveState(MutableRecord, kw_only=True):
     grip: float  # finger force limit, N
     load: float = 0.0  # compensated weight, N
     links: Array | None = None
-    """Link weights by the arm's own weighing over the model's, shape (n,); None: not weighed."""
+    """Link weights that the arm has measured, divided by the model's, shape (n,); None: not measured."""
     weights: Array | None = None
-    """What is not known of links and drives since, (3n, 1 + 3n), see `arm.torque_balance`; None: nothing more."""
+    """Later estimate of the errors of links and drives with its covariance, (3n, 1 + 3n), see `arm.torque_balance`;
+    None: none yet.
+    """
     tool: float = 0.0  # screwdriver speed, rad/s
     current: float = 0.0  # its greatest torque since that speed was set, N m
     starting: list[float] = msgspec.field(default_factory=list)
-    """Its torques in the first servo periods since then, N m."""
+    """Torques of the screwdriver in the first servo periods since it was switched, N m."""
     lately: list[float] = msgspec.field(default_factory=list)
-    """Those of the last second since then, N m."""
+    """Torques of the screwdriver in the last second since it was switched, N m."""
     leapt: GapJumped | None = None  # the first servo period since the last step in which the gap did
     magnet: bool = True  # the magnet of its bit is on
     lamp: bool = False
     cut: bool = False  # the watchdog has cut the drives and set the brakes
     met: Array | None = None  # hand set-point in W (m) where a guard ended the last motion
     rest: Array | None = None
-    """Potentiometers at rest under the brakes; None while the arm moves or is driven."""
+    """Potentiometer readings at rest under the brakes; None while the arm moves or is driven."""
     crept: Array | None = None  # their change until it was driven again; None once a motion has checked it
     jump: Disagreement | None = None
-    """A reading that jumped since the last motion; None once a motion has told it."""
+    """A reading that has jumped since the last motion; None once a motion has reported it."""
     in_air: bool = False  # the last motion was a MOVE without contact
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))
-    """External wrench on the hand in W, less the tare."""
+    """External wrench on the hand in W, N and N m, after taring, shape (6,)."""
 
     @classmethod
     def holding(cls, sensed: Sensed, arm: ArmModel) -> "DriveState":
@@ -159,14 +161,14 @@ class DriveState(MutableRecord, kw_only=True):
         return cls(q=q.copy(), here=q.copy(), friction=np.zeros(len(q)), gap=sensed.gap, grip=arm.hand.grip)
 
     def hold_anew(self, sensed: Sensed, arm: ArmModel) -> None:
-        """Reset to hold the arm, keeping its measurements of itself."""
+        """Reset the state to hold the arm, but keep the arm's measurements of itself."""
         anew = DriveState.holding(sensed, arm)
         anew.friction, anew.links, anew.weights = self.friction, self.links, self.weights
         put_back(self, anew)
 
 
 class ExecutionState(SystemState, kw_only=True):
-    """Everything a working phase remembers from step to step."""
+    """The whole memory of a working phase from step to step."""
 
     pending: Fault | None = None  # an error that the next step may test
     idle: int = 0  # steps since time last passed
@@ -177,7 +179,7 @@ class ExecutionState(SystemState, kw_only=True):
     search: SearchState | None = None
     restored: dict[str, Array] = msgspec.field(default_factory=dict)  # added to the goal of the last Move
     goal: Array = msgspec.field(default_factory=lambda: np.zeros(3))
-    """Goal of the last Move without search offset, W, m."""
+    """Goal of the last Move without search offset, in W, m."""
     place: str = ""  # its name
     travel: float = 0.0  # m, of the last straight motion
     finger_line: Array | None = None  # unit vector, if the last action was a Center
@@ -196,16 +198,18 @@ class ExecutionState(SystemState, kw_only=True):
     """Executed steps that have not been reversed, in order."""
     undoing: ReversalOrder | None = None  # the reversal in progress
     lets_go: Natural | None = None
-    """Index of the step that took the screw which has been turned out: reversed, it leaves the screw there."""
+    """Index of the step that took the screw now turned out; when that step is reversed, it leaves the screw there."""
     held: float | None = None
-    """Gap at which the arm, reversing, holds something, m; None if it holds nothing, or the program has continued."""
+    """Gap, m, at which the arm holds an object while it reverses; None if it holds nothing, or the program has
+    continued.
+    """
     unwound: dict[int, int] = msgspec.field(default_factory=dict)
-    """Reversals of the present stage by each of its steps; a reversal does not reduce them."""
+    """Number of reversals of the present stage begun at each of its steps; a reversal does not reduce it."""
     drive: DriveState
 
 
 def check_fits(state: ExecutionState, plan: Plan, arm: ArmModel) -> None:
-    """Raise BadFile unless all references, sizes and numbers of a state fit the plan and arm."""
+    """Raise BadFile unless all references, sizes and numbers of a state fit plan and arm."""
     if not _finite(state):
         raise BadFile("the state of the run holds a value that is not a finite number")
     if not (_fits_program(state, plan) and _fits_sizes(state, arm)):
@@ -257,6 +261,6 @@ def _finite(value: object) -> bool:
 
 
 def vector(p: Array) -> tuple[float, float, float]:
-    """A vector for an event, rounded to the micrometre."""
+    """A vector for an event, rounded to a micrometre."""
     x, y, z = (round(float(c), 6) + 0.0 for c in p)
     return x, y, z

@@ -1,4 +1,6 @@
-"""An arm whose servo is closed in the computer as a machine of axes: those of its tool, and the gap of its hand."""
+"""Presents an arm whose servo runs in the computer as a machine of axes: the axes of its tool, and the gap of its
+hand.
+"""
 
 from dataclasses import replace
 from math import pi
@@ -24,17 +26,20 @@ _AXES: Final = ("x", "y", "z", "o", "a", "t")
 
 
 class ToolAxes(Axes):
-    """Axes x, y, z (m, in W), O, A, T (rad) and the gap of the hand (m); what the hand exerts on the world is felt.
+    """The axes x, y, z (m, in W), O, A, T (rad) and the gap of the hand (m), with the force that the hand exerts on
+    the world as a channel.
 
-    The arm is driven a servo period for each goal that is put, towards it with at most the speed of each axis, and no
-    path is planned: the caller must name goals every period, or the watchdog sets the brakes. Force is felt well
-    where the drive knows its joints' friction (`measure_joints`), and counts from where `tare` was called last. It is
-    felt a period late: a descent on the table that is to stop at 6 N does so at 6.1 to 7.5 N with .01 m/s, but at 17 N
-    with .025 and at 34 N with .05.
+    For each goal, the arm is driven for one servo period towards the goal, at most at the speed of each axis. No
+    path is planned: the caller must give a goal in every period, or the watchdog sets the brakes. Force is
+    estimated well if the drive knows the joints' friction (`measure_joints`), relative to the last call of `tare`.
+    The estimate is one period late: a descent on the table that should stop at 6 N stops at 6.1 to 7.5 N at .01
+    m/s, but at 17 N at .025 m/s and at 34 N at .05 m/s.
     """
 
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
-        """Take an arm that is held where it is; goals may be `reach` (m) from the origin of W, if it gets there."""
+        """Take an arm that is held in place; goals may be up to `reach` (m) from the origin of W, if the arm can
+        reach them.
+        """
         self.name, self._drive = name, drive
         self._start = self._goal = self._pose(drive.state.q)  # set-points before and at the end of a period
         self._put_at = 0.0  # s
@@ -59,7 +64,7 @@ class ToolAxes(Axes):
         return self._drive.period
 
     def tare(self) -> None:
-        """Hold still for some periods, and take the force felt as zero."""
+        """Hold still for some periods, and take the sensed force as zero."""
         self._finish()
         self._goal = self._start if self._motion is not None else self._goal
         self._end(self._drive.zero())
@@ -73,7 +78,7 @@ class ToolAxes(Axes):
         return AxesReading(time=sensed.time, q=q, channels=dict(zip(parts, map(float, values), strict=True)))
 
     def put(self, goal: Array) -> None:
-        """Drive the arm for a period towards a goal; raises Refused where it cannot go there."""
+        """Drive the arm for one period towards a goal; raises Refused if the arm cannot go there."""
         if np.shape(goal) != (count := len(self._specs),):
             raise BadArgument(f"a goal of {self.name} is {count} numbers, one for each axis")
         if not np.isfinite(goal).all():
@@ -92,7 +97,7 @@ class ToolAxes(Axes):
         self._go_on(self._motion)
 
     def _finish(self) -> None:
-        """Take in what the arm felt in the period that has passed, if one has."""
+        """Process the readings of the last period if it has passed."""
         if self._motion is not None and self._drive.cell.clock.now > self._put_at:
             self._go_on(self._motion)
 
@@ -109,7 +114,7 @@ class ToolAxes(Axes):
             raise Refused(f"{self.name} does not reach its goal: {ERRORS[outcome.error]}")
 
     def _pose(self, q: Array) -> Array:
-        """x, y, z, O, A, T of the tool where the joints are at `q`, shape (6,)."""
+        """x, y, z, O, A, T of the tool at joint positions `q`, shape (6,)."""
         X_WT = forward(self._drive.arm, q)
         return np.array([*X_WT[:3, 3], *hand_angles(X_WT)])
 

@@ -40,7 +40,7 @@ Found = TypeVar("Found")
 
 
 def _tv(run: ExecutionContext) -> TvCamera:
-    """The cell's camera, which every plan that looks requires."""
+    """The cell's camera; every plan that takes pictures requires one."""
     assert run.cell.camera is not None
     return run.cell.camera
 
@@ -59,7 +59,7 @@ def lens(run: ExecutionContext, operation: Lens) -> Fault | None:
 
 
 def aim(run: ExecutionContext, operation: Aim) -> Fault | None:
-    """Point the camera at a part's face or a hand position, and focus there."""
+    """Turn the camera to a part's face or to a hand position, and focus there."""
     p_W = _target(run, operation.target)
     pan, tilt = _known(run).aim(p_W, run.state.lens)
     _start(run, "aim", _tv(run).aim(pan, tilt))
@@ -81,7 +81,7 @@ def _target(run: ExecutionContext, name: str) -> Array:
 
 
 def look(run: ExecutionContext, operation: Look) -> Fault | None:
-    """Take a picture, once the camera's mechanism is ready."""
+    """Take a picture as soon as the camera's mechanism is ready."""
     _wait(run, "wait", run.state.camera_ready - run.time)
     _wait(run, "digitise", DIGITISE)
     picture = _tv(run).digitise(hold_target=operation.hold_target)
@@ -98,7 +98,7 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
 
 
 def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | None:
-    """Why a picture is not a sound live camera's, or None."""
+    """The reason why a picture cannot be from a sound live camera, or None."""
     if blank(picture):
         return PictureBlank(picture=name)
     for earlier, shot in run.state.shots.items():
@@ -111,7 +111,7 @@ def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | No
 
 
 def _start(run: ExecutionContext, action: str, seconds: float) -> None:
-    """Extend the time at which the camera is ready; its mechanism does one action after another."""
+    """Extend the time at which the camera will be ready; its mechanism does one action after another."""
     if seconds <= 0:
         return
     run.state.camera_ready = max(run.state.camera_ready, run.time) + seconds
@@ -119,7 +119,7 @@ def _start(run: ExecutionContext, action: str, seconds: float) -> None:
 
 
 def _wait(run: ExecutionContext, action: str, seconds: float) -> None:
-    """Wait for the camera under the brakes, in whole servo periods."""
+    """Wait for the camera with the brakes set, in whole servo periods."""
     period = run.drive.period
     periods = math.ceil(round(seconds / period, 6))
     if periods <= 0:
@@ -134,7 +134,7 @@ def _no_picture(number: int, picture: str) -> Fault:
 
 
 def general(run: ExecutionContext, operation: General) -> Fault | None:
-    """Locate a part roughly; its measured place becomes the result."""
+    """Locate a part roughly; the result becomes its measured place."""
     if "vision" in run.without:
         return None
     part = run.world.parts[operation.part]
@@ -153,7 +153,7 @@ def general(run: ExecutionContext, operation: General) -> Fault | None:
 
 
 def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
-    """Locate a part by its holes, which measures its pose."""
+    """Locate a part by its holes and measure its pose."""
     if "vision" in run.without:
         return None
     part = run.world.parts[operation.part]
@@ -180,7 +180,7 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
 
 
 def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
-    """Inspect a gasket by the difference of two pictures."""
+    """Inspect a gasket by the difference between two pictures."""
     seen = _compared(run, operation, errors.GASKET_WRONG, inspect_gasket)
     if not isinstance(seen, GasketInspection):
         return seen
@@ -190,7 +190,7 @@ def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
 
 
 def match(run: ExecutionContext, operation: Match) -> Fault | None:
-    """Check by two pictures that a part has not moved."""
+    """Check with two pictures that a part has not moved."""
     from handeye.vision.matching import match as match_part  # takes OpenCV, without which plans are made
 
     seen = _compared(run, operation, errors.PART_ASTRAY, match_part)
@@ -209,7 +209,9 @@ Examination = Callable[[Picture, Picture, View, Part, Pose2D], Found | Failure]
 def _compared(
     run: ExecutionContext, operation: Comparison, number: int, examine: Examination[Found]
 ) -> Found | Fault | None:
-    """The finding of an examination of two pictures, earlier first, or error `number`; None without vision."""
+    """Examine two pictures, the earlier first: returns the finding, or error `number`, or None if vision is
+    switched off.
+    """
     if "vision" in run.without:
         return None
     before, after = run.state.shots.get(operation.before), run.state.shots.get(operation.after)
@@ -223,7 +225,7 @@ def _compared(
 
 
 def just_found(run: ExecutionContext) -> tuple[str, list[Mark]]:
-    """The picture examined by the present step, and its marks."""
+    """The name of the picture that the present step examined, with its marks."""
     assert run.state.at is not None
     name = run.plan.program.steps[run.state.at].operation.examines
     assert name is not None

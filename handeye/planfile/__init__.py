@@ -1,1 +1,1 @@
-"""The second waist: a plan, its format on disk, and what makes it valid."""
+"""The plan, the interface between planning phase and working phase: its format on disk, and its checks."""

@@ -1,6 +1,6 @@
-"""The plan: a program joined with the motions of one arm. Versioned, in SI units, self-contained.
+"""The plan: a program together with the motions of one arm. Versioned, in SI units, self-contained.
 
-This is the second waist of the system.
+The plan is the second waist of the system, through which everything passes between planning and execution.
 """
 
 from typing import Final
@@ -15,15 +15,15 @@ Joints = tuple[float, ...]  # one for each joint of the arm, rad or m
 
 
 class PlannedMotion(Record, frozen=True, kw_only=True):
-    """Joint positions it passes (rad, m) and the seconds between them."""
+    """A planned motion: the joint positions that it passes (rad, m), and the seconds between them."""
 
     knots: tuple[Joints, ...]
-    """Start, lift-off, what it passes, set-down and goal of a Move; start and goal of a straight motion or an arc."""
+    """Start, lift-off, via points, set-down and goal of a Move; or start and goal of a straight motion or an arc."""
     times: tuple[float, ...]  # duration of each segment between knots, s
 
 
 class Plan(Record, frozen=True, kw_only=True):
-    """A program and the motions that one arm makes of it."""
+    """A program, and the motions of one arm for it."""
 
     format: str = "handeye plan"
     version: int = VERSION
@@ -36,5 +36,5 @@ class Plan(Record, frozen=True, kw_only=True):
 
     @property
     def joint_counts(self) -> tuple[int, ...]:
-        """Numbers of joints in the positions of its motions: just one if the plan is valid."""
+        """The numbers of joints that occur in the motions; exactly one number if the plan is valid."""
         return tuple(sorted({len(knot) for motion in self.motions.values() for knot in motion.knots}))

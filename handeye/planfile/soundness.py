@@ -1,6 +1,7 @@
-"""Check what the types of a plan cannot say: every reference leads somewhere, and every number can be executed.
+"""Checks what the types of a plan cannot express: all references must exist, and all numbers must be executable.
 
-A plan may have been cut, edited or made by another program; whatever passes here can be run without a surprise.
+A plan may have been truncated, edited or made by another program. A plan that passes these checks can be executed
+safely.
 """
 
 import math
@@ -21,7 +22,7 @@ _SHORTEST: Final = 1e-5  # s, segment of a polynomial
 
 
 def faults(plan: Plan) -> Iterator[str]:
-    """Faults of a plan, a sentence each; none if it is valid."""
+    """Faults of a plan, one sentence each; none if the plan is valid."""
     program = plan.program
     if not program.steps:
         yield "it has no steps"
@@ -77,7 +78,7 @@ def _step(plan: Plan, number: int, step: Step) -> Iterator[str]:
 
 
 def _references(plan: Plan, step: Step) -> Iterator[str]:
-    """Steps, stages, positions, parts and pictures a step names."""
+    """Faults in the steps, stages, positions, parts and pictures that a step names."""
     program, operation = plan.program, step.operation
     count = len(program.steps)
     for target in step.ways:
@@ -92,7 +93,7 @@ def _references(plan: Plan, step: Step) -> Iterator[str]:
 
 
 def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    """Places of a step and its modifiers that the source does not have."""
+    """Faults in the source places of a step and its modifiers, if the source has no such lines."""
     parts: tuple[Step | SourcePlace, ...] = (step, *step.modifiers)
     for words in parts:
         there = lines.get(words.file, ())
@@ -116,7 +117,7 @@ def _use(program: Program, use: Use) -> Iterator[str]:
 
 
 def _numbers(operation: AnyOperation | AnyGuard) -> Iterator[str]:
-    """Numbers that cannot be executed."""
+    """Faults in the numbers of an operation or guard that cannot be executed."""
     for field, (low, high) in operation.bounds.items():
         value = getattr(operation, field)
         size = math.hypot(*value) if isinstance(value, tuple) else value

@@ -1,5 +1,5 @@
-"""Plans on disk: JSON with one step, position or motion a line, so that a text diff shows what a change in the
-script did to the arm. What is read is checked before anything uses it.
+"""Plans on disk: JSON with one step, position or motion per line, so that a text diff shows the effect of a change
+in the script. A plan is checked when it is read.
 """
 
 from pathlib import Path
@@ -56,7 +56,7 @@ def _separated(lines: list[str]) -> list[str]:
 
 
 def decode(text: str | bytes, name: str) -> Plan:
-    """The plan in a text; raises BadFile if it is cut short, not valid, or of another format version."""
+    """The plan in a text; raises BadFile if the text is truncated, invalid, or of another format version."""
     try:
         head = msgspec.json.decode(text)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -81,7 +81,7 @@ def decode(text: str | bytes, name: str) -> Plan:
 
 
 def read_plan(path: Path) -> Plan:
-    """The plan in a file; raises BadFile as `decode`, or if the file cannot be read."""
+    """Read a plan from a file; raises BadFile as `decode` does, or if the file cannot be read."""
     entry, _ = entry_of_file(path.name)
     if entry is not None:
         raise refusal(entry.name, "plans", str(path))
@@ -92,14 +92,17 @@ def read_plan(path: Path) -> Plan:
 
 
 def write_plan(path: Path, plan: Plan) -> None:
-    """Write a plan, whole or not at all, over nothing but a plan; raises InvalidInput if it cannot be written there."""
+    """Write a plan completely or not at all; it replaces only a plan. Raises InvalidInput if the file cannot be
+    written.
+    """
     write_over(path, encode(plan).encode(), PLAN)
 
 
 def plan_digest(plan: Plan) -> str:
-    """Sixteen hexadecimal digits that identify a plan by what makes it: texts, what is taught, arm, task, planner.
+    """Sixteen hexadecimal digits that identify a plan by its inputs: texts, taught positions, arm, task and
+    planner.
 
-    They are the same on every processor. Whether its computed numbers are as well, `alike` says.
+    The digits are the same on every processor. `alike` tells whether the computed numbers agree as well.
     """
     program = plan.program
     here = program.written("position")  # planned, or taught and then moved
@@ -114,7 +117,7 @@ def plan_digest(plan: Plan) -> str:
 
 
 def _without_fractions(value: Any) -> Any:
-    """A value made of dictionaries and lists without its fractions, which may be computed."""
+    """A value made of dictionaries and lists, without its fractions, because they may be computed."""
     if isinstance(value, dict):
         return {key: _without_fractions(each) for key, each in value.items()}
     if isinstance(value, list | tuple):
@@ -123,21 +126,21 @@ def _without_fractions(value: Any) -> Any:
 
 
 def alike(one: Plan, other: Plan) -> bool:
-    """True if two plans are the same except for the last digits of computed numbers."""
+    """True if two plans agree, apart from the last digits of computed numbers."""
     return one is other or closeness.alike(
         *(msgspec.to_builtins(plan, str_keys=True) for plan in (one, other))
     )
 
 
 def written_digest(data: bytes) -> str:
-    """The digest of a plan's bytes, to the last place of its numbers."""
+    """The digest of a plan file's bytes, which covers all digits of its numbers."""
     import hashlib
 
     return hashlib.sha256(data).hexdigest()[:16]
 
 
 def is_plan_of(begun: RunStarted, data: bytes) -> bool:
-    """True if a run that began so executed the plan in some bytes: just these, where it tells their digest."""
+    """True if a run executed the plan in `data`: if the run recorded the digest of the bytes, exactly these bytes."""
     digest = written_digest(data)
     if begun.content:
         return digest == begun.content
@@ -145,7 +148,7 @@ def is_plan_of(begun: RunStarted, data: bytes) -> bool:
 
 
 def _digest_of_plan(data: bytes) -> str | None:
-    """`plan_digest` of what is in some bytes; None if it is no plan of motions."""
+    """`plan_digest` of the plan in `data`; None if `data` is no plan of motions."""
     try:
         return plan_digest(decode(data, "it"))
     except BadFile:

@@ -1,1 +1,1 @@
-"""The planning phase: a program and an arm make a plan. No clock, no randomness, no simulator."""
+"""The planning phase: makes a plan from a program and an arm, without clock, random numbers or simulator."""

@@ -1,4 +1,4 @@
-"""The state of the hand as far as the program determines it: gap, and object held."""
+"""The state of the hand as far as the program determines it: gap, and held object."""
 
 from dataclasses import dataclass, field
 
@@ -11,7 +11,7 @@ from handeye.program.program import Program, Step
 
 @dataclass(slots=True)
 class GraspState:
-    """The hand after a sequence of steps; initially closed and empty."""
+    """The hand after a sequence of steps; at first closed and empty."""
 
     program: Program
     hand: HandModel
@@ -26,7 +26,7 @@ class GraspState:
         self._holds = {at: name for name, held in self.program.held.items() for at in held.positions}
 
     def follow(self, number: int, step: Step) -> None:
-        """Apply a step."""
+        """Apply the effect of a step."""
         match step.operation:
             case Move(goal=goal):
                 self._goal = goal
@@ -46,19 +46,19 @@ class GraspState:
 
     @property
     def load(self) -> tuple[Box, ...]:
-        """The object held, as boxes in T."""
+        """The held object, as boxes in T."""
         return () if self.held is None else self.program.held[self.held].boxes
 
 
 class FirstGrasp(Record, frozen=True, kw_only=True):
-    """A grasp at a position, with the gap (m) before it."""
+    """A grasp at a position, and the gap (m) before it."""
 
     position: str
     gap: float
 
 
 def first_grasp(program: Program, hand: HandModel, after: int, part: str) -> FirstGrasp | None:
-    """The first grasp at a position of a part after a step, in text order."""
+    """The first grasp, after a given step in text order, at a position of a part; None if there is none."""
     state = GraspState(program, hand)
     for number, step in enumerate(program.steps):
         gap, grasped = state.gap, state.closed_at is not None

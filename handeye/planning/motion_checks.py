@@ -1,4 +1,4 @@
-"""Checks of each planned motion for collisions and for the arm's strength."""
+"""Checks each planned motion for collisions and for the strength of the arm."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -25,13 +25,13 @@ from handeye.program.program import Program, Step
 
 @dataclass(slots=True)
 class FindingList:
-    """Findings in text order, one for each code and position."""
+    """Findings in text order, at most one for each code and position."""
 
     findings: list[PlanFinding] = field(default_factory=list)
     _reported: set[tuple[str, str]] = field(default_factory=set)
 
     def add(self, finding: PlanFinding) -> None:
-        """Add a finding, unless its position has one of that code."""
+        """Add a finding, unless there is one with the same code and position."""
         if finding.position is not None:
             if (finding.code, finding.position) in self._reported:
                 return
@@ -40,15 +40,15 @@ class FindingList:
 
     @property
     def is_fatal(self) -> bool:
-        """True if there is no plan."""
+        """True if a finding is an error, so that there is no plan."""
         return any(CODES[finding.code].severity == "error" for finding in self.findings)
 
 
 OVERLAP: Final = 0.1 * INCH
-"""Overlap of boxes that is tolerated, m.
+"""Tolerated overlap of boxes, m.
 
-The pump's free motions deviate as much from the straight descent: the screwdriver's return is planned .02 in into its
-rack.
+The pump's free motions deviate that much from a straight descent: the return of the screwdriver is planned .02 in
+into its rack.
 """
 
 SAME: Final = 1e-6  # depths closer than this are equal, m: of equal ones the first counts, on every processor
@@ -65,7 +65,7 @@ class Crossing:
 
 
 class Obstacles:
-    """The fixtures of a program, box by box."""
+    """The fixtures of a program, one box at a time."""
 
     def __init__(self, program: Program) -> None:
         fixtures = [
@@ -77,7 +77,9 @@ class Obstacles:
         self._X_FW = np.array(frames).reshape(-1, 4, 4)
 
     def crossing(self, X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
-        """The deepest collision of boxes in T with a fixture over poses, shape (N, 4, 4)."""
+        """The deepest collision of boxes in T with a fixture, over hand poses of shape (N, 4, 4); None if there is
+        none.
+        """
         if not self._boxes or not boxes:
             return None
         deep = depths(self._X_FW @ X_WT[:, None], boxes, self._boxes)
@@ -85,7 +87,9 @@ class Obstacles:
 
 
 def table_crossing(X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
-    """The deepest collision of boxes in T with the table over poses, shape (N, 4, 4)."""
+    """The deepest collision of boxes in T with the table, over hand poses of shape (N, 4, 4); None if there is
+    none.
+    """
     if not boxes:
         return None
     deep = np.maximum(-lowest(X_WT, boxes), 0.0)
@@ -93,7 +97,7 @@ def table_crossing(X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing 
 
 
 def _deepest(X_WT: Pose, deep: Array, names: Sequence[str | None], goal: bool) -> Crossing | None:
-    """The worst of depths, shape (N, k), without those the motion begins in."""
+    """The deepest of depths, shape (N, k), except collisions in which the motion begins."""
     outside = np.logical_or.accumulate(deep <= OVERLAP / 2, axis=0)
     outside[-1] |= goal
     entered = np.where(outside & (deep > OVERLAP), deep, 0.0)
@@ -109,7 +113,7 @@ def _deepest(X_WT: Pose, deep: Array, names: Sequence[str | None], goal: bool) -
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Weakness:
-    """A joint, from 0, that limits a force or moment to `most` (N, N m)."""
+    """The joint, from 0, that limits a force or moment to `most` (N, N m)."""
 
     joint: int
     most: float
@@ -120,7 +124,7 @@ def weakness(
 ) -> Weakness | None:
     """The joint that keeps the hand from exerting a force (N, W) at any of the configurations (N, n), or None.
 
-    A moment (N m) is `wanted` if `turning`; `weight` (N) is in the hand besides.
+    With `turning`, `wanted` is a moment (N m); `weight` (N) is a load in the hand.
     """
     size = float(np.linalg.norm(wanted))
     if size == 0.0:
@@ -139,20 +143,20 @@ LOAD_STRIDE: Final = 8  # of the configurations of a motion, every eighth is che
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """A force or moment to be exerted on a motion; `guard`: a guard waits for it."""
+    """A force or moment that a motion must be able to exert; `guard`: a guard waits for it."""
 
     exerted: HandLoad
     guard: bool
 
 
 def to_stop(guards: Guards, along: Vector3 | None = None) -> list[Demand]:
-    """Demands of guards in a motion `along` a vector."""
+    """The demands of the guards of a motion `along` a vector."""
     waited = (guard.exerted(along) for guard in guards)
     return [Demand(exerted, guard=True) for exerted in waited if exerted is not None]
 
 
 def to_press(operation: Change) -> list[Demand]:
-    """Demands of a straight motion that presses or turns."""
+    """The demands of a straight motion that presses or turns."""
     both = ((operation.press, False), (operation.moment, True))
     exerted = (HandLoad(wanted, turning) for wanted, turning in both if wanted is not None)
     return [Demand(one, guard=False) for one in exerted]
@@ -160,7 +164,7 @@ def to_press(operation: Change) -> list[Demand]:
 
 @dataclass(slots=True)
 class Checks:
-    """Checks a program step by step."""
+    """Checks the motions of a program, step by step."""
 
     arm: ArmModel
     program: Program
@@ -174,18 +178,20 @@ class Checks:
         self._obstacles = Obstacles(self.program)
 
     def forget(self) -> None:
-        """Reset for a step reached by a jump: the hand may hold something else."""
+        """Forget the state of the hand, at a step reached by a jump, because the hand may hold another object
+        there.
+        """
         self._grip, self._load = GraspState(self.program, self.arm.hand), None
 
     def follow(self, number: int, step: Step) -> None:
-        """Apply a step."""
+        """Apply the effect of a step."""
         self._grip.follow(number, step)
         match step.operation:
             case Load(weight=weight):
                 self._load = (weight, number) if weight > 0 else None
 
     def clear(self, number: int, step: Step, q: Array) -> None:
-        """Check that hand and load are clear of obstacles over configurations `q`, shape (N, n)."""
+        """Check that hand and load are clear of obstacles at configurations `q`, shape (N, n)."""
         X_WT, grip, goal = forward(self.arm, q), self._grip, step.operation.goal_position
         for boxes, held in ((grip.fingers, None), (grip.load, grip.held)):
             judged = held is None and goal is not None
@@ -202,7 +208,9 @@ class Checks:
                 return  # the worst of a motion is enough
 
     def strong(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Check that the arm carries its load over configurations `q`, and can exert the demands at both ends."""
+        """Check that the arm can carry its load at configurations `q`, and exert the demands at both ends of the
+        motion.
+        """
         weight = 0.0
         if self._load is not None:
             weight, declared = self._load
@@ -224,7 +232,7 @@ class Checks:
                 return
 
     def told_from_friction(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Check that guards are distinguishable from the expected friction at the start, `q`."""
+        """Check that guards can be distinguished from the expected friction at the start, `q`."""
         expected = np.array(self.arm.compliance.friction)
         for demand in demands:
             most = faint(self.arm, q, expected, demand.exerted) if demand.guard else None

@@ -1,1 +1,1 @@
-"""Reversal: the arm takes back its steps one by one along their recorded set-points, under guards."""
+"""Reversal: the arm undoes its steps one by one along their recorded set-points, with guards."""

@@ -1,12 +1,13 @@
-"""Finds steps that only changed the program's memory, which are reversed by one lift instead of one by one.
+"""Finds steps that changed nothing but the program's memory; one lift of the hand reverses them all.
 
-These are rounds of a loop, and touches. Where a program has jumped back to an earlier step, the world is taken to be as
-it was then, provided that in between no stage began and the operator was not called, the hand holds what it held, every
-object put down was taken up at the same place (or the other way round), and every screw driven in was backed out.
-Rounds that carry objects elsewhere are no such loop, and are reversed one by one.
+Such steps are rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell is taken
+to be in the same state as then, if in between no stage began and the operator was not called, the hand holds what
+it held, every object put down was taken up at the same place (or the other way round), and every screw driven in
+was backed out. Rounds that carry objects elsewhere do not count and are reversed one by one.
 
-A touch is a motion of an empty hand that ended on something, and the motion that left it. The way back would end on the
-object a second time, and a finger that moved to its side would descend on its edge if the object has been pushed since.
+A touch is a motion of an empty hand that ended on contact, with the motion that left the object. Reversed step by
+step, the hand would touch the object a second time, and a finger that had moved to the object's side would descend
+on its edge if the object has been pushed since.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -20,17 +21,20 @@ from handeye.program.guards import GuardKind
 
 SAME_GAP: Final = 5e-4  # m, of an unchanged hold
 SAME_PLACE: Final = (0.005, 0.02)
-"""m, sideways and in height, between putting down and taking up: fingers slide on an object."""
+"""Tolerance, m, sideways and in height, between putting an object down and taking it up: fingers slide on an
+object.
+"""
 
 
 def loop_entry(
     done: Sequence[ExecutedStep], hand: Callable[[int], Array | None], *, grasping: bool | None = None
 ) -> int | None:
-    """Index of the step after which the last jump back found the world as that step had left it.
+    """Index of the step to which the last jump back returned, with the cell as that step had left it.
 
-    It counts while the hand has only moved through free air since: the way back of a MOVE to the next place of a search
-    would end on what was met at the place before. `hand` gives the position of the hand after a step, by its index,
-    shape (3,), W, None if it never moved; `grasping`: the fingers were last closed, None as before the last step.
+    It counts only while the hand has moved through free air since then: the way back of a MOVE to the next place of
+    a search would end in contact with what the hand met at the place before. `hand` gives the position of the hand
+    after a step, by index, shape (3,), W, or None if the hand had not moved yet. `grasping`: whether the fingers
+    were last closed; None: as before the last step.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
@@ -48,9 +52,9 @@ def loop_entry(
 
 
 def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None) -> bool:
-    """True if the hand holds the same after a step as before.
+    """True if the hand holds the same object after a step as before.
 
-    A grasp that starts a loop does not count: its first object is not its last.
+    A grasp at the beginning of a loop does not count, because each round may hold another object.
     """
     here, (before, behind) = done[index], done[index].gap
     after = (
@@ -60,9 +64,10 @@ def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None)
 
 
 def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
-    """Index of the step after which an empty hand went to touch what the last step left; -1: before the first.
+    """Index of the step after which an empty hand went to the touch that the last step left; -1: before the first
+    step.
 
-    None if the last step left no touch; `grasping`: the fingers were last closed.
+    None if the last step left no touch. `grasping`: whether the fingers were last closed.
     """
     last = len(done) - 1
     if grasping or last < 1 or not _goes_empty(done[last]):
@@ -77,13 +82,13 @@ def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
 
 
 def _goes_empty(done: ExecutedStep) -> bool:
-    """True if it moved an empty hand, and not its fingers."""
+    """True if the step moved an empty hand, and did not move its fingers."""
     before, after = done.gap
     return bool(done.way) and not done.grasping and not done.tool and abs(after - before) < SAME_GAP
 
 
 def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | None]) -> Iterator[int]:
-    """Indices of steps in order of reversal, without skipped rounds."""
+    """Indices of steps in the order of reversal, without the rounds that are skipped."""
     index = len(done) - 1
     while index >= 0:
         yield index
@@ -93,14 +98,14 @@ def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | N
 
 
 def _alike(one: ExecutedStep, other: ExecutedStep) -> bool:
-    """True for the same step, with the same hold before and after, and the driver off."""
+    """True if both are the same step, with the same hold before and after, and the screwdriver off."""
     same = (one.step, one.load, one.grasping) == (other.step, other.load, other.grasping)
     gaps = zip(one.gap, other.gap, strict=True)
     return same and one.tool == other.tool == 0.0 and all(abs(a - b) < SAME_GAP for a, b in gaps)
 
 
 def _undone_itself(done: Sequence[ExecutedStep], entry: int, hand: Callable[[int], Array | None]) -> bool:
-    """True if only memory has changed since a step was first executed."""
+    """True if nothing but memory has changed since the step at `entry` was first executed."""
     rounds = range(entry, len(done) - 1)
     if any(done[index].called or done[index + 1].enters for index in rounds):
         return False

@@ -1,7 +1,7 @@
-"""The program's memory, stored with each step as far as the step changed it.
+"""The program's memory, stored with each executed step as far as the step changed it.
 
-Pictures stay: a program that continues takes them again before it examines them. So do the camera's lens and aim, as
-reversal moves only the arm.
+Pictures are not restored, because a program that continues takes them again before it examines them. Lens and aim
+of the camera are not restored either, because a reversal moves only the arm.
 """
 
 from dataclasses import dataclass
@@ -22,17 +22,19 @@ REMEMBERED: Final = (
 )  # fmt: skip
 Memory = dict[str, Any]  # by field of the state
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}
-"""Fields that steps do not store, replaced for the check as they are large and sound already."""
+"""Fields that steps do not store. They are replaced by empty ones for the check, because they are large and known
+to be valid.
+"""
 _TYPES: Final[dict[str, Any]] = get_type_hints(ExecutionState)
 
 
 def memory(state: ExecutionState) -> dict[str, bytes]:
-    """The present memory."""
+    """The program's present memory, by field."""
     return {name: encoded(getattr(state, name)) for name in REMEMBERED}
 
 
 def changed(before: dict[str, bytes], after: dict[str, bytes]) -> dict[str, bytes]:
-    """Old values of what has changed."""
+    """The old values of the fields that have changed."""
     return {name: old for name, old in before.items() if after[name] != old}
 
 
@@ -49,7 +51,7 @@ def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
 
 
 def remember(state: ExecutionState, found: Memory) -> None:
-    """Restore memory into a state."""
+    """Restore memory in a state."""
     for name, value in found.items():
         here = getattr(state, name)
         if isinstance(here, MutableRecord) and type(here) is type(value):
@@ -60,7 +62,7 @@ def remember(state: ExecutionState, found: Memory) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateBefore:
-    """The state that a step may change, before it."""
+    """The parts of the state that a step may change, as they were before the step."""
 
     gap: float
     fingers: float

@@ -1,8 +1,9 @@
-"""The path back of a step, from end to beginning, and the guards that stop it.
+"""The reverse path of a step, from its end to its beginning, and the guards that stop it.
 
-Force that is felt in any direction since the reversal began stops it, and contact of closing fingers. These close on
-the middle of the hand. An object beside it is met by one finger first, while the gap is still too wide. Closed on, it
-would be pushed to the middle, or push the arm, and the final gap would look right.
+The path is stopped by force that has built up in any direction since the reversal began, and by early contact of
+closing fingers. Fingers close on the middle of the hand. An object beside the middle is touched by one finger
+first, while the gap is still too wide. Fingers that closed on it would push the object to the middle, or push the
+arm, and the final gap would look right.
 """
 
 from collections.abc import Callable
@@ -26,18 +27,20 @@ from handeye.touch.guards import ActiveGuard, Reading, Trip
 from handeye.touch.senses import too_early
 
 ALLOWED: Final = 20.0
-"""N. Measured: lifting a top off the pins is felt as 11 at most, with a screw left in it as 36 and then 108."""
+"""Least force limit of a reversal, N. Measured: lifting a top off the pins is sensed as at most 11 N; with a screw
+left in it, as 36 N and then 108 N.
+"""
 SHARE: Final = 1.5  # of the force that the step itself met
 
 
 def allowed(met: float) -> float:
-    """Force that a reversal may meet, N, given what the step itself met."""
+    """Force at which a reversal stops, N, given the greatest force in the step itself."""
     return max(ALLOWED, SHARE * met)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Resistance:
-    """Trips when the hand feels more than `limit`, N."""
+    """Trips when the force on the hand exceeds `limit`, N."""
 
     limit: float
 
@@ -51,7 +54,7 @@ class Resistance:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EarlyContact:
-    """Trips when a finger touches too early."""
+    """Trips when a finger touches while the gap is still too wide."""
 
     gap: Callable[[], float]  # present gap, m
     kept: float  # gap when the step was executed, m
@@ -67,21 +70,25 @@ class EarlyContact:
         return Trip(guard=GuardKind.TOUCH, value=float(first + 2 * second), limit=3.0)
 
     def cause(self, trip: Trip) -> MetEarly:
-        """The cause for a trip, while the fingers stand where it stopped them."""
+        """The cause of a trip, while the fingers are where the trip stopped them."""
         closed = int(trip.value)
         fingers = bool(closed & 1), bool(closed & 2)
         return MetEarly(fingers=fingers, gap=round(self.gap(), 6), kept=self.kept, holding=self.holding)
 
 
 RAMP: Final = 8
-"""Servo periods of acceleration and braking. Chosen: what stopped on a force ended at full speed."""
+"""Servo periods for speeding up and for slowing down. Chosen: a motion that was ended by a force ended at full
+speed.
+"""
 JOIN: Final = 5e-4
-"""rad or m per servo period of a joint to where the path ends: brakes and guards have left the arm beside it."""
+"""Speed of a joint, rad or m per servo period, to the end of the path, because brakes and guards have left the arm
+beside the path.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ReturnPath:
-    """A path back."""
+    """A reverse path."""
 
     samples: Samples
     gap: Array  # finger set-points, (N,), m
@@ -91,10 +98,11 @@ class ReturnPath:
 def retracing(
     arm: ArmModel, q: Array, gap: float, way: RecordedPath, *, slowly: bool, feeling: bool = False
 ) -> ReturnPath:
-    """The path back from where the arm and its fingers are; `slowly`: at the speed of guarded motions at most.
+    """The reverse path from the present position of arm and fingers; with `slowly`, at most at the speed of guarded
+    motions.
 
-    `feeling`: the fingers close at the speed of centring at most. Faster, they kick a loose object on, and their
-    switches are open at most readings.
+    With `feeling`, the fingers close at most at the speed of centring. Faster fingers would push a loose object
+    ahead, with their switches open at most readings.
     """
     rows = np.column_stack([way.q, way.gap])[::-1]
     here = np.append(q, gap)
@@ -123,16 +131,18 @@ def retracing(
 
 
 FALLEN: Final = 0.31 * INCH
-"""m that it may have fallen. By the pump's gasket: fingers reach .25 in through it (`[gasket_stand]`), and it is .06 in
-thick; fallen much farther, they would not hold it again. Measured: 6.0 and 6.7 mm, seeds 8128 and 8124; 8.05, held all
-the same, in 8724, which this stops: the arm's height is not exact.
+"""Distance, m, by which a held object may have fallen. It follows from the pump's gasket: the fingers reach .25 in
+through the gasket (`[gasket_stand]`), which is .06 in thick; if it had fallen much farther, the fingers could not
+hold it again. Measured: 6.0 and 6.7 mm in seeds 8128 and 8124. In seed 8724 the gasket fell 8.05 mm and was still
+held, but this limit stops the reversal, because the arm's height is not exact.
 """
 
 
 def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedStep], bool]) -> bool:
-    """True if resistance shows that it stands: the path leads to its grasp, and the hand is nearly there.
+    """True if the resistance shows that the held object stands on something: the path leads to the object's grasp,
+    and the hand is nearly there.
 
-    `grasps`: whether a step takes hold, or holds more firmly.
+    `grasps` tells whether a step grasps an object, or grips it more firmly.
     """
     if not run.state.grasping or not _grasped_before(run, grasps):
         return False
@@ -141,7 +151,7 @@ def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedS
 
 
 def where_the_hand_is(run: ExecutionContext, way: RecordedPath) -> RecordedPath:
-    """The path of a grasp, shifted to where the arm is now, which may be above."""
+    """The path of a grasp, shifted to the present position of the arm, which may be higher."""
     return RecordedPath(q=way.q + (run.drive.state.q - way.q[-1]), gap=way.gap)
 
 

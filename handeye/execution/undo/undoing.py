@@ -1,4 +1,4 @@
-"""Reversal of executed steps, the last first, by operation."""
+"""Reverses executed steps, the last first; the method depends on the operation."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -45,13 +45,15 @@ from handeye.touch.senses import EMPTY_GAP, SAME_HOLD, SKEW, as_before, at_least
 
 SUPPORT_SHARE: Final = 0.5  # of the force when a screw was taken, to support the hand that returns it
 STRAIGHTER: Final = 2 * 1.1e-3
-"""m by which a carried object may straighten in the fingers. Chosen: twice the most measured."""
+"""Distance, m, by which a carried object may straighten between the fingers. Chosen: twice the largest measured
+value.
+"""
 SAME_JOINTS: Final = 1e-4  # rad or m within which an arm is at a loop's entry
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UndoFailure:
-    """Why a reversal was interrupted; the run stays there."""
+    """The reason why a reversal was interrupted; the run stops there."""
 
     error: int | None = None
     cause: Cause | None = None
@@ -70,14 +72,14 @@ def order(state: ExecutionState, undoing: ReversalOrder) -> None:
 
 
 def end(state: ExecutionState) -> None:
-    """End a reversal, with the magnet on as a program leaves it."""
+    """End a reversal, with the magnet on, as programs leave it."""
     state.undoing, state.drive.magnet = None, True
 
 
 def undo_last(run: ExecutionContext) -> UndoFailure | None:
-    """Reverse the last executed step, or all that one lift reverses, and drop them from the list.
+    """Reverse the last executed step, or all steps that one lift reverses, and remove them from the list.
 
-    Returns None, or what stopped it, with the last step partly reversed.
+    Returns None, or the reason for stopping, with the last step partly reversed.
     """
     state = run.state
     first = _first_of_lift(run)
@@ -104,7 +106,7 @@ def undo_last(run: ExecutionContext) -> UndoFailure | None:
 
 
 def _first_of_lift(run: ExecutionContext) -> int:
-    """Index of the first step that is reversed with the last one."""
+    """Index of the first step that is reversed together with the last one."""
     state = run.state
     assert state.undoing is not None
     last = len(state.done) - 1
@@ -117,9 +119,9 @@ def _first_of_lift(run: ExecutionContext) -> int:
 
 
 def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> list[ExecutedStep]:
-    """Restore the memory from before the step of an index; returns and drops all steps from there on.
+    """Restore the memory from before the step at an index; removes and returns all steps from there on.
 
-    `remembered` is the memory before each of these steps, where they changed it.
+    `remembered` is the memory before each of these steps, as far as the step changed it.
     """
     state, undone = run.state, run.state.done[first:]
     for memory in reversed(remembered):
@@ -132,7 +134,7 @@ def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> 
 
 
 def _proceed(run: ExecutionContext, undone: list[ExecutedStep]) -> None:
-    """Report the run's place, and set the next step."""
+    """Report the place in the program, and set the next step."""
     state = run.state
     assert state.undoing is not None
     assert state.stage is not None
@@ -176,7 +178,7 @@ def _way(run: ExecutionContext, done: ExecutedStep) -> RecordedPath:
 
 
 def _retrace(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Retrace a step's path with the object held."""
+    """Retrace the path of a step while holding the object."""
     way = _way(run, done)
     stopped = _go(run, done, RecordedPath(q=way.q, gap=np.full(len(way), run.drive.state.gap)))
     resisted = stopped is not None and isinstance(stopped.cause, UndoResisted)
@@ -189,10 +191,11 @@ def _retrace(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
 
 
 def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse a grasp: open the fingers to where they were; what they held before, they hold as firmly again.
+    """Reverse a grasp: open the fingers to the earlier gap; an object they held before, they grip again as firmly.
 
-    They must hold what they took, by their gap when it was grasped, or taken again. A carried object may straighten
-    between them: one base of seed 1 by 1.1 mm. More than twice as much means another object, or none.
+    Before opening, the fingers must hold the object that they grasped: the gap must be that of the grasp, or of a
+    later one in the reversal. A carried object may straighten between the fingers: one base of seed 1 did by 1.1
+    mm. More than twice that means another object, or none.
     """
     kept = done.gap[1]
     held = kept if run.state.held is None else run.state.held
@@ -213,7 +216,7 @@ def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
 
 
 def _take_again(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse an opening: close the fingers on what they held there."""
+    """Reverse an opening: close the fingers on the object that they held there."""
     stopped = _fingers_back(run, done)
     if stopped is None and done.grasping:
         run.state.held = run.drive.sensed.gap
@@ -241,9 +244,10 @@ def _press(run: ExecutionContext, gap: float) -> None:
 
 
 def _turn_out(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse a step with the driver on: turn out the screw it drove home, which hangs from the bit.
+    """Reverse a step with the screwdriver on: turn out the screw that the step drove home; the screw then hangs
+    from the bit.
 
-    One that it found driven, and only tightened, stays.
+    A screw that was already driven, and that the step only tightened, stays in.
     """
     if done.tool < 0:
         return UndoFailure(cause=BackingOut())
@@ -265,7 +269,7 @@ def _turn_out(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
 def _off_hold(
     run: ExecutionContext, kept: float, closer: float, wider: float, *, holding: bool = True
 ) -> UndoFailure | None:
-    """Check that the gap is that when the step was executed, within `closer` and `wider` (m)."""
+    """Check that the gap is that of the executed step, at most `closer` less and `wider` more (m)."""
     gap = run.drive.sensed.gap
     if as_before(gap, kept, closer, wider):
         return None
@@ -277,7 +281,9 @@ _UNDOING: Final[dict[type[Operation], Callable[[ExecutionContext, ExecutedStep],
     Close: _let_go,
     Center: _let_go,
 }
-"""Reversals by operation. Other motions retrace their set-points; where nothing moved, only memory is restored."""
+"""Methods of reversal by operation. All other motions retrace their set-points; steps without motion only restore
+memory.
+"""
 
 
 # -- moving -------------------------------------------------------------------------------------------
@@ -286,7 +292,7 @@ _UNDOING: Final[dict[type[Operation], Callable[[ExecutionContext, ExecutedStep],
 def _go(
     run: ExecutionContext, done: ExecutedStep, way: RecordedPath, meeting: EarlyContact | None = None
 ) -> UndoFailure | None:
-    """Retrace a path under guards; on failure the rest of it stays to be reversed."""
+    """Retrace a path under guards; if it is stopped, the rest of the path remains to be reversed."""
     drive = run.drive
     back = retracing(
         run.arm, drive.state.q, drive.state.gap, way, slowly=done.force > 0, feeling=meeting is not None
@@ -310,7 +316,7 @@ def _go(
 
 
 def _lift(run: ExecutionContext, entry: int) -> UndoFailure | None:
-    """Move to where the hand was after a step: up, across and down, as a MOVE does."""
+    """Move the hand to its position after a step: up, across and down, as a MOVE does."""
     q = _joints_behind(run, entry)
     if q is None or np.abs(q - run.drive.state.q).max() < SAME_JOINTS:
         return None
@@ -324,7 +330,7 @@ def _lift(run: ExecutionContext, entry: int) -> UndoFailure | None:
 
 
 def _met(run: ExecutionContext, outcome: Outcome, meeting: EarlyContact | None = None) -> UndoFailure | None:
-    """The failure of a motion that ends the reversal, if any."""
+    """The failure of a motion that ends the reversal, or None."""
     if outcome.error is not None:
         return UndoFailure(error=outcome.error, cause=outcome.cause)
     if outcome.trip is None:
@@ -337,7 +343,7 @@ def _met(run: ExecutionContext, outcome: Outcome, meeting: EarlyContact | None =
 
 
 def _joints_behind(run: ExecutionContext, index: int) -> Array | None:
-    """Arm set-point after a step, shape (n,); None if it has not moved yet."""
+    """Set-point of the arm after a step, shape (n,); None if the arm had not moved yet."""
     moved = next((done for done in reversed(run.state.done[: index + 1]) if done.way), None)
     if moved is not None:
         return np.asarray(_way(run, moved).q[-1])

@@ -1,4 +1,4 @@
-"""Turns a screw out: left, the hand following it up, until the torque is gone."""
+"""Turns a screw out: the motor turns left, and the hand follows the screw upwards until the torque is gone."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
@@ -18,19 +18,27 @@ from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard, FirstOf, Reading, Trip
 
 SPEED: Final = 1.5
-"""Over the speed of driving in: a motor that stalls at its speed's torque must give the loosening one."""
+"""Speed of turning out, as a multiple of the speed of driving in: a motor that stalls at its speed's torque must
+give the loosening torque.
+"""
 PRESS: Final = 6.0  # N on the screw to keep the bit in its slot, as for driving in
 TURN: Final = 0.00127 * 1.5
-"""m: a turn and a half of the thread, by which the rise may be less than the descent: its start is not felt."""
+"""Tolerance, m, by which the rise may be less than the descent: one and a half turns of the thread, because the
+start of the thread is not sensed.
+"""
 TIGHTENED: Final = 3 * 0.00127
-"""m: three turns of the thread. A screw that is driven from the mouth of its thread goes five."""
+"""Height of three turns of the thread, m; a screw that rises less was only tightened. A screw driven from the mouth
+of its thread goes five turns.
+"""
 QUIET: Final = 20  # servo periods without rising that show the end; a thread lifts a screw by 3 mm in as many
 RISING: Final = 2e-4  # m that count as risen
 PATIENCE: Final = 120  # servo periods within which a screw must begin to rise
 
 
 LOWER: Final = 0.002
-"""m, at most, and in one second, to check for a screw under the bit: half the height of its head."""
+"""Greatest descent, m, made in one second, to check for a screw under the bit: half the height of the screw's head.
+
+"""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -52,7 +60,7 @@ class ScrewMonitor:
 
     @property
     def risen(self) -> float:
-        """Rise of the hand, m."""
+        """Rise of the hand since the start, m."""
         return self.highest - self.started
 
     @property
@@ -74,13 +82,13 @@ class ScrewMonitor:
 
 
 def descent(run: ExecutionContext, way: RecordedPath) -> float:
-    """How far the hand went down on a way, m."""
+    """Descent of the hand along a path, m."""
     begin, end = forward(run.arm, way.q[[0, -1]])[:, 2, 3]
     return float(begin - end)
 
 
 def unscrew(run: ExecutionContext, done: ExecutedStep, way: RecordedPath) -> tuple[Outcome, ScrewMonitor]:
-    """Turn out the screw that a step drove in, until it is out or does not come.
+    """Turn out the screw that a step drove in, until the screw is out or does not rise.
 
     Returns the outcome of the motion, and the monitor of the screw.
     """
@@ -96,13 +104,13 @@ def unscrew(run: ExecutionContext, done: ExecutedStep, way: RecordedPath) -> tup
 
 
 def lower(run: ExecutionContext, force: float) -> Outcome:
-    """Descend a little until a force (N) supports the hand, complying sideways; no trip if nothing does."""
+    """Lower the hand a little until a force (N) supports it, yielding sideways; no trip if there is no support."""
     course = replace(_course(run), distance=LOWER, speed=LOWER, force=None)
     return run.drive.comply(course, Resistance(limit=force))
 
 
 def _course(run: ExecutionContext) -> Course:
-    """Press on the screw, complying upwards and sideways."""
+    """The course of the hand: press on the screw, yielding upwards and sideways."""
     return Course(
         compliance=run.arm.compliance,
         direction=np.array((0.0, 0.0, -1.0)),
@@ -115,10 +123,10 @@ def _course(run: ExecutionContext) -> Course:
 
 
 def taken_by(run: ExecutionContext, backwards: Iterable[int]) -> int | None:
-    """Index of the step that took the screw which a step drives in: it ended on the screw's head, before the hand
-    moved.
+    """Index of the step that took the screw which a step drives in: the step ended on the head of the screw, before
+    the hand moved.
 
-    `backwards` are indices of steps from the driving one on, last first.
+    `backwards` are indices of steps, from the driving one backwards.
     """
     done, moved = run.state.done, False
     for index in backwards:

@@ -1,6 +1,7 @@
 """The path of a step: set-points of joints and fingers, one per servo period.
 
-On disk they are whole millionths of a radian or metre, whose second differences compress to less than a byte each.
+On disk, the path is stored in whole millionths of a radian or metre, whose second differences compress to less than
+a byte each.
 """
 
 import zlib
@@ -17,7 +18,7 @@ _LONGEST: Final = 1 << 22  # decompressed bytes: days
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RecordedPath:
-    """Set-points from before a step to after it."""
+    """Set-points from the start of a step to its end."""
 
     q: Array  # (N, n), rad and m
     gap: Array  # (N,), m
@@ -28,7 +29,7 @@ class RecordedPath:
 
 @dataclass(slots=True)
 class Track:
-    """Records the set-points of a step, and the greatest force in it."""
+    """Records the set-points of a step, and the greatest force during it."""
 
     force: float = 0.0  # greatest so far, N
     _q: list[Array] = field(default_factory=list)
@@ -39,7 +40,7 @@ class Track:
         self.force, self._q, self._gap = 0.0, [q], [gap]
 
     def note(self, q: Array, gap: float) -> None:
-        """Record the set-points of a servo period."""
+        """Record the set-points of one servo period."""
         self._q.append(q)
         self._gap.append(gap)
 
@@ -48,7 +49,7 @@ class Track:
         self.force = max(self.force, float(np.linalg.norm(wrench[:3])))
 
     def way(self, q: Array, gap: float) -> RecordedPath | None:
-        """The recorded path up to the last set-points; None if nothing moved."""
+        """The recorded path, ending at the given set-points; None if nothing moved."""
         way = RecordedPath(q=np.array([*self._q, q]), gap=np.array([*self._gap, gap]))
         rows = _rows(way)
         moved = np.flatnonzero((rows[1:] != rows[:-1]).any(axis=1))
@@ -59,13 +60,15 @@ class Track:
 
 
 def packed(way: RecordedPath) -> bytes:
-    """A path as bytes, rounded to the grain."""
+    """A path as bytes, rounded to `GRAIN`."""
     first = np.diff(_rows(way), axis=0, prepend=np.int32(0))
     return zlib.compress(np.diff(first, axis=0, prepend=np.int32(0)).T.tobytes(), 6)
 
 
 def unpacked(data: bytes, joints: int) -> RecordedPath:
-    """The path from `packed` bytes; raises ValueError if it is not of an arm with that many joints."""
+    """The path from bytes made by `packed`; raises ValueError if it does not belong to an arm with that many
+    joints.
+    """
     inflater = zlib.decompressobj()
     try:
         inflated = inflater.decompress(data, _LONGEST)
@@ -81,5 +84,5 @@ def unpacked(data: bytes, joints: int) -> RecordedPath:
 
 
 def _rows(way: RecordedPath) -> np.ndarray[tuple[int, ...], np.dtype[np.int32]]:
-    """Joints and gap in grains, shape (N, n + 1)."""
+    """Joints and gap in units of `GRAIN`, shape (N, n + 1)."""
     return np.rint(np.column_stack([way.q, way.gap]) / GRAIN).astype("<i4")
