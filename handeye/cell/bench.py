@@ -65,7 +65,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         self._parts: list[Mechanism[Any]] = []
         self._steps, self._stretch = 0, max(1, int(_STRETCH / self._tick))
         self._due: list[Due] = []
-        self._passing = False
+        self._passing = self._ending = False
         mujoco.mj_forward(self.model, self.data)
 
     def add(self, part: Mechanism[Any]) -> None:
@@ -107,14 +107,18 @@ class Bench(Clock, Mechanism[BenchTime]):
         if self._passing:
             raise BadArgument("time is already advancing on the bench: a hook or an event cannot advance it")
         end = self._steps + whole_steps(seconds, float(self.tick))
-        self._passing = True
+        self._passing, self._ending = True, False
         try:
             self._handle_due()
-            while self._steps < end:
+            while self._steps < end and not self._ending:
                 self._pass(min(end - self._steps, self._before_event()))
                 self._handle_due()
         finally:
             self._passing = False
+
+    def end_early(self) -> None:
+        """Let `advance` end with the physics step under way; called by a hook of a step."""
+        self._ending = True
 
     def call_at(self, microseconds: int, name: str) -> None:
         """Have the event `name` handled at the first physics step that begins at this time or later."""
@@ -176,7 +180,7 @@ class Bench(Clock, Mechanism[BenchTime]):
             self._steps += 1
             for act in self.after_step:
                 act()
-            if self._before_event() <= 0:
+            if self._ending or self._before_event() <= 0:
                 break
         check_physics(self.data, fastest=FASTEST)
 

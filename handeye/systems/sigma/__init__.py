@@ -15,7 +15,10 @@ ENTRY = Entry(
     commands="""
 sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.
 """,
-    tasks={"mal": "handeye.systems.sigma.run.task:MAL_TASK"},
+    tasks={
+        "mal": "handeye.systems.sigma.run.task:MAL_TASK",
+        "gantries": "handeye.systems.sigma.gantries.task:GANTRIES",
+    },
     languages={".mal": "handeye.systems.sigma.mal.language:LANGUAGE"},
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )

@@ -70,6 +70,7 @@ class Op(IntEnum):
     SET_POSITION = 0x07
     FORCE = 0x21  # asks
     THRESHOLD = 0x22
+    PEAK_FORCE = 0x23  # asks for the greatest force since it was asked last
     ACTUATE = 0x31
     BEAM = 0x32  # asks
     SENSE = 0x41  # asks a sensor of a newer kind; the length of its answer is its own
@@ -81,6 +82,7 @@ ANSWERS: Final[dict[Op, int]] = {
     Op.POSITION: 2,
     Op.ABORT_POSITION: 2,
     Op.FORCE: 2,
+    Op.PEAK_FORCE: 2,
     Op.BEAM: 1,
     Op.SELF_TEST: 1,
     Op.ECHO: 3,
@@ -142,9 +144,10 @@ def set_position(axis: str | int, count: int) -> Command:
     return Command(number=number_of(axis), op=Op.SET_POSITION, value=count & 0xFFFF)
 
 
-def force(arm: int, component: str) -> Command:
-    """Ask for a component of the force on a wrist."""
-    return Command(number=number_of(f"FORCE{arm}"), op=Op.FORCE, detail=COMPONENTS.index(component))
+def force(arm: int, component: str, *, peak: bool = False) -> Command:
+    """Ask for a component of the force on a wrist: now, or the greatest since that was asked last."""
+    op = Op.PEAK_FORCE if peak else Op.FORCE
+    return Command(number=number_of(f"FORCE{arm}"), op=op, detail=COMPONENTS.index(component))
 
 
 def threshold(arm: int, component: str, newtons: float | None) -> Command:

@@ -58,6 +58,7 @@ KINDS: Final[dict[str, Defects]] = {
     ),
     "status-a": Defects(help="status line A is stuck", where="microcomputer", value="level", amount=1),
     "status-b": Defects(help="status line B is stuck", where="microcomputer", value="level", amount=1),
+    "no-reflex": Defects(help="the wires from the wrists to the motors are cut"),
     "no-interrupt": Defects(help="the wire that joins the A lines of the motors is broken"),
 }
 """By name, as `--fault` takes them."""

@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import Final, Generic, TypeVar
+from typing import Final, Generic, NamedTuple, TypeVar
 
 from msgspec import field
 
@@ -14,10 +14,36 @@ TRAVEL: Final = {"X": 16_000, "Y": 10_667, "Z": 5_333}  # steps from switch to s
 Kept = TypeVar("Kept", bound=MutableRecord)
 
 
+class Level(NamedTuple):
+    """A level that the machine has changed by itself."""
+
+    number: int  # of a motor, or of the force microcomputer that has to scan its wrist
+    pin: Pin = "force"
+    level: bool = True
+
+
 class Plant(ABC, Generic[Kept]):
-    """The machine as its pins show it. Numbers are those of microcomputers, times picoseconds."""
+    """The machine as its pins show it. Numbers are those of microcomputers, times picoseconds.
+
+    A machine that can predict its levels has a `next_pin`, and forces that stay as they are. One that cannot, because
+    it is simulated step by step, returns those that have changed from `advance`.
+    """
 
     memory: Kept
+    predicts = True  # its forces stay as they are until they are set
+
+    def resumed(self) -> None:
+        """Its memory has been put back; it is asked about all motors and thresholds next."""
+
+    def advance(self, at: int) -> tuple[int, list[Level]] | None:
+        """Go on to a moment; an earlier one, where levels have changed by themselves, with these."""
+        return None
+
+    def driven(self, number: int, motor: Motor) -> None:
+        """A motor may have begun another train, or ended it."""
+
+    def limited(self, number: int, thresholds: Sequence[float]) -> None:
+        """A force microcomputer has taken a command that may have changed its thresholds, N."""
 
     @abstractmethod
     def next_pin(self, number: int, motor: Motor) -> tuple[int, Pin, bool] | None:
@@ -26,6 +52,10 @@ class Plant(ABC, Generic[Kept]):
     @abstractmethod
     def forces(self, number: int) -> Sequence[float]:
         """What a wrist feels now, N along x, y and z."""
+
+    def peaks(self, number: int) -> Sequence[float]:
+        """The greatest forces that a wrist has felt since this was asked last, N."""
+        return tuple(map(abs, self.forces(number)))
 
     @abstractmethod
     def beam(self, number: int) -> bool:
@@ -36,7 +66,7 @@ class Plant(ABC, Generic[Kept]):
         """The outputs of a hand microcomputer have changed."""
 
 
-class IdealMemory(MutableRecord, kw_only=True):
+class IdealMemory(MutableRecord, kw_only=True, tag="ideal"):
     """An ideal machine."""
 
     starts: dict[int, int] = field(

@@ -25,12 +25,13 @@ from handeye.systems.sigma.bus.events import (
 from handeye.systems.sigma.bus.faults import BusDefect, check_place
 from handeye.systems.sigma.bus.layout import SUPERSIGMA, Layout, Place
 from handeye.systems.sigma.bus.microcomputer import Microcomputer, NodeMemory, Taken
-from handeye.systems.sigma.bus.plant import IdealMachine, IdealMemory, Plant
+from handeye.systems.sigma.bus.plant import IdealMachine, IdealMemory, Level, Plant
 from handeye.systems.sigma.bus.wires import Sending, Wires
 from handeye.systems.sigma.firmware.device import PS, Crystal
 from handeye.systems.sigma.firmware.force import CONVERTER_N, Force
 from handeye.systems.sigma.firmware.hand import Hand
 from handeye.systems.sigma.firmware.motor import Motor, Pin
+from handeye.systems.sigma.gantries.memory import GantryMemory
 from handeye.systems.sigma.protocol import Timing, name_of
 
 _REMEMBERED: Final = 400  # microseconds for which waves are kept
@@ -58,7 +59,7 @@ class BusMemory(MutableRecord, kw_only=True):
     sent: tuple[Sending, ...] = ()  # the last ones
     question: Question | None = None
     nodes: dict[int, NodeMemory] = field(default_factory=dict)
-    plant: IdealMemory = field(default_factory=IdealMemory)
+    plant: IdealMemory | GantryMemory = field(default_factory=IdealMemory)
 
 
 class WiredBus(MicrobusPort):
@@ -86,7 +87,8 @@ class WiredBus(MicrobusPort):
             check_place(defect, len(layout.behind), [place.number for place in layout.places])
         self.layout, self.timing = layout, timing or Timing()
         self.plant: Plant[Any] = plant or IdealMachine()
-        self._wired = layout.reflexes
+        cut = any(defect.kind == "no-reflex" for defect in defects)
+        self._wired = {} if cut else layout.reflexes
         self.wires = Wires(layout, self.timing, defects)
         self.tell: list[
             Callable[[AnyBusEvent], None]
@@ -116,7 +118,9 @@ class WiredBus(MicrobusPort):
         """Work out what follows from the memory."""
         self._due = {number: self._due_of(number, self.now * PS) for number in self._nodes}
         self._shown = {number: self._status(number) for number in self._nodes}
-        self._level = self._tied()
+        self._level, self._changed = self._tied(), False
+        for number, node in self._nodes.items():
+            self._show(number, node)
 
     # -- the port ----------------------------------------------------------------------------------------
 
@@ -193,6 +197,7 @@ class WiredBus(MicrobusPort):
             raise BadFile("what the bus remembers is that of another bus")
         put_back(self._memory, memory)
         self.plant.memory = self._memory.plant
+        self.plant.resumed()
         for number, node in self._nodes.items():
             node.bind(self._memory.nodes[number])
         self._reckon()
@@ -233,16 +238,42 @@ class WiredBus(MicrobusPort):
         return min(times) if times else None
 
     def _pass(self, moment: int) -> bool:
-        """Go on to a moment, through all events up to it; whether anything has changed that the port shows."""
-        before = self.free, self._level, dict(self._shown)
-        while (due := self._next_below(moment)) is not None:
-            for number, at in self._due.items():
-                if at is not None and at <= due:
-                    self._serve(number, at)
-            if (at := self._computer_due()) is not None and at <= due:
-                self._compute(at)
+        """Go on to a moment, or to an earlier one where something has changed that the port shows; whether it has."""
+        free, self._changed = self.free, False
+        while True:
+            due = self._next_below(moment)
+            at = moment * PS if due is None else due
+            if (seen := self.plant.advance(at)) is not None:
+                at, levels = seen
+                for level in levels:
+                    self._sense(level, at)
+            elif due is None:
+                break
+            else:
+                self._events(due)
+            if self._changed:
+                moment = max(self.now, min(moment, -(-at // PS)))
         self._memory.now = moment
-        return before != (self.free, self._level, self._shown)
+        return self._changed or self.free != free
+
+    def _events(self, due: int) -> None:
+        """Serve all that is due."""
+        for number, at in self._due.items():
+            if at is not None and at <= due:
+                self._serve(number, at)
+        if (at := self._computer_due()) is not None and at <= due:
+            self._compute(at)
+
+    def _sense(self, level: Level, at: int) -> None:
+        """A level of the machine has changed by itself."""
+        node = self._nodes[level.number]
+        if node.dead:
+            return
+        if isinstance(node.device, Force):
+            self._scan(node, node.device, at)
+        elif isinstance(node.device, Motor) and getattr(node.device.memory, level.pin) != level.level:
+            node.device.pin(level.pin, level.level, at)
+            self._settle(level.number, at)
 
     def _next_below(self, moment: int) -> int | None:
         times = [due for due in self._due.values() if due is not None]
@@ -267,7 +298,7 @@ class WiredBus(MicrobusPort):
 
     def _scan_due(self, node: Microcomputer, at: int) -> int | None:
         """When a force microcomputer scans next, if that changes anything."""
-        if node.dead or not isinstance(node.device, Force):
+        if node.dead or not self.plant.predicts or not isinstance(node.device, Force):
             return None
         number, device = node.place.number, node.device
         forces = self.plant.forces(number)
@@ -298,6 +329,8 @@ class WiredBus(MicrobusPort):
             own = taken.frame[0] == node.answers_to
             if isinstance(node.device, Hand):
                 node.device.memory.cut = self.plant.beam(number)
+            if isinstance(node.device, Force) and not self.plant.predicts:
+                node.device.scan(self.plant.forces(number), self.plant.peaks(number))
             if own:
                 node.act(Command.of(taken.frame), at)
             self._say_taken(number, taken, own=own)
@@ -306,8 +339,9 @@ class WiredBus(MicrobusPort):
         self._settle(number, at)
 
     def _scan(self, node: Microcomputer, device: Force, at: int) -> None:
-        device.scan(self.plant.forces(node.place.number))
-        for motor, level in self._reflexes(node.place.number):
+        number = node.place.number
+        device.scan(self.plant.forces(number), self.plant.peaks(number))
+        for motor, level in self._reflexes(number):
             if self.motor(motor).memory.force != level:
                 self.motor(motor).pin("force", level, at)
                 self._settle(motor, at)
@@ -325,15 +359,23 @@ class WiredBus(MicrobusPort):
         """A microcomputer has done something: what it shows, and what it does next."""
         node = self._nodes[number]
         self._listen(node, at)
+        self._show(number, node)
         self._due[number] = self._due_of(number, at)
         status = self._status(number)
         if status != self._shown[number]:
-            self._shown[number] = status
+            self._shown[number], self._changed = status, True
             self._say(StatusLines(at=at, number=number, status=int(status)))
             level = self._tied()
             if level != self._level:
                 self._level = level
                 self._say(InterruptLine(at=at, level=level))
+
+    def _show(self, number: int, node: Microcomputer) -> None:
+        """Let the machine see the pulses of a motor, and the thresholds of a wrist."""
+        if isinstance(node.device, Motor):
+            self.plant.driven(number, node.device)
+        elif isinstance(node.device, Force):
+            self.plant.limited(number, node.device.memory.thresholds)
 
     def _listen(self, node: Microcomputer, at: int) -> None:
         """Let a microcomputer look for a strobe, if it is free."""

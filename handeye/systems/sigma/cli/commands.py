@@ -29,6 +29,7 @@ from handeye.program.events import AnyEvent
 from handeye.runs.observer import Observer
 from handeye.systems.sigma.cli.axis import axis
 from handeye.systems.sigma.cli.bus import bus
+from handeye.systems.sigma.cli.crash import crash
 from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, ArmName
@@ -49,7 +50,8 @@ Arm = Annotated[
     Parameter(
         name="--arm",
         help="The machine: `none` has perfect motors; `wired` has ten microcomputers with their firmware, on a bus "
-        "whose wires they sample with their own clocks. Nothing stands in the way of either.",
+        "whose wires they sample with their own clocks. Nothing stands in the way of either. `gantries` has the same "
+        "microcomputers, and the simulated machine: two gantries over an empty board.",
     ),
 ]
 
@@ -91,12 +93,13 @@ def run(
     if not reported(source):
         return 2
     sound(plan)
-    setup = Setup(system="sigma", plan=plan, world=WorldSpec(seed=0), camera="auto", judged=True)
+    judged = arm != "gantries"  # what any program does to the gantries is neither right nor wrong
+    setup = Setup(system="sigma", plan=plan, world=WorldSpec(seed=0), camera="auto", judged=judged)
     return work(
         Job(
             start=Checkpoint(setup=setup), out=out, keep=not (no_keep or step), details=details, overwrite=overwrite,
             breaks=breaks or (), step=step, live=live,
-            on_stop=on_stop, json=json, referee=True, listening=() if step else (Printer(note if json else say),),
+            on_stop=on_stop, json=json, referee=judged, listening=() if step else (Printer(note if json else say),),
         )
     )  # fmt: skip
 
@@ -241,7 +244,7 @@ def console(
     return 0 if terminal else code
 
 
-_COMMANDS: Final = (run, check, words, axis, bus)
+_COMMANDS: Final = (run, check, words, axis, bus, crash)
 sigma.default(console)
 for _command in _COMMANDS:
     sigma.command(_command)

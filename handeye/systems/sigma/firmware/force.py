@@ -12,6 +12,9 @@ from handeye.systems.sigma.protocol import COMPONENTS, FORCE_STEP_N, STANDARD, O
 
 STANDARD_N: Final = 4.0
 CONVERTER_N: Final = 0.05  # step of the converter
+RELEASED: Final = (
+    0.8  # share of a threshold below which it is released: a wrist that swings does not trip twice
+)
 _LARGEST: Final = 0x7FFF  # of an answer
 
 
@@ -20,6 +23,10 @@ class ForceMemory(MutableRecord, kw_only=True, tag="force"):
 
     thresholds: list[float] = field(default_factory=lambda: [STANDARD_N] * len(COMPONENTS))
     readings: list[float] = field(default_factory=lambda: [0.0] * len(COMPONENTS))
+    peaks: list[float] = field(default_factory=lambda: [0.0] * len(COMPONENTS))
+    """The greatest readings since they were asked for last, without their signs."""
+    over: list[bool] = field(default_factory=lambda: [False] * len(COMPONENTS))
+    """They were over their thresholds when they were read."""
 
 
 class Force(Device):
@@ -36,24 +43,39 @@ class Force(Device):
     def status(self) -> Status:
         return Status.BUSY
 
-    def scan(self, forces: Sequence[float]) -> None:
-        """Read all components, N."""
-        self.memory.readings = [round(force / CONVERTER_N) * CONVERTER_N for force in forces]
+    def scan(self, forces: Sequence[float], peaks: Sequence[float]) -> None:
+        """Read all components, N, and the greatest that they have been since the last scan that is seen."""
+        self.memory.readings = [_converted(force) for force in forces]
+        self.memory.over = [*self.pins]
+        self.memory.peaks = [*map(max, self.memory.peaks, map(_converted, peaks))]
 
     @property
     def pins(self) -> tuple[bool, ...]:
-        """For each component, whether its motor is interrupted."""
-        pairs = zip(self.memory.readings, self.memory.thresholds, strict=True)
-        return tuple(abs(reading) > threshold for reading, threshold in pairs)
+        """For each component, whether its motor is interrupted: from its threshold on, until it is well below it."""
+        memory = self.memory
+        each = zip(memory.readings, memory.thresholds, memory.over, strict=True)
+        return tuple(
+            abs(reading) > (threshold * RELEASED if over else threshold) for reading, threshold, over in each
+        )
 
     def execute(self, command: Command, at: int) -> bytes:
         if command.detail >= len(COMPONENTS):
             return b""
         match command.op:
             case Op.FORCE:
-                value = round(self.memory.readings[command.detail] / FORCE_STEP_N)
-                return max(-_LARGEST, min(value, _LARGEST)).to_bytes(2, "big", signed=True)
+                return _answer(self.memory.readings[command.detail])
+            case Op.PEAK_FORCE:
+                peak, self.memory.peaks[command.detail] = self.memory.peaks[command.detail], 0.0
+                return _answer(peak)
             case Op.THRESHOLD:
                 newtons = STANDARD_N if command.value == STANDARD else command.value * FORCE_STEP_N
                 self.memory.thresholds[command.detail] = newtons
         return b""
+
+
+def _converted(force: float) -> float:
+    return round(force / CONVERTER_N) * CONVERTER_N
+
+
+def _answer(force: float) -> bytes:
+    return max(-_LARGEST, min(round(force / FORCE_STEP_N), _LARGEST)).to_bytes(2, "big", signed=True)

@@ -49,6 +49,7 @@ class Motor(Device):
 
     memory: MotorMemory
     tied = True
+    ramped = True  # constant speeds over start/stop speed begin and end with ramps
 
     def __init__(self, crystal: Crystal) -> None:
         super().__init__(crystal)
@@ -105,7 +106,7 @@ class Motor(Device):
                 self._move(profile(value, self.shape, memory.limit), sense, at)
             case Op.MOVE_SLOW if value and code:
                 speed = code * SLOW_STEP_MM / STEP_MM
-                self._move(constant(value, speed, self.shape, memory.limit), sense, at)
+                self._move(constant(value, speed, self.shape, memory.limit, ramped=self.ramped), sense, at)
             case Op.LIMIT_SPEED:
                 memory.limit = value
             case Op.SET_POSITION:

@@ -87,4 +87,16 @@ class MotorAborted(SystemEvent, frozen=True, kw_only=True):
         return f"{self.axis} was stopped {why}, at {self.at:.2f} mm; {self.task} had sent it"
 
 
-EVENTS = (TaskStarted, TaskEnded, CommandSent, Answered, FlagChanged, Printed, MotorAborted)
+class CountDoubtful(SystemEvent, frozen=True, kw_only=True):
+    """A wrist has felt more than a standing or stopping motor is sure to hold."""
+
+    importance: ClassVar[Importance] = "warning"
+    axis: str
+    force: float | None  # N; None: the wrist gave no answer
+
+    def sentence(self, measures: Measures) -> str:
+        why = "its wrist does not answer" if self.force is None else f"its wrist has felt {self.force:.1f} N"
+        return f"the count of {self.axis} is doubtful: {why}; ORIGIN {self.axis} makes it sure"
+
+
+EVENTS = (TaskStarted, TaskEnded, CommandSent, Answered, FlagChanged, Printed, MotorAborted, CountDoubtful)

@@ -103,6 +103,7 @@ class MalMemory(MutableRecord, kw_only=True):
     stopped: dict[str, int] = field(
         default_factory=dict
     )  # status of axes that were aborted, until they move again
+    doubtful: tuple[str, ...] = ()  # axes whose counts may be wrong, until ORIGIN
     printed: str = ""  # the line of the console that is not ended
     fault: Fault | None = None
     began: int = 0  # microseconds of the machine as the program began

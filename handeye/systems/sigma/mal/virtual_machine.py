@@ -18,6 +18,7 @@ from handeye.systems.sigma.mal.compiler import ARITHMETIC, Instruction, MalProgr
 from handeye.systems.sigma.mal.happenings import (
     Answered,
     CommandSent,
+    CountDoubtful,
     FlagChanged,
     MotorAborted,
     Printed,
@@ -44,6 +45,7 @@ from handeye.systems.sigma.protocol import AXES, STEP_MM, Op
 
 STATEMENT_US: Final = 2000  # the central computer needs this for a statement
 ARITHMETIC_SHARE: Final = 4  # an instruction that calculates takes this part of it
+DOUBT_N: Final = 20.0  # force on a wrist above which the count of its axis is doubted
 DEEPEST_GOSUB: Final = 1000
 LONGEST_PRINTED: Final = 2000  # characters of a line
 ZONE: Final = 14  # columns of PRINT
@@ -201,7 +203,7 @@ class VirtualMachine:
             all(0 <= address < size for address in addresses)
             and {*memory.tasks} <= {*tasks}
             and memory.turn in {"", *memory.tasks}
-            and {*memory.counts, *memory.owners, *memory.curves, *memory.stopped} <= {*AXES}
+            and {*memory.counts, *memory.owners, *memory.curves, *memory.stopped, *memory.doubtful} <= {*AXES}
         )
 
     # -- turns ----------------------------------------------------------------------------------------
@@ -651,6 +653,7 @@ class VirtualMachine:
         if command.op == Op.ORIGIN:
             self.memory.counts[what.to] = 0
             self.memory.originated = tuple(sorted({*self.memory.originated, what.to}))
+            self.memory.doubtful = tuple(axis for axis in self.memory.doubtful if axis != what.to)
         self._transmit(name, command, means or _meaning(command))
         self.machine.send(command)
 
@@ -696,7 +699,22 @@ class VirtualMachine:
                 return
             at, cause = self.memory.counts[axis] * STEP_MM, status.name
             self._tell(MotorAborted(time=self.time, task=name, axis=axis, cause=cause, at=round(at, 4)))
+            if status is Status.FORCE:
+                self._doubt(name)
             self._after_abort(axis, owner, f"ABORT {axis} {cause} {at:.2f}")
+
+    def _doubt(self, name: str) -> None:
+        """Ask both wrists what they have felt at most: a standing motor that was run into says nothing itself."""
+        for axis in AXES:
+            try:
+                answer = self._ask(name, protocol.force(int(axis[1]), axis[0], peak=True))
+            except BusFault:
+                peak = None
+            else:
+                peak = protocol.signed(answer) * protocol.FORCE_STEP_N
+            if axis not in self.memory.doubtful and (peak is None or peak > DOUBT_N):
+                self.memory.doubtful = tuple(sorted({*self.memory.doubtful, axis}))
+                self._tell(CountDoubtful(time=self.time, axis=axis, force=peak))
 
     def _after_abort(self, axis: str, owner: Owner | None, told: str) -> None:
         task = None if owner is None else self.memory.tasks.get(owner.task)
@@ -719,8 +737,15 @@ class VirtualMachine:
             self._abandon(task, handler)
         elif self.memory.fault is None:
             line = self.program.line_of(owner.address).number
-            told = f"{told}: the task {owner.task}, line {line}"
+            told = f"{told}: the task {owner.task}, line {line}{self._doubts()}"
             self.memory.fault = Fault(kind="abort", task=owner.task, address=owner.address, told=told)
+
+    def _doubts(self) -> str:
+        axes = self.memory.doubtful
+        if not axes:
+            return ""
+        counts = f"the count of {axes[0]} is" if len(axes) == 1 else f"the counts of {' and '.join(axes)} are"
+        return f"; {counts} doubtful until ORIGIN"
 
     # -- console --------------------------------------------------------------------------------------
 
@@ -789,6 +814,7 @@ def _meaning(command: Command) -> str:
         Op.POSITION: "where are you?",
         Op.ABORT_POSITION: "where were you when you were aborted?",
         Op.FORCE: f"what is the force along {protocol.COMPONENTS[command.detail % 3]}?",
+        Op.PEAK_FORCE: f"what was the greatest force along {protocol.COMPONENTS[command.detail % 3]}?",
         Op.THRESHOLD: f"threshold along {protocol.COMPONENTS[command.detail % 3]}: "
         + (
             "standard"

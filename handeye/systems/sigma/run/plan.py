@@ -15,7 +15,8 @@ from handeye.systems.sigma.mal.compiler import MalProgram, program_of
 from handeye.systems.sigma.mal.virtual_machine import STATEMENT_US
 from handeye.systems.sigma.mal.words import MAL_DEVICES
 
-ArmName = Literal["none", "wired"]
+ArmName = Literal["none", "wired", "gantries"]
+TaskName = Literal["mal", "gantries"]
 LONGEST_STATEMENT_US: Final = 1_000_000
 
 
@@ -24,9 +25,14 @@ class MalPlan(Record, frozen=True, kw_only=True):
 
     name: str
     text: Annotated[str, msgspec.Meta(max_length=LARGEST)]
-    arm: ArmName = "none"  # perfect motors, or the firmware of all microcomputers on the wires of the bus
+    arm: ArmName = "none"
+    """Perfect motors; the firmware of all microcomputers on the wires of the bus; the same, and simulated gantries."""
     statement_us: Annotated[int, msgspec.Meta(ge=0, le=LONGEST_STATEMENT_US)] = STATEMENT_US
-    task: Literal["mal"] = "mal"
+
+    @property
+    def task(self) -> TaskName:
+        """The task of its runs."""
+        return "gantries" if self.arm == "gantries" else "mal"
 
     @property
     def program(self) -> MalProgram:

@@ -1,7 +1,8 @@
 """A MAL run under way: a step is one statement of the task whose turn it is."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Final
 
 from handeye.core.entries import refusal
 from handeye.core.errors import BadFile, Refused
@@ -11,6 +12,7 @@ from handeye.core.versions import versions
 from handeye.execution.servo import Halted
 from handeye.execution.state import ReversalOrder
 from handeye.planfile.store import written_digest
+from handeye.ports.axes import Channel
 from handeye.ports.camera import Renderer
 from handeye.program.events import (
     AnyEvent,
@@ -33,15 +35,20 @@ from handeye.systems.sigma import ENTRY
 from handeye.systems.sigma.bus.wired import WiredBus
 from handeye.systems.sigma.machine.perfect import PerfectMemory, PerfectMotors
 from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
-from handeye.systems.sigma.protocol import STEP_MM
+from handeye.systems.sigma.protocol import AXES, STEP_MM
 from handeye.systems.sigma.run.plan import MalPlan, encode, listing
 from handeye.systems.sigma.run.state import MalState
+
+if TYPE_CHECKING:  # programs run on perfect motors without a simulator
+    from handeye.cell.snapshot_cell import SnapshotCell
+    from handeye.systems.sigma.gantries.machine import Gantries
+
+WATCHED: Final = 50  # periods in a second that a trace keeps of the gantries
 
 
 class RunningMal(RunningSystem):
     """Carries a program out on the machine of its plan."""
 
-    cell = None
     trouble = None
 
     def __init__(self, setup: Setup, around: RunCallbacks) -> None:
@@ -50,7 +57,15 @@ class RunningMal(RunningSystem):
         self._listing = listing(setup.plan)
         self._early: list[SystemEvent] = []
         self._begun = False
-        self._machine: PerfectMotors | WiredBus = PerfectMotors() if setup.plan.arm == "none" else WiredBus()
+        self._machine: PerfectMotors | WiredBus = PerfectMotors()
+        self._gantries: Gantries | None = None
+        match setup.plan.arm:
+            case "wired":
+                self._machine = WiredBus()
+            case "gantries":
+                self._machine, self._gantries = _gantries(setup)
+                self._gantries.bench.after_period.append(self._watch)
+        self._watched = 0
         self.vm = VirtualMachine(
             setup.plan.program,
             self._machine,
@@ -64,6 +79,25 @@ class RunningMal(RunningSystem):
             self._state.machine = memory
         else:
             self._state.bus = memory
+
+    @cached_property
+    def cell(self) -> "SnapshotCell | None":
+        return None if self._gantries is None else self._gantries.bench.cell()
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        return () if self._gantries is None else AXES
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        return () if self._gantries is None else self._gantries.channels
+
+    def _watch(self) -> None:
+        """Show what the gantries do, at even times."""
+        assert self._gantries is not None
+        if (period := int(self._gantries.bench.now * WATCHED)) > self._watched:
+            self._watched = period
+            self._around.watch(self._gantries.period)
 
     @property
     def state(self) -> MalState:
@@ -192,6 +226,7 @@ class RunningMal(RunningSystem):
         put_back(self._state, state)
         self._machine.remember(machine)
         self._begun = True
+        self._watched = 0 if self._gantries is None else int(self._gantries.bench.now * WATCHED)
 
     # -- display ------------------------------------------------------------------------------
 
@@ -203,6 +238,7 @@ class RunningMal(RunningSystem):
             "flags": list(memory.flags),
             "variables": dict(sorted(memory.variables.items())),
             "axes": {axis: round(count * STEP_MM, 4) for axis, count in sorted(memory.counts.items())},
+            "doubtful": list(memory.doubtful),
             "commands": memory.commands,
             "idle": round(self.vm.idle, 3),
         }
@@ -240,3 +276,13 @@ class RunningMal(RunningSystem):
             memory.flags = tuple(sorted(flags | {name} if value[0] else flags))
         else:
             raise Refused(f"a flag is set by 1 and cleared by 0, not by {value[0]:g}")
+
+
+def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries]":
+    """The bus of the simulated machine, and what hangs on it."""
+    from handeye.systems.sigma.gantries.machine import Gantries, scene
+    from handeye.systems.sigma.gantries.world import GantryWorld
+
+    world = GantryWorld(setup.world)
+    gantries = Gantries(scene(world), world)
+    return WiredBus(plant=gantries, seed=setup.world.seed, clock_spread=world.clock_spread), gantries

@@ -1,0 +1,42 @@
+"""The command of the safety study."""
+
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+from handeye.cli.common import Json, put_json, say
+
+
+def crash(
+    *,
+    speed: Annotated[
+        float | None,
+        Parameter(help="Constant speed of arm 1, 2 to 254 mm/s; without it, arm 1 moves as fast as it can."),
+    ] = None,
+    reflex: Annotated[
+        Literal["on", "off"], Parameter(help="Whether the wires from the wrists to the motors are connected.")
+    ] = "on",
+    endless_loop: Annotated[
+        bool,
+        Parameter(
+            negative=(), help="The central computer hangs once it has sent the move, and reads no status."
+        ),
+    ] = False,
+    json: Json = False,
+) -> int:
+    """Let arm 1 run into the standing hand of arm 2: force, steps lost, what the program believes, and what is true.
+
+    The collision is a study, so no outcome is right or wrong. The page `docs/safety_study.md` compares ten.
+
+    Exit code 0: simulated; 2: bad input.
+    """
+    from handeye.systems.sigma.gantries.crash import crash as collide
+    from handeye.systems.sigma.gantries.crash import lines
+
+    found = collide(speed, reflex=reflex == "on", endless_loop=endless_loop)
+    if json:
+        put_json(found)
+    else:
+        for line in lines(found):
+            say(line, whole=True)
+    return 0

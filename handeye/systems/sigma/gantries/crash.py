@@ -1,0 +1,192 @@
+"""The safety study: arm 1 runs into the standing hand of arm 2, with the reflex and without it."""
+
+from collections.abc import Mapping
+from typing import Final
+
+import numpy as np
+
+from handeye.core.errors import BadArgument
+from handeye.core.pose import Array
+from handeye.core.record import Record
+from handeye.ports.microbus import Status
+from handeye.systems.sigma.bus.events import AnyBusEvent, StatusLines
+from handeye.systems.sigma.bus.faults import defect
+from handeye.systems.sigma.bus.wired import WiredBus
+from handeye.systems.sigma.gantries.machine import Gantries, scene
+from handeye.systems.sigma.gantries.world import GantryWorld
+from handeye.systems.sigma.mal.compiler import program_of
+from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
+from handeye.systems.sigma.protocol import AXES, NUMBERS, STEP_MM
+
+ARMS: Final = ("X1", "X2")  # the axes that meet
+GOAL: Final = 200.0  # mm, where X1 is sent
+STANDS: Final = 400.0  # mm, where X2 stands: the hands meet at X1 = 160
+SLOWEST, FASTEST = 2.0, 254.0  # mm/s, of a move at constant speed
+_LONGEST: Final = 120_000_000  # microseconds
+_REST: Final = 300_000  # microseconds until all stands still
+_PROGRAM: Final = """10 REM ARM 1 RUNS INTO THE STANDING HAND OF ARM 2
+20 ORIGIN X1, X2
+30 MOVE X2 TO {stands:g}
+40 MOVE X1 TO {goal:g}{slow}
+50 PRINT "ARRIVED AT", POS(X1)
+"""
+
+
+class CrashedAxis(Record, frozen=True, kw_only=True):
+    """An axis after the collision. Places are mm."""
+
+    axis: str
+    force: float  # the greatest on its wrist, N
+    status: str  # lines A and B as its motor stopped
+    believed: float  # the count of the program
+    counted: float  # that of the microcomputer
+    true: float
+    lost: int  # steps by which the microcomputer's count is wrong
+    doubted: bool  # by the run time of the program
+
+
+class Crash(Record, frozen=True, kw_only=True):
+    """What came of a collision."""
+
+    speed: float | None  # mm/s; None: the profile of a fast move
+    reflex: bool
+    endless_loop: bool
+    axes: tuple[CrashedAxis, ...]
+    message: str  # what the program reports
+
+
+def program_text(speed: float | None) -> str:
+    """The program of the study."""
+    slow = "" if speed is None else f" SLOW {speed:g}"
+    return _PROGRAM.format(stands=STANDS, goal=GOAL, slow=slow)
+
+
+def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False) -> Crash:
+    """Let the arms collide.
+
+    Args:
+        speed: mm/s; None: as fast as a motor goes over that distance.
+        reflex: The wires from the wrists to the motors are whole.
+        endless_loop: The central computer hangs once it has sent the move: it reads no status any more.
+    """
+    if speed is not None and not SLOWEST <= speed <= FASTEST:
+        raise BadArgument(f"a constant speed is from {SLOWEST:g} to {FASTEST:g} mm/s, not {speed:g}")
+    world = GantryWorld()
+    gantries = Gantries(scene(world), world)
+    bus = WiredBus(plant=gantries, defects=[] if reflex else [defect("no-reflex")])
+    greatest = np.zeros(len(AXES))
+
+    def look() -> None:
+        np.maximum(greatest, np.abs(gantries.felt), out=greatest)
+
+    stops: dict[int, Status] = {}
+
+    def hear(event: AnyBusEvent) -> None:
+        if isinstance(event, StatusLines) and Status(event.status).aborted:
+            stops[event.number] = Status(event.status)
+
+    gantries.bench.after_step.append(look)
+    bus.tell.append(hear)
+    vm = VirtualMachine(program_of("crash.mal", program_text(speed)), bus)
+    vm.begin()
+    while vm.turn and not (endless_loop and _sent(vm)):
+        vm.statement()
+        if not (endless_loop and _sent(vm)):
+            vm.settle()
+    _pass(bus)
+    if endless_loop:
+        message = "nothing: the central computer hangs, and believes that its command is carried out"
+    else:
+        message = vm.memory.fault.told if vm.memory.fault else f"ARRIVED AT {GOAL:g}"
+    return Crash(
+        speed=speed,
+        reflex=reflex,
+        endless_loop=endless_loop,
+        axes=tuple(_after(axis, vm, bus, gantries, greatest, stops) for axis in ARMS),
+        message=message,
+    )
+
+
+def _sent(vm: VirtualMachine) -> bool:
+    """The move of the study is sent."""
+    return vm.memory.counts.get("X1") == round(GOAL / STEP_MM)
+
+
+def _pass(bus: WiredBus) -> None:
+    for axis in ARMS:
+        bus.wait_free(NUMBERS[axis], _LONGEST)
+    end = bus.now + _REST
+    while bus.now < end:
+        bus.wait(end)
+
+
+def _after(
+    axis: str,
+    vm: VirtualMachine,
+    bus: WiredBus,
+    gantries: Gantries,
+    greatest: Array,
+    stops: Mapping[int, Status],
+) -> CrashedAxis:
+    number, index = NUMBERS[axis], AXES.index(axis)
+    count = bus.motor(number).count(bus.now * 1_000_000)
+    true = float(gantries.places[index])
+    status = stops.get(number, Status.FREE)
+    return CrashedAxis(
+        axis=axis,
+        force=round(float(greatest[index]), 1),
+        status=f"{status >> 1}-{status & 1}",
+        believed=round(vm.memory.counts[axis] * STEP_MM, 2),
+        counted=round(count * STEP_MM, 2),
+        true=round(true * STEP_MM, 2),
+        lost=round(count - true),
+        doubted=axis in vm.memory.doubtful,
+    )
+
+
+def lines(found: Crash) -> list[str]:
+    """A collision in sentences and a table."""
+    speed = "full speed" if found.speed is None else f"{found.speed:g} mm/s"
+    loop = ", with the central computer in an endless loop" if found.endless_loop else ""
+    rows = [
+        f"  {a.axis}  {a.force:5.1f} N{a.status:>8}{a.believed:14.2f} mm{a.true:10.2f} mm{a.lost:8d}"
+        f"{'  doubted' if a.doubted else ''}"
+        for a in found.axes
+    ]
+    return [
+        f"arm 1 runs into the standing hand of arm 2, at {speed}, reflex {'on' if found.reflex else 'off'}{loop}",
+        "      force  status      believed         true   steps lost",
+        *rows,
+        f"the program reports: {found.message}",
+    ]
+
+
+STUDY: Final = (
+    *((speed, reflex, False) for speed in (20.0, 50.0, 200.0, None) for reflex in (True, False)),
+    (50.0, True, True),
+    (50.0, False, True),
+)
+"""Speed, reflex and endless loop of each collision of the page."""
+
+
+def page_table() -> str:
+    """The table of docs/safety_study.md."""
+    heads = ["speed", "reflex", "central computer", "axis", "greatest force", "status"]
+    heads += ["believed", "true", "steps lost", "doubted"]
+    head = f"| {' | '.join(heads)} |\n|{'---|' * len(heads)}\n"
+    rows = []
+    for speed, reflex, endless in STUDY:
+        found = crash(speed, reflex=reflex, endless_loop=endless)
+        what = (
+            "full" if speed is None else f"{speed:g} mm/s",
+            "on" if reflex else "off",
+            "hangs" if endless else "works",
+        )
+        for axis in found.axes:
+            cells = (
+                *what, axis.axis, f"{axis.force:.1f} N", axis.status, f"{axis.believed:.2f} mm",
+                f"{axis.true:.2f} mm", str(axis.lost), "yes" if axis.doubted else "no",
+            )  # fmt: skip
+            rows.append(f"| {' | '.join(cells)} |\n")
+            what = ("", "", "")
+    return head + "".join(rows)

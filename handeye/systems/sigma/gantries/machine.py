@@ -1,0 +1,325 @@
+"""The two gantries behind the pins: rotors drawn by their fields, wrists that bend, switches, beams and hands.
+
+The fields of all motors are known ahead, from the pulse trains of their firmware, as tables with a row a millisecond.
+The physics follows these tables; each millisecond, one product and one comparison show whether a wrist has crossed its
+threshold, a switch has changed, or a rotor has slipped. Only then does anything else have to act.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.cell.bench import Bench
+from handeye.core.pose import Array
+from handeye.core.resources import scenes
+from handeye.execution.servo import ServoPeriod
+from handeye.ports.axes import Channel
+from handeye.ports.workcell import Sensed
+from handeye.systems.sigma.bus.plant import TRAVEL, Level, Plant
+from handeye.systems.sigma.firmware.device import PS
+from handeye.systems.sigma.firmware.force import CONVERTER_N, RELEASED, STANDARD_N
+from handeye.systems.sigma.firmware.motor import Motor, Pin
+from handeye.systems.sigma.gantries.memory import GantryMemory
+from handeye.systems.sigma.gantries.world import (
+    BEAM,
+    FRICTION,
+    GAIN,
+    LEFT,
+    PULL_OUT,
+    STIFFNESS,
+    SWITCHES,
+    GantryWorld,
+)
+from handeye.systems.sigma.motors.pulses import CURVES
+from handeye.systems.sigma.motors.rotor import MASSES, POLE, STEP, Drive
+from handeye.systems.sigma.protocol import AXES, COMPONENTS, DEVICES, NUMBERS
+
+SCENE: Final = "supersigma/supersigma.xml"
+CAMERA: Final = "people"
+ARMS: Final = (1, 2)
+SWITCHED_ON_AT: Final = 400  # steps from its low switch where the power finds each axis
+FORCES: Final = tuple(Channel(name=f"force_{arm}", unit="N", width=3) for arm in ARMS)
+FINGERS: Final = tuple(f"{side}_{arm}" for arm in ARMS for side in ("left", "right"))
+DIFFERENTIAL: Final = 2e-4  # m by which a switch is released later than it acts
+OPEN: Final = 0.044  # m between the fingers
+TICK: Final = 1000 * PS  # of the physics, ps
+_HAND_KG: Final = 1.2  # as the accelerometers are set
+_STIFFNESS: Final = 20_000.0  # N/m of a wrist, as the strain gauges are set
+_DAMPING: Final = 92.95  # N s/m
+_GRAVITY: Final = 9.81
+_FINGER: Final = 2e-4  # m by which a ray may end before the photodiode: it meets the other finger
+_SENSE: Final = np.array([1.0, 1.0, -1.0, -1.0, 1.0, -1.0])  # of each axis along x, y or z of the scene
+_AXIS: Final = {NUMBERS[axis]: index for index, axis in enumerate(AXES)}
+_WRIST: Final = {NUMBERS[f"FORCE{arm}"]: slice(3 * index, 3 * index + 3) for index, arm in enumerate(ARMS)}
+_WRISTED: Final = tuple(NUMBERS[f"FORCE{axis[1]}"] for axis in AXES)
+_HAND: Final = {NUMBERS[f"HAND{arm}"]: index for index, arm in enumerate(ARMS)}
+_N: Final = len(AXES)
+_HIGH: Final = 2  # rows of six: forces one way and the other, high ends, low ends, rotors ahead, and behind
+_ENDS: Final[dict[int, Pin]] = {_HIGH: "high", _HIGH + 1: "low"}
+_LEVELS: Final = 4 * _N
+_ALL: Final = 6 * _N
+_PLACES: Final = slice(_LEVELS, _LEVELS + _N)
+Table = NDArray[np.float64]
+
+
+def scene(world: GantryWorld) -> mujoco.MjSpec:
+    """The scene of a world, with nothing on the board."""
+    spec = mujoco.MjSpec.from_file(str(scenes() / SCENE))
+    stiffer = world.axes(STIFFNESS)
+    friction = world.value(FRICTION)
+    for index, axis in enumerate(AXES):
+        spec.joint(axis).damping = np.array([friction * MASSES[axis[0]], 0, 0])
+        spec.joint(f"wrist_{axis}").stiffness = np.array([_STIFFNESS * (1 + stiffer[index]), 0, 0])
+    for arm in ARMS:
+        higher = world.normal(f"beam.{arm}", BEAM)
+        for end in ("lamp", "photodiode"):
+            spec.site(f"{end}_{arm}").pos[2] += higher
+    return spec
+
+
+class Field(NamedTuple):
+    """Where the field of a motor is, from a step of the physics on; the last row stays."""
+
+    first: int
+    places: Table  # pulses
+    speeds: Table  # pulses/s
+
+
+class Gantries(Plant[GantryMemory]):
+    """Two gantries on a bench."""
+
+    predicts = False
+    channels = FORCES
+
+    def __init__(self, spec: mujoco.MjSpec, world: GantryWorld, *, compensated: bool = True) -> None:
+        """Switch them on.
+
+        Args:
+            compensated: The signals of the accelerometers are mixed with those of the wrists.
+        """
+        self.bench, self.memory = Bench(spec.compile()), GantryMemory()
+        model, data = self.bench.model, self.bench.data
+        self._low = world.axes(SWITCHES)  # m, where the low switch of each axis is, of its joint
+        self._high = self._low + [TRAVEL[axis[0]] * STEP for axis in AXES]
+        self._begin = self._low + SWITCHED_ON_AT * STEP
+        self._pull = 1.0 + world.axes(PULL_OUT)
+        servos = [model.actuator(axis).id for axis in AXES]
+        self._stiff = model.actuator_gainprm[servos, 0].copy()
+        self._lead = -model.actuator_biasprm[servos, 2] / self._stiff  # s by which speed leads the place
+        gauges, still = _gauges(1.0 + world.axes(GAIN), world.value(LEFT) if compensated else 1.0)
+        places = np.eye(_N, model.nsensordata)
+        self._felt = np.concatenate((gauges, -gauges, places, -places, places, -places))
+        self._still = np.concatenate((still, -still, np.zeros(4 * _N)))
+        self._over = np.full(_N, _least_over(STANDARD_N))
+        self._release = np.full(_N, _least_over(STANDARD_N * RELEASED))
+        self._trains: list[object] = [None] * _N
+        self._fields = [Field(0, np.zeros(1), np.zeros(1))] * _N
+        self._first = self._step = 0
+        self._peaks = np.zeros(_N)
+        self._seen: dict[tuple[int, Pin], Level] = {}
+        data.qpos[[model.joint(axis).qposadr[0] for axis in AXES]] = self._begin
+        for finger in FINGERS:
+            data.qpos[model.joint(finger).qposadr[0]] = OPEN / 2
+        mujoco.mj_forward(model, data)
+        self._known = bytes(_ALL)
+        self.memory.levels = self._known[:_LEVELS]
+        self._plan()
+        self.bench.before_step.append(self._draw)
+        self.bench.after_step.append(self._look)
+
+    # -- pins ----------------------------------------------------------------------------------------------
+
+    def next_pin(self, number: int, motor: Motor) -> None:
+        return None
+
+    def forces(self, number: int) -> Sequence[float]:
+        return [float(force) for force in self.felt[_WRIST[number]]]
+
+    def peaks(self, number: int) -> Sequence[float]:
+        part = _WRIST[number]
+        peaks, self.memory.peaks[part] = self.memory.peaks[part], [0.0] * len(COMPONENTS)
+        return peaks
+
+    def beam(self, number: int) -> bool:
+        model, data, arm = self.bench.model, self.bench.data, ARMS[_HAND[number]]
+        lamp = data.site(f"lamp_{arm}").xpos
+        way = data.site(f"photodiode_{arm}").xpos - lamp
+        length = float(np.linalg.norm(way))
+        body, met = model.body(f"left_{arm}").id, np.zeros(1, dtype=np.int32)
+        far = mujoco.mj_ray(model, data, lamp, way / length, None, True, body, met)
+        return bool(0 <= far < length - _FINGER)
+
+    def actuate(self, number: int, devices: Sequence[int]) -> None:
+        closed = bool(devices[DEVICES["HAND"]])
+        if self.memory.grips[_HAND[number]] != closed:
+            self.memory.grips[_HAND[number]] = closed
+            self._plan()
+
+    def limited(self, number: int, thresholds: Sequence[float]) -> None:
+        over, part = [*map(_least_over, thresholds)], _WRIST[number]
+        if self._over[part].tolist() != over:
+            self._over[part] = over
+            self._release[part] = [_least_over(RELEASED * threshold) for threshold in thresholds]
+            self._plan()
+
+    def driven(self, number: int, motor: Motor) -> None:
+        index, memory = _AXIS[number], motor.memory
+        train = memory.train, memory.began, memory.pulses
+        if self._trains[index] != train:
+            self._trains[index], self._fields[index] = train, _field(motor, self._step)
+            self._plan()
+
+    def resumed(self) -> None:
+        self._step = self._first = round(self.bench.now / float(self.bench.tick))
+        self._trains, self._known = [()] * _N, self.memory.levels + bytes(_ALL - _LEVELS)
+        self._plan()
+
+    # -- truth, for a referee --------------------------------------------------------------------------------
+
+    @property
+    def places(self) -> Array:
+        """Where each axis truly is, steps from its low switch, shape (6,)."""
+        model, data = self.bench.model, self.bench.data
+        q = data.qpos[[model.joint(axis).qposadr[0] for axis in AXES]]
+        return np.asarray((q - self._low) / STEP)
+
+    @property
+    def felt(self) -> Array:
+        """What the wrists feel now along each axis, N, shape (6,)."""
+        return np.asarray(self._felt[:_N] @ self.bench.data.sensordata + self._still[:_N])
+
+    @property
+    def period(self) -> ServoPeriod:
+        """What the arms do now, for traces and pictures: places and speeds of joints, forces on the wrists."""
+        model, data = self.bench.model, self.bench.data
+        joints = [model.joint(axis) for axis in AXES]
+        q = data.qpos[[int(joint.qposadr[0]) for joint in joints]]
+        qd = data.qvel[[int(joint.dofadr[0]) for joint in joints]]
+        wrists = zip(FORCES, _WRIST.values(), strict=True)
+        channels = {channel: tuple(self.felt[part].tolist()) for channel, part in wrists}
+        gap = float(data.ten_length[0])
+        sensed = Sensed(time=self.bench.now, q=q, qd=qd, gap=gap, channels=channels)
+        return ServoPeriod(sensed=sensed, effort=data.actuator_force[:_N].copy())
+
+    # -- time ----------------------------------------------------------------------------------------------
+
+    def advance(self, at: int) -> tuple[int, list[Level]] | None:
+        steps = at // TICK - self._step
+        if steps <= 0:
+            return None
+        self.bench.advance(steps / 1000)
+        self.memory.peaks = np.maximum(self.memory.peaks, self._peaks).tolist()
+        self._peaks = np.zeros(_N)
+        if not self._seen:
+            return None
+        seen, self._seen = [*self._seen.values()], {}
+        return self._step * TICK, seen
+
+    def _plan(self) -> None:
+        """Lay the fields of all motors into one table, from the present step on."""
+        self._first = self._step
+        left = [(field, min(self._step - field.first, len(field.places) - 1)) for field in self._fields]
+        self._last = max(len(field.places) - gone for field, gone in left) - 1
+        places, speeds = np.empty((self._last + 1, _N)), np.zeros((self._last + 1, _N))
+        for index, (field, gone) in enumerate(left):
+            rows = len(field.places) - gone
+            places[:rows, index], places[rows:, index] = field.places[gone:], field.places[-1]
+            speeds[:rows, index] = field.speeds[gone:]
+        places = (places + POLE * np.array(self.memory.slipped)) * STEP + self._begin
+        pull = pull_out(speeds) * self._pull
+        grips = np.tile([0.0 if closed else OPEN for closed in self.memory.grips], (self._last + 1, 1))
+        self._ctrl = np.concatenate((places + self._lead * speeds * STEP, grips), axis=1)
+        self._ranges = np.stack((-pull, pull), axis=2)
+        leaves = pull / self._stiff + STEP  # m: what the servo gives at most, and a step more
+        over, under, high, low = np.frombuffer(self.memory.levels, bool).reshape(_LEVELS // _N, _N)
+        forces = [np.where(acts, self._release, self._over) for acts in (over, under)]
+        ends = self._high - DIFFERENTIAL * high, DIFFERENTIAL * ~low - self._low
+        still = np.concatenate((*forces, *ends))
+        still = np.tile(still, (self._last + 1, 1))
+        self._limits = np.concatenate((still, places + leaves, leaves - places), axis=1)
+
+    def _draw(self) -> None:
+        """Let the fields draw the rotors for a step."""
+        self._row = min(self._step - self._first, self._last)
+        self.bench.data.ctrl[:] = self._ctrl[self._row]
+        self.bench.model.actuator_forcerange[:_N] = self._ranges[self._row]
+
+    def _look(self) -> None:
+        """See what a step has changed."""
+        sensed = self._felt @ self.bench.data.sensordata + self._still
+        self._step += 1
+        np.maximum(self._peaks, np.abs(sensed[:_N]), out=self._peaks)
+        levels = (sensed > self._limits[self._row]).tobytes()
+        if levels != self._known:
+            self._change(levels, sensed)
+
+    def _change(self, levels: bytes, sensed: Array) -> None:
+        """Comparators and switches have changed, or rotors leave their poles."""
+        for index in range(_LEVELS):
+            if levels[index] != self._known[index]:
+                kind, axis = divmod(index, _N)
+                pin: Pin = _ENDS.get(kind, "force")
+                number = _WRISTED[axis] if pin == "force" else NUMBERS[AXES[axis]]
+                self._seen[number, pin] = Level(number, pin, bool(levels[index]))
+        if any(levels[_LEVELS:]):
+            self._slip(levels[_LEVELS:], sensed[_PLACES])
+        if levels[:_LEVELS] != self.memory.levels:
+            self.memory.levels = levels[:_LEVELS]
+            self._known = self.memory.levels + bytes(_ALL - _LEVELS)
+            self._plan()  # what acts is released elsewhere
+        if self._seen:
+            self.bench.end_early()
+
+    def _slip(self, leaves: bytes, places: Array) -> None:
+        """Rotors leave their poles, and the nearest ones catch them."""
+        most, least = np.split(self._limits[self._row, _LEVELS:], 2)
+        poles = np.rint((places - (most - least) / 2) / STEP / POLE)
+        for axis in range(_N):
+            if leaves[axis] or leaves[_N + axis]:
+                one = 1 if leaves[axis] else -1
+                self.memory.slipped[axis] += int(poles[axis]) or one
+        self._plan()
+
+
+def _field(motor: Motor, first: int) -> Field:
+    """Where the field of a motor goes from a step of the physics on."""
+    memory = motor.memory
+    if memory.train is None:
+        return Field(first, np.array([float(memory.pulses)]), np.zeros(1))
+    pulses, tick = memory.train.pulses, motor.crystal.ticks(2) / 2
+    last = -(-(memory.began + motor.crystal.ticks(pulses.end)) // TICK) + 1
+    ticks = (np.arange(first, max(first, last) + 1) * TICK - memory.began) / tick
+    made = np.interp(ticks, np.concatenate(([0], pulses.ticks)), np.arange(len(pulses) + 1.0))
+    places = memory.pulses + memory.sense * made
+    return Field(first, places, np.append(np.diff(places) * 1000, 0.0))
+
+
+def pull_out(speeds: Table) -> Table:
+    """The greatest force of a motor at speeds, steps/s, N."""
+    usual, slow, fast = Drive(mass=1.0), CURVES[1].start, CURVES[1].top
+    return np.asarray(np.interp(np.abs(speeds), (slow, fast), (usual.start_force, usual.top_force)))
+
+
+def _least_over(threshold: float) -> float:
+    """The least force whose reading is over a threshold, N."""
+    return (math.floor(threshold / CONVERTER_N + 1e-9) + 0.5) * CONVERTER_N
+
+
+def _gauges(gain: Array, left: float) -> tuple[Table, Array]:
+    """How the sensors of the scene make up the six forces, shape (6, 24), and what is added, shape (6,).
+
+    A strain gauge shows what the wrist bears; an accelerometer adds what accelerates the hand itself, except a share
+    that is `left`, so that their sum is the force from outside.
+    """
+    inertia = (1 - left) * _HAND_KG * _SENSE
+    gauges = np.zeros((_N, 4 * _N))
+    for axis in range(_N):
+        gauges[axis, _N + axis] = gain[axis] * _STIFFNESS
+        gauges[axis, 2 * _N + axis] = gain[axis] * _DAMPING
+        gauges[axis, 3 * _N + axis] = inertia[axis]
+    upright = np.tile([0.0, 0.0, 1.0], len(ARMS))
+    return gauges, -inertia * upright * _GRAVITY

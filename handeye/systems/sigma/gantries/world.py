@@ -1,0 +1,98 @@
+"""Worlds of the gantries: errors of switches, motors, wrists, beams and clocks, drawn from a seed."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from handeye.core.distributions import Distribution, Noise, Range, random_numbers
+from handeye.core.pose import Array
+from handeye.core.variation import Quantity, Variation, WorldSpec
+from handeye.systems.sigma.protocol import AXES
+
+SWITCHES: Final = "switches"
+FRICTION: Final = "axes.friction"
+PULL_OUT: Final = "motors.pull_out"
+STIFFNESS: Final = "wrists.stiffness"
+GAIN: Final = "wrists.gain"
+LEFT: Final = "wrists.left"
+BEAM: Final = "beams.height"
+CLOCKS: Final = "clocks"
+ACROSS: Final = "pieces.across"
+_CLIPPED: Final = 2.0  # sigmas
+
+
+def _quantity(
+    name: str, unit: str, drawn: Distribution, most: float, source: str, nominal: float = 0.0
+) -> Quantity:
+    return Quantity(
+        name=name, unit=unit, distribution=drawn, nominal=nominal, limits=(0.0, most), source=source
+    )
+
+
+VARIATION: Final = Variation(
+    _quantity(
+        SWITCHES, "mm", Noise(0.05), 1.0, "Standard deviation of the place of a rail's switch. Chosen."
+    ),
+    _quantity(FRICTION, "", Range(0.35, 0.65), 5.0, "Friction of an axis, N s/m for each kg. Chosen.", 0.5),
+    _quantity(
+        PULL_OUT, "", Noise(0.05), 0.4, "Standard deviation of a motor's pull-out force, as a share. Chosen."
+    ),
+    _quantity(
+        STIFFNESS, "", Noise(0.015), 0.4, "Standard deviation of a wrist's stiffness, as a share. Chosen."
+    ),
+    _quantity(GAIN, "", Noise(0.015), 0.4, "Standard deviation of a strain gauge's gain. Chosen."),
+    _quantity(
+        LEFT,
+        "",
+        Range(0.03, 0.08),
+        1.0,
+        "Share of the inertial force that the accelerometers leave; 1 without them. Chosen.",
+        0.05,
+    ),
+    _quantity(BEAM, "mm", Noise(0.1), 2.0, "Standard deviation of the height of a beam. Chosen."),
+    _quantity(
+        CLOCKS, "", Noise(0.0025), 0.04, "Standard deviation of a microcomputer's clock, as a share. Chosen."
+    ),
+    _quantity(
+        ACROSS,
+        "mm",
+        Noise(0.5),
+        5.0,
+        "Standard deviation of a piece's place across its line. Chosen: by hand.",
+    ),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class GantryWorld:
+    """A world, without errors if it has no specification. Each number has a stream of its own, by name."""
+
+    spec: WorldSpec | None = None
+
+    def value(self, quantity: str) -> float:
+        """A quantity of the world, SI."""
+        if self.spec is None:
+            nominal = VARIATION.quantities[quantity]
+            return nominal.nominal * nominal.measure.size
+        return VARIATION.value(quantity, self.spec)
+
+    def normal(self, name: str, quantity: str) -> float:
+        """A normal number by name, its sigma a quantity of the world, clipped at two sigma."""
+        if self.spec is None:
+            return 0.0
+        drawn = float(self.numbers(name).standard_normal())
+        return min(max(drawn, -_CLIPPED), _CLIPPED) * self.value(quantity)
+
+    def numbers(self, name: str) -> np.random.Generator:
+        """The stream of a name."""
+        return random_numbers(0 if self.spec is None else self.spec.seed, f"gantries.{name}")
+
+    def axes(self, quantity: str) -> Array:
+        """A normal number for each axis, shape (6,)."""
+        return np.array([self.normal(f"{quantity}.{axis}", quantity) for axis in AXES])
+
+    @property
+    def clock_spread(self) -> float:
+        """How far clocks of microcomputers are off at most, as a share."""
+        return _CLIPPED * self.value(CLOCKS)
