@@ -72,8 +72,13 @@ class JointAgreement:
     _between: Array = field(init=False)
     _moving: Array = field(init=False)
     _gain: Array = field(init=False)
+    _slack: Array = field(init=False)
+    _creep: Array = field(init=False)
 
     def __post_init__(self) -> None:
+        slack = np.where(constants(self.arm).prismatic, MAX_SLIDE_GAP, MAX_TURN_GAP)
+        self._slack = slack + READING_STEPS * position_step(self.arm)
+        self._creep = rate_step(self.arm) / 4 * self.arm.servo.period
         self._clear()
 
     def _clear(self) -> None:
@@ -102,14 +107,12 @@ class JointAgreement:
         gone, gain = (self.rate + qd) / 2 * period, qd - self.rate
         self._way, self._path = self._way + gone, self._path + np.abs(gone)
         self._between = np.hypot(self._between, STRUCK * _unsteady(gain - self._gain, step) / 2 * period)
-        self._moving = self._moving + np.where(qd != 0, step / 4 * period, 0.0)
+        self._moving = self._moving + (qd != 0) * self._creep
         self.rate, self._gain = qd, gain
         by_pot = q - self.start
-        slack = np.where(constants(self.arm).prismatic, MAX_SLIDE_GAP, MAX_TURN_GAP)
-        slack = slack + READING_STEPS * position_step(self.arm)
-        allowed = slack + PATH_SHARE * self._path + self._between + self._moving
+        allowed = self._slack + PATH_SHARE * self._path + self._between + self._moving
         excess = np.abs(by_pot - self._way) / allowed
-        joint = int(np.argmax(excess))
+        joint = int(excess.argmax())
         if excess[joint] <= 1:
             return None
         return Disagreement(
@@ -131,7 +134,7 @@ def jumped(arm: ArmModel, by_pot: Array, before: Array, after: Array) -> Disagre
     gone = (before + after) / 2 * period
     struck = STRUCK * np.abs(after - before) / 2 * period
     excess = np.abs(by_pot - gone) / (JUMP_STEPS * position_step(arm) + struck)
-    joint = int(np.argmax(excess))
+    joint = int(excess.argmax())
     if excess[joint] <= 1:
         return None
     return Disagreement(joint=joint, potentiometer=float(by_pot[joint]), tachometer=float(gone[joint]))

@@ -12,13 +12,15 @@ points down under a level boom, an upward push looks the same as a shoulder that
 push.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from handeye.arm.computed_torque import external_wrench
 from handeye.arm.converters import rate_step, torque_step
+from handeye.arm.exertion import Exertion, columns
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
 
@@ -58,54 +60,34 @@ class Stiffness:
     one_way: bool  # it slid one way only, so that a weight beside the model's would feel the same
 
 
-@dataclass(slots=True, kw_only=True)
-class JointDrag:
-    """Unexplained torques during a motion, averaged for each direction of sliding of each joint; arrays of shape
-    (2, n).
+def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffness | None:
+    """The joint, if any, that resists a motion with much more than its measured `friction`, (n,).
+
+    Torques are averaged for each direction of sliding of each joint; arrays of shape (2, n).
     """
-
-    arm: ArmModel
-    _sum: Array = field(init=False)
-    _periods: Array = field(init=False)
-    _rate: Array = field(init=False)
-    _weight: Array = field(init=False)
-
-    def __post_init__(self) -> None:
-        self._sum, self._periods, self._rate, self._weight = (
-            np.zeros((2, len(self.arm.joints))) for _ in range(4)
-        )
-
-    def step(self, spare: Array, modelled: Array, rate: Array) -> None:
-        """Add a servo period: unexplained torques, modelled torques and rates, shape (n,) each."""
-        least = SLIDING_STEPS * rate_step(self.arm)
-        for way, sliding in enumerate((rate > least, rate < -least)):
-            self._sum[way] += np.where(sliding, spare, 0.0)
-            self._weight[way] += np.where(sliding, np.abs(modelled), 0.0)
-            self._rate[way] += np.where(sliding, np.abs(rate), 0.0)
-            self._periods[way] += sliding
-
-    def stiff(self, friction: Array) -> Stiffness | None:
-        """The joint, if any, that resists with much more than its measured `friction`, (n,)."""
-        enough = self._periods >= LEAST_PERIODS
-        periods = np.maximum(self._periods, 1.0)
-        mean, rate, weight = (each / periods for each in (self._sum, self._rate, self._weight))
-        both = enough.all(axis=0)
-        one = np.where(enough[0], mean[0], -mean[1])
-        drag = np.where(both, (mean[0] - mean[1]) / 2, np.where(enough.any(axis=0), one, 0.0))
-        allowed = MAX_DRAG_RATIO * friction + torque_step(self.arm) / 2
-        allowed = allowed + DAMPING_DOUBT * constants(self.arm).damping * np.where(enough, rate, 0.0).max(
-            axis=0
-        )
-        allowed = allowed + np.where(both, 0.0, WEIGHT_DOUBT * np.where(enough, weight, 0.0).max(axis=0))
-        joint = int(np.argmax(drag / allowed))
-        if drag[joint] <= allowed[joint]:
-            return None
-        return Stiffness(
-            joint=joint,
-            torque=float(drag[joint]),
-            friction=float(friction[joint]),
-            one_way=not enough[:, joint].all(),
-        )
+    _, spare, modelled, rates = columns(taken)
+    least = SLIDING_STEPS * rate_step(arm)
+    sliding = np.stack((rates > least, rates < -least))  # in either direction, (2, N, n)
+    counted = sliding.sum(axis=1)
+    enough, periods = counted >= LEAST_PERIODS, np.maximum(counted, 1)
+    mean, rate, weight = (
+        (sliding * each).sum(axis=1) / periods for each in (spare, np.abs(rates), np.abs(modelled))
+    )
+    both = enough.all(axis=0)
+    one = np.where(enough[0], mean[0], -mean[1])
+    drag = np.where(both, (mean[0] - mean[1]) / 2, np.where(enough.any(axis=0), one, 0.0))
+    allowed = MAX_DRAG_RATIO * friction + torque_step(arm) / 2
+    allowed = allowed + DAMPING_DOUBT * constants(arm).damping * np.where(enough, rate, 0.0).max(axis=0)
+    allowed = allowed + np.where(both, 0.0, WEIGHT_DOUBT * np.where(enough, weight, 0.0).max(axis=0))
+    joint = int(np.argmax(drag / allowed))
+    if drag[joint] <= allowed[joint]:
+        return None
+    return Stiffness(
+        joint=joint,
+        torque=float(drag[joint]),
+        friction=float(friction[joint]),
+        one_way=not enough[:, joint].all(),
+    )
 
 
 def alone(arm: ArmModel, J: Array, spare: Array) -> int | None:

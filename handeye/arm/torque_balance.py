@@ -10,13 +10,15 @@ the high level: the weight torque of joint 2 of the Stanford arm is known to .27
 over the table, that of joint 3 to .6 N of 5 to 20 N. A joint that carries no weight gives no information.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from handeye.arm.converters import sliding, torque_step
 from handeye.arm.dynamics import link_weights
+from handeye.arm.exertion import Exertion, columns
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
 
@@ -47,53 +49,35 @@ class Unbalanced:
     factors: tuple[float, ...]
 
 
-@dataclass(slots=True, kw_only=True)
-class TorqueBalance:
-    """Torques of the joints beyond weight, inertia and load during a motion; arrays of shape (n,)."""
+def balanced(
+    arm: ArmModel, taken: Sequence[Exertion], friction: Array, belief: Array | None, borne: Array
+) -> tuple[Array, Unbalanced | None]:
+    """Compare a motion with the estimate before it; returns the estimate after it, and the joints that do not balance,
+    if any.
 
-    arm: ArmModel  # as it has been weighed
-    friction: Array  # as it was measured
-    postures: list[Array] = field(default_factory=list)
-    _spare: Array = field(init=False)
-    _rate: Array = field(init=False)
-    _slid: Array = field(init=False)
-
-    def __post_init__(self) -> None:
-        self._spare, self._rate, self._slid = (np.zeros(len(self.friction)) for _ in range(3))
-
-    def step(self, q: Array, spare: Array, rate: Array) -> None:
-        """Add a servo period: posture, torques that weight, inertia and load do not explain, and rates."""
-        slid = sliding(self.arm, rate)
-        self.postures.append(q)
-        self._spare += spare - self.friction * slid
-        self._rate += np.abs(rate)
-        self._slid += np.abs(slid)
-
-    def weighed(self, belief: Array | None, borne: Array) -> tuple[Array, Unbalanced | None]:
-        """Compare a motion with the estimate before it; returns the estimate after it, and the joints that do not
-        balance, if any.
-
-        `belief` is the estimate, None if the arm has only been weighed at its first posture; `borne` are the
-        torques that carry a declared load.
-        """
-        count = len(self.postures)
-        spare, rate, slid = (each / count for each in (self._spare, self._rate, self._slid))
-        if belief is None:
-            belief = _learnt(_prior(self.arm), *_model(self.arm, self.postures[:1]), _doubt(self.arm) ** 2)
-        some = self.postures[:: max(1, count // 6)]
-        H, weight = _model(self.arm, some)
-        rubbing = COULOMB * self.friction, (1 - slid) * self.friction
-        moving = DAMPING * constants(self.arm).damping * rate, LOAD * borne
-        noise = _doubt(self.arm) ** 2 + sum(np.square(each) for each in (*rubbing, *moving))
-        left = spare - H @ belief[:, 0]
-        known = np.sqrt(np.einsum("ij,jk,ik->i", H, belief[:, 1:], H) + noise)
-        off = np.where(np.abs(weight) > BEARS * self.friction, np.abs(left) / known, 0.0)
-        if off.max() <= LIMIT:
-            return _learnt(belief, H, weight, noise, spare), None
-        joints = np.flatnonzero(off > OFF * LIMIT)
-        told = weight + borne + left
-        factors = np.clip((weight + borne)[joints] / told[joints], 0.0, None)
-        return belief, Unbalanced(joints=tuple(joints.tolist()), factors=tuple(factors.tolist()))
+    `arm` is as it has been weighed, `friction` as it was measured. `belief` is the estimate, None if the arm has only
+    been weighed at its first posture; `borne` are the torques that carry a declared load.
+    """
+    postures, spares, _, rates = columns(taken)
+    slides = sliding(arm, rates)
+    each_period = spares - friction * slides, np.abs(rates), np.abs(slides)
+    count = len(taken)
+    spare, rate, slid = (each.sum(axis=0) / count for each in each_period)
+    if belief is None:
+        belief = _learnt(_prior(arm), *_model(arm, postures[:1]), _doubt(arm) ** 2)
+    H, weight = _model(arm, postures[:: max(1, count // 6)])
+    rubbing = COULOMB * friction, (1 - slid) * friction
+    moving = DAMPING * constants(arm).damping * rate, LOAD * borne
+    noise = _doubt(arm) ** 2 + sum(np.square(each) for each in (*rubbing, *moving))
+    left = spare - H @ belief[:, 0]
+    known = np.sqrt(np.einsum("ij,jk,ik->i", H, belief[:, 1:], H) + noise)
+    off = np.where(np.abs(weight) > BEARS * friction, np.abs(left) / known, 0.0)
+    if off.max() <= LIMIT:
+        return _learnt(belief, H, weight, noise, spare), None
+    joints = np.flatnonzero(off > OFF * LIMIT)
+    told = weight + borne + left
+    factors = np.clip((weight + borne)[joints] / told[joints], 0.0, None)
+    return belief, Unbalanced(joints=tuple(joints.tolist()), factors=tuple(factors.tolist()))
 
 
 def _doubt(arm: ArmModel) -> Array:
@@ -107,9 +91,9 @@ def _prior(arm: ArmModel) -> Array:
     return np.column_stack((np.zeros(len(spread)), np.diag(spread**2)))
 
 
-def _model(arm: ArmModel, postures: list[Array]) -> tuple[Array, Array]:
+def _model(arm: ArmModel, postures: Array) -> tuple[Array, Array]:
     """Contribution of each of these errors to the mean joint torques, (n, 3n), and the mean weight torques, (n,)."""
-    masses, centres = (each.mean(axis=0).T for each in link_weights(arm, np.array(postures)))
+    masses, centres = (each.mean(axis=0).T for each in link_weights(arm, postures))
     weight = masses.sum(axis=1)
     return np.hstack((masses, centres, -np.diag(weight))), weight
 

@@ -164,9 +164,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         line, holding = ("brake", self._brake) if self._braked else ("friction", self._friction)
         self._model.dof_frictionloss[self.dofs] = self._lines.carried_each(line, holding)
         limits = self._limits
-        self._data.ctrl[self.motors] = (
-            0.0 if torque is None else np.clip(self._driven(torque), -limits, limits)
-        )
+        self._data.ctrl[self.motors] = 0.0 if torque is None else self._driven(torque).clip(-limits, limits)
 
     def _driven(self, torque: Array) -> Array:
         """Torque that the drives produce for a commanded torque, shape (n,)."""

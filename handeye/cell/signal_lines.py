@@ -29,12 +29,15 @@ class Converters:
 
     def __init__(self, steps: Array) -> None:
         """Converters with the steps `steps`, shape (n,); a step of 0 passes a number on unchanged."""
-        self._steps, self._there = steps, steps > 0
-        self._divisors = np.where(self._there, steps, 1.0)
+        self._steps, self._none = steps, np.flatnonzero(steps <= 0)
+        self._divisors = np.where(steps > 0, steps, 1.0)
 
     def __call__(self, values: Array) -> Array:
         """The numbers as the converters pass them on, shape (n,)."""
-        return np.where(self._there, np.rint(values / self._divisors) * self._steps, values)
+        passed = np.rint(values / self._divisors) * self._steps
+        if self._none.size:
+            passed[self._none] = values[self._none]
+        return passed
 
 
 _NUMBER: Final = 8  # bytes of a number

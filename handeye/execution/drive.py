@@ -1,6 +1,7 @@
 """Drives a single arm: executes motions of its servo loop and lets time pass."""
 
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass
 from typing import Final
 
@@ -8,7 +9,6 @@ from handeye.arm.dynamics import Dynamics
 from handeye.arm.samples import Samples
 from handeye.core.pose import Array, Pose
 from handeye.execution.compliance import Course
-from handeye.execution.scheduler import run
 from handeye.execution.servo import Motion, T
 from handeye.execution.servo_loop import Outcome, ServoLoop
 from handeye.touch.guards import Monitor
@@ -66,5 +66,10 @@ class ArmDrive(ServoLoop):
         self._pass(self.holding(ticks))
 
     def _pass(self, motion: Motion[T]) -> T:
-        (outcome,) = run(self.cell.clock, [motion])
-        return outcome
+        with closing(motion):
+            try:
+                while True:
+                    self.cell.clock.advance(next(motion))
+            except StopIteration as end:
+                outcome: T = end.value
+                return outcome

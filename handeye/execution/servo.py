@@ -19,6 +19,7 @@ from handeye.arm.joint_agreement import jumped
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.weighing import weighed
 from handeye.core.pose import Array, Pose
+from handeye.core.record import Record
 from handeye.execution.state import DriveState
 from handeye.execution.undo.way import Track
 from handeye.ports.workcell import Sensed, Workcell
@@ -27,8 +28,7 @@ from handeye.touch.guards import ActiveGuard, Reading
 from handeye.touch.senses import PLATEAU, STARTING_PERIODS, kept_apart, leapt
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ServoPeriod:
+class ServoPeriod(Record, frozen=True, kw_only=True):
     """Readings, torques, sensed force and guards of one servo period."""
 
     sensed: Sensed  # readings of all devices at its end
@@ -151,24 +151,23 @@ class Servo:
         compensated and not sensed as force. `dither` are torques in addition to those of the servo. Returns the
         torque residual, (n,), beyond weight, inertia and load, with friction included.
         """
-        q_was, qd_was = self.state.here, self.sensed.qd
+        q_was, before = self.state.here, self.sensed
         load = here.J[2] * self.state.load
         friction = self.state.friction * sense
         bias = here.bias + friction
-        tau = torque(self.arm, here.M, bias, q, qd, qdd, q_was, qd_was, exerted=load + dither)
+        tau = torque(self.arm, here.M, bias, q, qd, qdd, q_was, before.qd, exerted=load + dither)
         effort = constants(self.arm).effort
-        tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
+        tau = tau.clip(-effort, effort)  # else force that the drives could not give would be felt
 
         def feel(after: Sensed) -> None:
             # gravity and Jacobian where the arm is, not at its set-point: under a force it gives way
-            q_is = (q_was + self.state.here) / 2
-            there = self.chain.at_rest(q_is)
+            there = self.chain.at_rest((q_was + self.state.here) / 2)
             bias_so = here.bias + there.bias - self.chain.gravity(q) + friction
-            felt = felt_wrench(here.M, bias_so, there.J, tau, qd_was, after.qd, self.period)
+            felt = felt_wrench(here.M, bias_so, there.J, tau, before.qd, after.qd, self.period)
             self.state.wrench = felt - self.state.tare
 
-        yield from self._wait(tau, feel if estimate else None, guards, taring=taring)
-        return np.asarray(tau - here.bias - load - here.M @ (self.sensed.qd - qd_was) / self.period)
+        after = yield from self._wait(tau, feel if estimate else None, guards, taring=taring)
+        return np.asarray(tau - here.bias - load - here.M @ (after.qd - before.qd) / self.period)
 
     def _wait(
         self,
@@ -178,8 +177,11 @@ class Servo:
         *,
         taring: bool = False,
         periods: int = 1,
-    ) -> Motion[None]:
-        """One servo period with torques `tau`, or under brakes (None); `feel` estimates the force at its end."""
+    ) -> Motion[Sensed]:
+        """One servo period with torques `tau`, or several under brakes (None); `feel` estimates the force at its end.
+
+        Returns the readings at its end.
+        """
         halted = self.halt()
         if halted:
             tau, self.state.tool = None, 0.0
@@ -223,6 +225,7 @@ class Servo:
         )
         if halted:
             raise Halted
+        return sensed
 
     def _put_out(self, tau: Array | None) -> None:
         """Command all devices of the cell for the next servo period."""

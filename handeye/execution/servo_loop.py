@@ -5,7 +5,7 @@ reads the cell when it is resumed; in between, the caller advances the clock. An
 one clock.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,13 +13,14 @@ import numpy as np
 from handeye.arm.computed_torque import prepare
 from handeye.arm.converters import sliding
 from handeye.arm.dynamics import Dynamics
+from handeye.arm.exertion import Exertion
 from handeye.arm.ik import solve
 from handeye.arm.joint_agreement import JointAgreement, crept
-from handeye.arm.joint_drag import JointDrag, alone
+from handeye.arm.joint_drag import alone, stiff
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import constants
 from handeye.arm.samples import Samples
-from handeye.arm.torque_balance import TorqueBalance
+from handeye.arm.torque_balance import balanced
 from handeye.core import errors
 from handeye.core.pose import Array, Pose, displaced, translated
 from handeye.execution.compliance import Course
@@ -113,11 +114,9 @@ class ServoLoop(Servo):
         guard: Monitor | None = None,
         direction: Array | None = None,
         beside: Callable[[int], None] = lambda _: None,
-        drag: tuple[JointDrag, JointDrag] | None = None,
-        balance: TorqueBalance | None = None,
+        taken: list[Exertion] | None = None,
     ) -> Motion[Outcome]:
-        """Follow set-points; end early if `guard` trips. `drag`, for the whole motion and for its first half, and
-        `balance` record the torques.
+        """Follow set-points; end early if `guard` trips. `taken` records the torques.
 
         The guard watches along `direction`, unit vectors in W, shape (3,) or (N, 3); `beside` sets further commands
         of a servo period, by the number of its set-point.
@@ -149,11 +148,8 @@ class ServoLoop(Servo):
             if self.state.cut:
                 return CUT
             self.state.q = samples.q[i]
-            if drag is not None:
-                for each in drag if 2 * i < len(motion) else drag[:1]:
-                    each.step(spare, here.bias, self.sensed.qd)
-            if balance is not None:
-                balance.step(q, spare, self.sensed.qd)
+            if taken is not None:
+                taken.append(Exertion(q, spare, here.bias, self.sensed.qd))
             failed = self._doubted(sensors) or self._behind(met, swing)
             if failed is not None:
                 return failed
@@ -174,19 +170,18 @@ class ServoLoop(Servo):
         """
         held = not self.state.in_air and off_zero(self.state.wrench[:3])  # it comes from what it pressed on
         self.state.in_air = False
-        drag, half = JointDrag(arm=self.arm), JointDrag(arm=self.arm)
-        balance = TorqueBalance(arm=self.built, friction=self.state.friction)
-        outcome = yield from self.following(samples, guard, direction, drag=(drag, half), balance=balance)
+        taken: list[Exertion] = []
+        outcome = yield from self.following(samples, guard, direction, taken=taken)
         if outcome.off > self.arm.servo.short / 2:  # far more than what lags on the way of a free arm
             yield from self.zeroing()
             return self._force_in_air()
         if outcome == REACHED and self.state.load <= LIGHT:
-            outcome = self._dragging(drag) or REACHED
+            outcome = self._dragging(taken) or REACHED
         elif isinstance(outcome.cause, HandAstray | JointBehind) and self.state.load <= LIGHT:
-            stiff = self._dragging(half, outcome.cause.joint)  # long before it met anything
-            outcome = stiff or outcome
-        if outcome == REACHED and len(samples) and self.state.links is not None and not held:
-            outcome = self._off_balance(balance) or REACHED
+            first_half = taken[: (len(samples) + 1) // 2]  # long before it met anything
+            outcome = self._dragging(first_half, outcome.cause.joint) or outcome
+        if outcome == REACHED and taken and self.state.links is not None and not held:
+            outcome = self._off_balance(taken) or REACHED
         self.state.in_air = outcome == REACHED
         return outcome
 
@@ -372,29 +367,33 @@ class ServoLoop(Servo):
         `swing`, shape (2, n), records the largest such ratio of each joint to either side.
         """
         off = (self.state.here - self.state.q) / constants(self.arm).lag
-        np.maximum(swing, (off, -off), out=swing)
-        joint = int(np.argmax(np.abs(off)))
+        for side, by in zip(swing, (off, -off), strict=True):
+            np.maximum(side, by, out=side)
+        joint = int(np.abs(off).argmax())
         return joint, abs(float(off[joint]))
 
-    def _dragging(self, drag: JointDrag, lagging: str = "") -> Outcome | None:
+    def _dragging(self, taken: Sequence[Exertion], lagging: str = "") -> Outcome | None:
         """Check that no joint took far more torque than its friction in a motion through free air, if friction is
         known.
 
         If a joint lagged behind, no other joint is blamed.
         """
-        stiff = drag.stiff(self.state.friction) if self.state.friction.any() else None
-        if stiff is None or lagging not in ("", self.arm.joints[stiff.joint].name):
+        friction = self.state.friction
+        found = stiff(self.arm, taken, friction) if taken and friction.any() else None
+        if found is None or lagging not in ("", self.arm.joints[found.joint].name):
             return None
         cause = JointAlone(
-            joint=self._named(stiff.joint), torque=round(stiff.torque, 6), friction=round(stiff.friction, 6),
-            one_way=stiff.one_way,
+            joint=self._named(found.joint), torque=round(found.torque, 6), friction=round(found.friction, 6),
+            one_way=found.one_way,
         )  # fmt: skip
         return Outcome(error=errors.JOINT_STIFF, cause=cause)
 
-    def _off_balance(self, balance: TorqueBalance) -> Outcome | None:
+    def _off_balance(self, taken: Sequence[Exertion]) -> Outcome | None:
         """Compare the torques of a motion through free air with the arm's present estimate of its weight."""
-        borne = jacobian(self.arm, balance.postures[len(balance.postures) // 2])[2] * self.state.load
-        self.state.weights, found = balance.weighed(self.state.weights, borne)
+        borne = jacobian(self.arm, taken[len(taken) // 2].q)[2] * self.state.load
+        self.state.weights, found = balanced(
+            self.built, taken, self.state.friction, self.state.weights, borne
+        )
         if found is None:
             return None
         cause = DrivesUnlike(

@@ -2,12 +2,14 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
+from msgspec import field
 from msgspec.structs import replace
 
 from handeye.core.pose import Array
+from handeye.core.record import Record
 from handeye.ports.axes import Axes, Channel
 from handeye.ports.camera import TvCamera
 from handeye.ports.clock import Clock
@@ -45,8 +47,7 @@ class LampPort(ABC):
         """Switch the lamp on or off."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HandReading:
+class HandReading(Record, frozen=True, kw_only=True):
     """Readings of a hand."""
 
     gap: float  # opening between the finger tips by the hand's potentiometer, m
@@ -68,8 +69,7 @@ class HandPort(ABC):
         """
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ArmReading:
+class ArmReading(Record, frozen=True, kw_only=True):
     """Readings of an arm with n joints."""
 
     q: Array  # joint positions by the potentiometers, shape (n,), rad or m, calibration error included
@@ -97,8 +97,7 @@ class ArmPort(ABC):
         """
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sensed:
+class Sensed(Record, frozen=True, kw_only=True):
     """All readings at the end of a servo period; zero and False for devices that the cell does not have."""
 
     time: float

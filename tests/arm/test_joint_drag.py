@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from handeye.arm.joint_drag import JointDrag, Stiffness, alone
+from handeye.arm.exertion import Exertion
+from handeye.arm.joint_drag import Stiffness, alone, stiff
 from handeye.arm.kinematics import jacobian
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import Array
@@ -16,11 +17,9 @@ SLIDES = np.full(6, 0.2)
 
 def dragged(out: Array, back: Array) -> Stiffness | None:
     """What is concluded from torques on the way out and back, shape (n,)."""
-    drag = JointDrag(arm=STANFORD)
-    for spare, rate in ((out, SLIDES), (back, -SLIDES)):
-        for _ in range(30):
-            drag.step(spare, np.zeros(6), rate)
-    return drag.stiff(FRICTION)
+    none = np.zeros(6)
+    taken = [Exertion(none, spare, none, rate) for spare, rate in ((out, SLIDES), (back, -SLIDES))]
+    return stiff(STANFORD, taken * 30, FRICTION)
 
 
 def test_a_joint_that_takes_its_friction_is_not_told_whatever_weight_is_wrong() -> None:
@@ -39,10 +38,7 @@ def test_a_joint_that_takes_five_times_its_friction_is_told(joint: int) -> None:
 
 
 def test_what_a_joint_takes_on_the_way_out_alone_may_be_a_weight() -> None:
-    drag = JointDrag(arm=STANFORD)
-    for _ in range(30):
-        drag.step(5 * FRICTION, np.zeros(6), SLIDES)
-    told = drag.stiff(FRICTION)
+    told = stiff(STANFORD, [Exertion(np.zeros(6), 5 * FRICTION, np.zeros(6), SLIDES)] * 30, FRICTION)
     assert told is not None
     assert told.one_way
 

@@ -5,8 +5,9 @@ import pytest
 
 from handeye.arm.converters import rate_step
 from handeye.arm.dynamics import gravity, link_weights
+from handeye.arm.exertion import Exertion
 from handeye.arm.robots.stanford import STANFORD
-from handeye.arm.torque_balance import TorqueBalance, Unbalanced
+from handeye.arm.torque_balance import Unbalanced, balanced
 from handeye.arm.weighing import mass_factors, weighed
 from handeye.core.pose import Array
 from handeye.tasks.stanford_cell.dimensions import PARK
@@ -25,11 +26,13 @@ def motion(
     belief: Array | None, gain: Array, share: float, way: Array = OUT
 ) -> tuple[Array, Unbalanced | None]:
     """A slow motion outwards from where the arm is parked, by drives that give a multiple of their torque."""
-    balance, rate = TorqueBalance(arm=KNOWN, friction=FRICTION), 8 * rate_step(STANFORD)
-    for ahead in np.linspace(share - 0.5, share, 12):
-        q = PARK + ahead * way
-        balance.step(q, (gravity(HEAVIER, q) + FRICTION) / gain - gravity(KNOWN, q), rate)
-    return balance.weighed(belief, np.zeros(6))
+    rate = 8 * rate_step(STANFORD)
+    postures = [PARK + ahead * way for ahead in np.linspace(share - 0.5, share, 12)]
+    taken = [
+        Exertion(q, (gravity(HEAVIER, q) + FRICTION) / gain - gravity(KNOWN, q), np.zeros(6), rate)
+        for q in postures
+    ]
+    return balanced(KNOWN, taken, FRICTION, belief, np.zeros(6))
 
 
 def only(joint: int, gain: float) -> Array:

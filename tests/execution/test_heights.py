@@ -1,11 +1,10 @@
 """HEIGHT: two touches at one place tell how thick a layer is, whatever the arm is off by there."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from fake_runs import FakeRun, fake_run
 from fakes import Wall
+from msgspec.structs import replace
 
 from handeye.core.errors import WRONG_HEIGHT
 from handeye.core.units import INCH

@@ -5,12 +5,12 @@ They are broken in the fake cell, whose other senses have no error. That none is
 """
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from fake_runs import FakeRun, fake_run
 from fakes import Wall
+from msgspec.structs import replace
 
 from handeye.core import errors
 from handeye.core.errors import ERRORS

@@ -33,7 +33,7 @@ def _changed(
 
     recording.recorder.event = altered  # type: ignore[method-assign]
     recording.recorder.tick = lambda period: sense(  # type: ignore[method-assign]
-        replace(period, effort=period.effort + off * (next(ticks) == tick))
+        msgspec.structs.replace(period, effort=period.effort + off * (next(ticks) == tick))
     )
     recording.play(last=last).close()
     return read_trace(path)

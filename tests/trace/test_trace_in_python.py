@@ -1,12 +1,12 @@
 """A trace as people use it from Python: stages, pictures, and what was sensed, as values and arrays."""
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import msgspec
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from recordings import HISTORY, Recording, record
 
 from handeye.core.errors import InvalidInput

@@ -1,10 +1,10 @@
 """A TRIG job under way: taught in the world of its run, executed and undone step by step on a bench."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.errors import BadFile, Refused
