@@ -91,17 +91,17 @@ class SimulatedCell(Clock, SnapshotCell):
         """Let time pass; raises BadArgument unless it is a whole number of physics steps, and PhysicsFailed if the
         simulation fails.
         """
-        model, data = self._model, self._data
-        left = whole_steps(seconds, model.opt.timestep)
+        data, step = self._data, self._model.opt.timestep
+        left = whole_steps(seconds, step)
         while left:
             steps = min(left, self._most)
             for part in self._mechanisms:
-                part.before(steps * model.opt.timestep)
+                part.before(steps * step)
             if asleep(data):
                 for part in self._mechanisms:
-                    part.rested((left - steps) * model.opt.timestep)
+                    part.rested((left - steps) * step)
                 steps = left
-                data.time += steps * model.opt.timestep
+                data.time += steps * step
             else:
                 self._stepper.step(steps)
                 check_physics(data)
