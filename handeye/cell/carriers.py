@@ -102,15 +102,16 @@ class Carriers:
 
     def straighten(self, hole: int, seconds: float) -> None:
         """Let the thread draw a screw straight while it is turned in for `seconds`."""
-        model, body = self._model, self._body[hole]
-        aside, lean = model.body_pos[body] - self.mouths[hole], model.body_quat[body][1:].copy()
-        if not aside.any() and not lean.any():
+        model, body, mouth = self._model, self._body[hole], self.mouths[hole]
+        place, lean = model.body_pos[body], model.body_quat[body][1:].copy()
+        if place.tolist() == mouth.tolist() and not any(lean.tolist()):
             return
+        aside = place - mouth
         rate = -float(self._data.qvel[model.jnt_dofadr[self._turn[hole]]])
         left = exp(-max(rate, 0.0) * seconds / STRAIGHTENING)
         if max(np.abs(aside).max(), np.abs(lean).max()) * left < _STRAIGHT:
             left = 0.0
-        model.body_pos[body] = self.mouths[hole] + left * aside
+        model.body_pos[body] = mouth + left * aside
         model.body_quat[body, 1:] = left * lean
         mujoco.mju_normalize4(model.body_quat[body])
 

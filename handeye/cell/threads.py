@@ -18,7 +18,7 @@ driver's body.
 
 from collections.abc import Set
 from dataclasses import dataclass
-from math import acos, pi, radians
+from math import acos, dist, pi, radians
 from typing import Annotated, Final, Protocol
 
 import msgspec
@@ -307,9 +307,9 @@ class Threads(Mechanism[ThreadsState]):
     def _on(self, hole: int) -> bool:
         """True if the bit stands upright on the head of a hole's screw, over the slot."""
         data, head = self._data, self._carriers.head[hole]
-        apart = data.geom_xpos[head] - data.geom_xpos[self._bit]
-        if apart @ apart > NEAR**2:
+        if dist(data.geom_xpos[head].tolist(), data.geom_xpos[self._bit].tolist()) > NEAR:
             return False
+        apart = data.geom_xpos[head] - data.geom_xpos[self._bit]
         aside = (apart @ data.geom_xmat[self._bit].reshape(3, 3))[:2]
         if np.hypot(*aside) > ON_HEAD:
             return False

@@ -6,6 +6,7 @@ Arrays in a record must therefore be replaced, not changed in place; a snapshot 
 """
 
 from dataclasses import is_dataclass
+from functools import cache
 from typing import Any, Final, TypeVar
 
 import msgspec
@@ -13,7 +14,7 @@ import numpy as np
 
 from handeye.core.brief import Brief
 
-_SHARED: Final = (bool, int, float, str, bytes, tuple, frozenset, type(None))
+_SHARED: Final = (bool, int, float, str, bytes, tuple, frozenset, type(None), np.generic)
 Kept = TypeVar("Kept", bound="MutableRecord")
 
 
@@ -39,6 +40,8 @@ def put_back(record: Kept, snapshot: Kept) -> None:
 
 
 def _copied(value: Any) -> Any:
+    if _shared(type(value)):
+        return value
     if isinstance(value, MutableRecord):
         return copied(value)
     if isinstance(value, dict):
@@ -47,13 +50,14 @@ def _copied(value: Any) -> Any:
         return [_copied(item) for item in value]
     if isinstance(value, np.ndarray):
         value.setflags(write=False)
-    elif not isinstance(value, (*_SHARED, np.generic)) and not _frozen(value):
-        raise TypeError(f"a {type(value).__name__} in a record is mutable and cannot be copied")
-    return value
+        return value
+    raise TypeError(f"a {type(value).__name__} in a record is mutable and cannot be copied")
 
 
-def _frozen(value: object) -> bool:
-    """True for a frozen structure or dataclass."""
-    if isinstance(value, msgspec.Struct):
-        return bool(value.__struct_config__.frozen)
-    return is_dataclass(value) and bool(getattr(type(value), "__dataclass_params__").frozen)  # noqa: B009 - untyped
+@cache
+def _shared(kind: type) -> bool:
+    """True for a type whose values never change: a frozen structure or dataclass, or one of _SHARED."""
+    if issubclass(kind, msgspec.Struct):
+        return bool(kind.__struct_config__.frozen)
+    frozen = is_dataclass(kind) and bool(getattr(kind, "__dataclass_params__").frozen)  # noqa: B009 - untyped
+    return frozen or issubclass(kind, _SHARED)
