@@ -40,7 +40,7 @@ def put_back(record: Kept, snapshot: Kept) -> None:
 
 
 def _copied(value: Any) -> Any:
-    if _shared(type(value)):
+    if _shared(type(value)):  # type: ignore[arg-type]  # a type can be hashed
         return value
     if isinstance(value, MutableRecord):
         return copied(value)
