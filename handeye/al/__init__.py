@@ -1,4 +1,4 @@
-"""The arm language: text to a checked program, and text to tidy text."""
+"""The arm language: compiles a text to a checked program, and formats a text."""
 
 from handeye.al.compiler import LANGUAGE, compile_text
 from handeye.al.extensions import extensions

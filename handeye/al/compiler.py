@@ -24,7 +24,9 @@ LANGUAGE: Final = "wave"  # name of the language in programs and plans: that of 
 
 
 def check_form(source: Source) -> list[Diagnostic]:
-    """Syntax errors of a text alone, whatever it requires; required texts are read for macro names."""
+    """Syntax errors of a text alone, without those of the texts that it requires; required texts are read only for
+    the names of their macros.
+    """
     found = parse_whole(source)[1]
     lost = ("unknown-instruction",) if any(d.code in MISSING for d in found) else ()
     left_out = {*_OF_OTHERS, *lost}
@@ -32,10 +34,11 @@ def check_form(source: Source) -> list[Diagnostic]:
 
 
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
-    """The program of a text, or None if any diagnostic is an error, and its diagnostics.
+    """The program of a text, or None if any diagnostic is an error, and the diagnostics.
 
-    Required texts are in `source.required` (see `includes.sewn`); spans are offsets of the whole. The program contains
-    the taught positions and parts and those the text adds. Diagnostics are sorted by position, at most `LIMIT`.
+    The required texts are in `source.required` (see `includes.sewn`); spans are offsets in the combined text. The
+    program contains the taught positions and parts, and those that the text adds. Diagnostics are sorted by
+    position, at most `LIMIT`.
     """
     script, found = parse_whole(source)
     if any(d.code in MISSING for d in found):
@@ -82,7 +85,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
 
 
 def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagnostic]:
-    """Drop unknown labels that follow from another mistake: a label without colon, or a wrong operand."""
+    """Drop unknown labels that are a consequence of another mistake: a label without a colon, or a wrong operand."""
     lost = [d for d in found if d.code == "unknown-label"]
     if not lost:
         return found

@@ -1,4 +1,6 @@
-"""Definitions of instructions: operands of each kind, their units, and their role in the flow."""
+"""Definitions of instructions: the operands of each, their kinds and units, and the instruction's role in the
+program flow.
+"""
 
 from enum import Enum, StrEnum
 from typing import Final
@@ -19,7 +21,7 @@ NIL: Final = "NIL"  # dialect of 1977: no force or moment
 
 
 class OperandUnit(Record, frozen=True, kw_only=True):
-    """A unit as written, and its SI value."""
+    """A unit of an operand, with its SI value."""
 
     name: str
     si: float
@@ -36,7 +38,7 @@ REV_PER_MIN = OperandUnit(name="rpm", si=units.RPM)
 
 
 class Refers(StrEnum):
-    """Kinds of names that operands refer to."""
+    """Kinds of names to which operands refer."""
 
     POSITION = "position"
     PART = "part"
@@ -50,7 +52,7 @@ class Refers(StrEnum):
 
 
 class Operand(Record, frozen=True, kw_only=True):
-    """One operand of an instruction, and what it accepts."""
+    """One operand of an instruction, and the values that it accepts."""
 
     name: str  # in the manual
     takes: tuple[type[Value], ...]
@@ -71,7 +73,7 @@ class Operand(Record, frozen=True, kw_only=True):
 
     @property
     def is_vector(self) -> bool:
-        """True if only a vector, or the name of one, is accepted."""
+        """True if the operand accepts only a vector, or the name of one."""
         return bool(self.components)
 
     @property
@@ -81,7 +83,7 @@ class Operand(Record, frozen=True, kw_only=True):
 
     @property
     def shown(self) -> str:
-        """The operand in the manual; optional ones in parentheses."""
+        """The operand as the manual shows it, in parentheses if it is optional."""
         text = f"{self.word} {self.name}".strip()
         return f"({text})" if self.optional else text
 
@@ -117,13 +119,13 @@ class Instruction(Record, frozen=True, kw_only=True):
 
     @property
     def origin(self) -> str:
-        """`period`, `ours`, or which operands of a word of the period are ours."""
+        """`period` or `ours`; for a word of the period with operands of ours, also these operands."""
         added = ", ".join(f"`{operand.shown}`" for operand in self.operands if operand.ours)
         return "ours" if self.ours else f"period; {added} ours" if added else "period"
 
     @property
     def usage(self) -> str:
-        """The instruction with its operands."""
+        """The instruction with its operands, as the manual shows it."""
         return " ".join((self.op, *(operand.shown for operand in self.operands)))
 
 
@@ -135,41 +137,41 @@ MAX_STEP_IN: Final = 1.0
 def number(
     name: str, unit: OperandUnit, low: float = -MAX_NUMBER, *, optional: bool = False, ours: bool = False
 ) -> Operand:
-    """A number in a unit, perhaps with a minimum."""
+    """An operand that is a number in a unit, perhaps with a minimum."""
     why = f"it must be at least {low:g} {unit.name}" if low > -MAX_NUMBER else ANY
     return Operand(name=name, takes=(Number,), units=(unit,), low=low, why=why, optional=optional, ours=ours)
 
 
 def count(name: str, low: float, high: float, why: str, *, word: str = "") -> Operand:
-    """A whole number in a range; after a keyword of ours it is optional."""
+    """An operand that is a whole number in a range; with a keyword of ours before it, it is optional."""
     plain = number(name, ONE, low, optional=bool(word), ours=bool(word))
     return replace(plain, high=high, why=why, whole=True, word=word)
 
 
 def gap(name: str, *, optional: bool = False, ours: bool = False) -> Operand:
-    """An opening of the hand."""
+    """An operand that is an opening of the hand, in inches."""
     why = f"the hand opens from 0 to {MAX_GAP_IN:g} in"
     return replace(number(name, IN, 0.0, optional=optional, ours=ours), high=MAX_GAP_IN, why=why)
 
 
 def vector(**components: OperandUnit) -> Operand:
-    """A vector, with a letter and a unit for each component."""
+    """An operand that is a vector, with a letter and a unit for each component."""
     name, units = f"[{' '.join(components)}]", tuple(components.values())
     return Operand(name=name, takes=(Vector,), units=units, components=tuple(components))
 
 
 def named_vector(unit: OperandUnit) -> Operand:
-    """A vector of three components in one unit, or the name of one."""
+    """An operand that is a vector of three components in one unit, or the name of such a vector."""
     return replace(vector(x=unit, y=unit, z=unit), takes=(Vector, Name), refers=Refers.VECTOR)
 
 
 def name_of(name: str, refers: Refers) -> Operand:
-    """The name of something of a kind."""
+    """An operand that is a name of one kind."""
     return Operand(name=name, takes=(Name,), refers=refers)
 
 
 def word(word: str, *, optional: bool = True, ours: bool = True) -> Operand:
-    """A keyword, optional or not."""
+    """An operand that is a keyword."""
     return Operand(name="", takes=(), word=word, optional=optional, ours=ours)
 
 

@@ -1,4 +1,4 @@
-"""Words and operands that are ours, not of the language of the seventies."""
+"""Finds words and operands that are our additions to the language of the 1970s."""
 
 from collections.abc import Iterator
 from functools import partial
@@ -16,7 +16,7 @@ _AGAINST = "in 1973, a stop is a vector: `STOP [0 0 -50]`"
 
 
 def extensions(source: Source) -> list[Diagnostic]:
-    """An error for each word and operand that is ours, required texts included."""
+    """An error for each word and operand that is our addition, including those in required texts."""
     return arranged(_found(source))
 
 

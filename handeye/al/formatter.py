@@ -1,4 +1,4 @@
-"""Formats programs in the columns of a listing of the period; comments are kept."""
+"""Formats programs in the columns of a listing of 1973; comments are kept."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -14,7 +14,7 @@ COMMENT_COLUMN: Final = 32
 
 
 def format_text(text: str) -> str:
-    """`text` in columns, instructions in capitals; meaning, mistakes and line numbers are kept."""
+    """`text` in columns, with instructions in capitals; meaning, mistakes and line numbers are unchanged."""
     return "".join(_format(line) + "\n" for line in scan(text))
 
 
@@ -47,9 +47,10 @@ def _operands(tokens: Sequence[Token]) -> str:
 
 
 def _is_tight(tokens: Sequence[Token]) -> bool:
-    """True if the last token touches the previous one: after a bracket, or a comma without blanks.
+    """True if the last token must touch the previous one: after a bracket, or after a comma without blanks.
 
-    A blank after a comma is kept: `0, 5` are two numbers, `0,5` is one written wrongly. So is `O.5`.
+    A blank after a comma is kept, because `0, 5` are two numbers and `0,5` is one number in a wrong form. The same
+    holds for `O.5`.
     """
     before, token = tokens[-2:]
     close = before.end == token.start

@@ -1,4 +1,4 @@
-"""Heads of macros: name and parameters."""
+"""Reads the heads of macros: their names and parameters."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
@@ -15,14 +15,14 @@ _CALL_OPERANDS: Final = (Name, Number, Vector, Text)  # the lines of the macro m
 
 
 class MacroHead(msgspec.Struct, frozen=True, gc=False):
-    """A `DEFINE` line with a name, even if the rest is wrong."""
+    """A `DEFINE` line with a name, even if the rest of the line is wrong."""
 
     name: Token
     parameters: tuple[Token, ...]
 
     @property
     def word(self) -> str:
-        """The name in capitals, as in the instruction column."""
+        """The name in capitals, as in the column of instructions."""
         return self.name.text.upper()
 
     @property
@@ -42,13 +42,13 @@ def heads(lines: Iterable[Line]) -> Iterator[MacroHead]:
 
 
 def as_instruction(word: str, parameters: Sequence[str]) -> Instruction:
-    """A macro as an instruction with its parameters as operands."""
+    """A macro as an instruction, with its parameters as operands."""
     operands = tuple(Operand(name=name, takes=_CALL_OPERANDS) for name in parameters)
     return Instruction(op=word, group=RUN, help="", operands=operands)
 
 
 def taken(parameter: str) -> str | None:
-    """Why a name cannot be a parameter; None if it can."""
+    """The reason why a name cannot be a parameter; None if it can."""
     if parameter.upper() in (*INSTRUCTIONS, DEFINE.op):
         return f"{quoted(parameter)} is an instruction"
     if parameter.upper() in OPERAND_WORDS:

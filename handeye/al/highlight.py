@@ -16,7 +16,7 @@ def _ops(ops: list[str]) -> words:
 
 
 class ArmLexer(RegexLexer):
-    """The arm language of 1973; words come from the instruction table."""
+    """The arm language of 1973; the words are from the table of instructions."""
 
     name = "Arm language (WAVE)"
     aliases: ClassVar = ["armal", "wave"]

@@ -1,4 +1,4 @@
-"""Help for slips, and for words of other languages."""
+"""Hints for slips, and for words of other languages."""
 
 import re
 from typing import Final
@@ -50,31 +50,31 @@ STOP_ALONE: Final = f"it ends the next motion when the hand presses with this fo
 
 
 def elsewhere(word: str) -> str | None:
-    """The way to say here what another language says with this word; None if it is not known."""
+    """How this language expresses a word of another language; None if the word is not known."""
     return _ELSEWHERE.get(word.upper())
 
 
 def with_digits(text: str) -> str | None:
-    """The number meant by a text with letters that look like digits; None if there is none."""
+    """The intended number of a text with letters that look like digits; None if the text is no such number."""
     right = text.translate(LOOKALIKES)
     return right if right != text and _PLAIN.fullmatch(right) else None
 
 
 def letters_for_digits(text: str) -> str | None:
-    """Help for a text with letters instead of digits; None if it has none."""
+    """A hint for a number with letters instead of digits; None if there are no such letters."""
     right = with_digits(text)
     return None if right is None else f"write a digit, not a letter that looks like it: `{right}`"
 
 
 def with_unit(text: str) -> tuple[str, str] | None:
-    """A unit glued to its number, and the help for it; None if the text is not of that form."""
+    """A unit written directly after its number, and the hint for it; None if the text has another form."""
     found = _WITH_UNIT.fullmatch(text)
     said = None if found is None else no_units(found[2])
     return None if found is None or said is None else (found[2], said)
 
 
 def strange(text: str) -> str | None:
-    """Help for characters outside the language; None if nothing helps."""
+    """A hint for characters outside the language; None if there is none."""
     first = text[0]
     if first == ":":
         return "a colon ends a label, which begins a line"
@@ -110,6 +110,6 @@ UNIT_WORDS: Final = {
 
 
 def no_units(word: str) -> str | None:
-    """Help for a word that may be a unit; None otherwise."""
+    """A hint for a word that may be a unit; None if it is not."""
     said = UNIT_WORDS.get(word.lower())
     return None if said is None else f"write numbers without a unit: {said}"

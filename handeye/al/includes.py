@@ -1,4 +1,4 @@
-"""Scripts made of several files: the texts a script requires, and those they require."""
+"""Scripts that consist of several files: finds the texts that a script requires, and the texts that those require."""
 
 import posixpath
 import re
@@ -20,17 +20,19 @@ MAX_FILES: Final = 100  # limit on required files; their total size is limited t
 _LINE: Final = re.compile(rf"^.*\b{REQUIRE}\b.*$", re.ASCII | re.IGNORECASE | re.MULTILINE)
 
 Read = Callable[[str], str]
-"""Returns the text of a file by its key, a path from the main text's folder; raises InvalidInput if unreadable."""
+"""Returns the text of a file, given by its key, a path from the folder of the main text; raises InvalidInput if the
+file is unreadable.
+"""
 
 
 def read_script(path: str | Path) -> Source:
-    """The text in a file with everything it requires; unreadable requirements are reported on compiling."""
+    """Read a text with all texts that it requires; missing files are reported when the text is compiled."""
     folder = Path(path).parent
     return sewn(read_source(path), lambda key: read_source(folder / key).text)
 
 
 def sewn(source: Source, read: Read) -> Source:
-    """A text with everything it requires that can be read, up to the limits."""
+    """A text with all readable texts that it requires, up to the limits."""
     folder, own = PurePath(source.name).parent, own_key(source)
     required: dict[str, Source] = {}
     waiting = [(own, source.text)]
@@ -55,7 +57,7 @@ def sewn(source: Source, read: Read) -> Source:
 
 
 def sewn_of(source: Source, files: Mapping[str, str]) -> Source:
-    """A text with what it requires, taken from `files` by key alone."""
+    """A text with the texts that it requires, taken only from `files` by key."""
 
     def read(key: str) -> str:
         if key not in files:
@@ -71,12 +73,12 @@ def own_key(source: Source) -> str:
 
 
 def key_of(file: str, by: str) -> str:
-    """Key of a file that the text `by` requires: its path from the main text's folder."""
+    """The key of a file that the text `by` requires: its path from the folder of the main text."""
     return posixpath.normpath(posixpath.join(posixpath.dirname(by), file))
 
 
 def required_by(text: str) -> Iterator[Text]:
-    """Files that a text itself requires, in order."""
+    """The files that a text requires directly, in order."""
     for found in _LINE.finditer(text):
         for line in scan(found[0], found.start()):
             tokens = line.split()[1]
@@ -90,7 +92,7 @@ def required_by(text: str) -> Iterator[Text]:
 
 
 def led_by(source: Source, key: str) -> Span | None:
-    """The REQUIRE in the main text that leads to a file, directly or not."""
+    """The REQUIRE in the main text that leads to a file, directly or indirectly."""
     texts = {text.key: text.text for text in source.required}
     for file in required_by(source.text):
         waiting, seen = [key_of(file.text, own_key(source))], set[str]()
@@ -109,7 +111,7 @@ _MAX_SHOWN = 6
 
 @dataclass(slots=True)
 class Requirements:
-    """Resolves the REQUIREs of a text one after the other."""
+    """Resolves the REQUIREs of a text one after another."""
 
     source: Source
     texts: dict[str, Source] = field(init=False)  # readable texts by key
@@ -122,7 +124,7 @@ class Requirements:
         self.reading = [own_key(self.source)]
 
     def find(self, file: Text) -> Source | Diagnostic | None:
-        """The text to read now, a diagnostic, or None if the limit has been reported."""
+        """The text to read now, or a diagnostic; None if the limit has already been reported."""
         key = key_of(file.text, self.reading[-1])
         found = self.texts.get(key)
         if key.lower().endswith(".toml"):

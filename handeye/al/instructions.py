@@ -1,7 +1,7 @@
-"""The table of instructions, from which parser, checker, formatter and manual derive.
+"""The table of instructions, from which parser, checker, formatter and manual are derived.
 
-Words and meanings of the period: Bolles and Paul, AIM-220 (1973), and what is left of the arm program's
-manual. Additions of ours, which the period does not document, have `ours` set.
+Words and meanings of the period are from Bolles and Paul, AIM-220 (1973), and from what remains of the arm
+program's manual. Our additions, which no document of the period contains, have `ours` set.
 """
 
 from typing import Final

@@ -1,4 +1,4 @@
-"""Lowers statements to steps: attaches modifiers and RESTOREs, and resolves jumps and skips."""
+"""Converts statements to steps: attaches modifiers and RESTOREs to their motions, and resolves jumps and skips."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -31,12 +31,12 @@ from handeye.program.program import SourcePlace, Step
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
 _MODIFIER_KINDS = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned", "VIA": "pass"}
-"""Kinds of modifiers, of which a motion has one each; the others set how a motion ends."""
+"""Kinds of modifiers of which a motion can have only one each; all other modifiers are guards."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lowered:
-    """Stages and steps of an expanded program, with the statement of each step and the RESTOREs of some."""
+    """Stages and steps of an expanded program, with the statement of each step, and the RESTOREs of some."""
 
     stages: tuple[str, ...]
     steps: tuple[Step, ...]
@@ -51,7 +51,9 @@ def lower(
     *,
     inner: Mapping[str, Name] | None = None,
 ) -> Lowered:
-    """Stages and steps of an expanded program, valid if no error was reported; `inner` are the labels inside macros."""
+    """Convert an expanded program to stages and steps, which are valid if no error was reported; `inner` are the
+    labels inside macros.
+    """
     lowering = _Lowerer(report=report, inner=inner or {})
     for item in placed:
         lowering.place(item)
@@ -88,7 +90,7 @@ def _place(source: Source, statement: Statement) -> SourcePlace:
 
 
 class _Draft(msgspec.Struct, gc=False):
-    """A step before its targets are known; `operation` is None for a broken statement."""
+    """A step whose targets are not known yet; `operation` is None for a statement with an error."""
 
     statement: Statement
     call: Call
@@ -221,7 +223,7 @@ class _Lowerer:
         )  # fmt: skip
 
     def fits(self, modifier: ExpandedStatement, first: ExpandedStatement, motion: Statement) -> bool:
-        """True if it applies to this motion and is the first of its kind."""
+        """True if a modifier applies to this motion and is the first of its kind."""
         word = _word(modifier)
         assert motion.word is not None
         fits = INSTRUCTIONS[word.text].fits
@@ -306,7 +308,7 @@ class _Lowerer:
         self.problem("unknown-label", message, label, *uses(label), help=names_sentence(meant), meant=meant)
 
     def mark_searching(self) -> None:
-        """Mark every MOVE between a label and an AOJ back to it as part of a search."""
+        """Mark every MOVE between a label and an AOJ back to that label as part of a search."""
         change = [0] * (len(self.drafts) + 1)
         for first, last in self.searches:
             if first < last:
@@ -317,7 +319,7 @@ class _Lowerer:
                 draft.operation = replace(draft.operation, searching=True)
 
     def skip(self, index: int) -> int | None:
-        """The step after the skipped instruction; a macro call is one instruction."""
+        """The step after the skipped instruction; a macro call counts as one instruction."""
         draft = self.drafts[index]
         assert draft.statement.word is not None
         if index + 1 == len(self.drafts):
@@ -349,7 +351,7 @@ class _Lowerer:
 
 
 def _shared(one: Call, other: Call) -> int:
-    """Number of outermost calls in common."""
+    """Number of outermost calls that both have in common."""
     for depth, (a, b) in enumerate(zip(one, other, strict=False)):
         if a != b:
             return depth

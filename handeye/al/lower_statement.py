@@ -1,4 +1,4 @@
-"""Lowers statements to operations; inches, degrees and ounces become SI here."""
+"""Converts statements to operations; inches, degrees and ounces become SI here."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -34,7 +34,9 @@ from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look,
 
 PLACE_DEPTH: Final = 3.0 * INCH  # m; the height of an approach
 PLACE_FORCE: Final = 50.0 * OUNCE_FORCE
-"""The first stop of the pin insertion of 1973, N; over three times what joint friction can be felt as upright."""
+"""The first stop of the pin insertion of 1973, N; more than three times the joint friction that can be sensed
+vertically.
+"""
 SEARCH_STEPS: Final = 3  # to each side
 LINE_STEPS: Final = 4  # to each side, along a line
 _OPERANDS: Final = {
@@ -46,7 +48,7 @@ _OPERANDS: Final = {
 
 
 class Operands(msgspec.Struct, frozen=True, gc=False):
-    """Operands of a checked statement by name, in SI units."""
+    """Operands of a checked statement, by name, in SI units."""
 
     values: tuple[Value | None, ...]
     places: dict[str, tuple[int, tuple[float, ...]]]
@@ -93,7 +95,7 @@ def _operands(statement: Statement) -> Operands:
 
 
 class _Modifiers(msgspec.Struct, frozen=True, kw_only=True):
-    """The settings that modifiers make on a motion."""
+    """The settings of a motion that its modifiers make."""
 
     guards: g.Guards = ()
     press: Vector3 | None = None

@@ -20,7 +20,9 @@ MAX_DEPTH: Final = 20
 
 
 class ExpandedStatement(msgspec.Struct, frozen=True, gc=False):
-    """A statement in the expanded program, never a macro call; it stands in the macros `inside`, outermost first."""
+    """A statement of the expanded program, which is never a macro call; `inside` has the macros that contain it,
+    outermost first.
+    """
 
     statement: Statement
     call: Call
@@ -29,12 +31,14 @@ class ExpandedStatement(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def macro(self) -> str:
-        """The macro it stands in, or ""."""
+        """The innermost macro that contains the statement, or ""."""
         return self.inside[-1] if self.inside else ""
 
     @property
     def jumps_from(self) -> Call:
-        """The call whose labels its jump sees; a label given as an operand belongs to the caller."""
+        """The call in which the target of the statement's jump is searched; a label given as an operand belongs to
+        the caller.
+        """
         label = self.statement.operands[-1:]
         given = () if self.line is None else self.line.given.values()
         calls = (one.call for one in given if label and label[0] and label[0].span == one.span)
@@ -49,7 +53,7 @@ def expand(script: Script, report: Callable[[Diagnostic], None]) -> list[Expande
 
 
 def as_called(script: Script, placed: list[ExpandedStatement]) -> Iterator[Statement]:
-    """Statements of a script and its macros; macros with parameters as each call fills them."""
+    """Statements of a script and its macros; those of macros with parameters as each call fills them in."""
     yield from script.statements
     for macro in script.macros.values():
         if not macro.parameters:
@@ -94,7 +98,7 @@ class _Expansion:
                 self.placed.append(self.read(statement, frame) if statement.open else frame.placed(statement))
 
     def read(self, statement: Statement, frame: _Frame) -> ExpandedStatement:
-        """A line with parameters, filled in from the call."""
+        """A line with parameters, filled in with the operands of the call."""
         assert statement.word is not None
         line = filled(statement, frame.given)
         operands = self.operands(line, INSTRUCTIONS[statement.word.text], frame)
@@ -120,7 +124,7 @@ class _Expansion:
         self.place(macro.body, _Frame(call, inside, given, statement))
 
     def given(self, statement: Statement, macro: Macro, frame: _Frame) -> dict[str, Argument] | None:
-        """Operands of a call by parameter; None if they are wrong."""
+        """Operands of a call, by parameter; None if they are wrong."""
         if not macro.parameters and not statement.open:
             return {}
         names = [parameter.text for parameter in macro.parameters]

@@ -1,4 +1,4 @@
-"""Describes operands for the manual and for hover texts."""
+"""Describes operands for the manual and for hover texts in editors."""
 
 from typing import Final
 
@@ -28,12 +28,12 @@ def takes(definition: Instruction, operand: Operand) -> str:
 
 
 def origin(definition: Instruction, operand: Operand) -> str:
-    """`ours` or `period`."""
+    """The origin of an operand: `ours` or `period`."""
     return "ours" if operand.ours or definition.ours else "period"
 
 
 def part(definition: Instruction) -> str:
-    """The role of an instruction, and its origin."""
+    """The role of an instruction, with its origin."""
     said = f"A {definition.role.value} {'that handeye adds' if definition.ours else 'of the period'}."
     modified = ", ".join(f"`{word}`" for word in definition.fits)
     return f"{said} Modifies {modified}." if modified else said

@@ -1,4 +1,4 @@
-"""Reads operands from tokens, by the definition of the instruction."""
+"""Reads operands from tokens, according to the definition of the instruction."""
 
 import math
 import re
@@ -28,7 +28,7 @@ class Mistake(Exception):
 
 
 def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token]) -> tuple[Value | None, ...]:
-    """A value for each operand, None for those left out; raises Mistake."""
+    """The value of each operand, None for operands that are left out; raises Mistake."""
     if definition.op in FREE_TEXT:
         return _Reader(definition, head, tokens).read()
     try:
@@ -38,7 +38,7 @@ def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token])
 
 
 def free_text(tokens: Sequence[Token]) -> str:
-    """Text of tokens as on the line, each blank a space."""
+    """Text of tokens as on the line, with each blank as a space."""
     text, end = "", tokens[0].start
     for token in tokens:
         text += " " * (token.start - end) + token.text
@@ -84,7 +84,7 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
 
 
 def _is_decimal(tokens: Sequence[Token]) -> bool:
-    """True for two runs of digits with only a comma between them."""
+    """True for two groups of digits separated only by a comma."""
     if len(tokens) < 3:
         return False
     whole, comma, part = tokens
@@ -137,7 +137,7 @@ class _Reader(msgspec.Struct, gc=False):
         return value
 
     def takes(self, word: str) -> bool:
-        """Consume a keyword if it is next."""
+        """Consume a keyword if it is the next token; returns whether it was."""
         if self.at == len(self.tokens):
             return False
         token = self.tokens[self.at]
@@ -174,7 +174,7 @@ class _Reader(msgspec.Struct, gc=False):
         raise _unexpected(token)
 
     def axes(self) -> Vector:
-        """Axes as `2 X Y`: a vector with 1 along each."""
+        """Read axes such as `2 X Y`: a vector with 1 along each named axis."""
         count, *letters = self.tokens
         for letter in letters:
             if letter.text not in AXES:
@@ -219,7 +219,7 @@ class _Reader(msgspec.Struct, gc=False):
         return Mistake("wrong-operand", message, value.span, help=self.cure(value, operand) or self.usage())
 
     def cure(self, value: Value, operand: Operand) -> str | None:
-        """Help for a value of the wrong kind."""
+        """A hint for a value of the wrong kind."""
         if isinstance(value, Name) and value.text.upper() in INSTRUCTIONS:
             return _begins_a_line(value.text)
         if isinstance(value, Name) and Number in operand.takes:
@@ -268,7 +268,7 @@ class _Reader(msgspec.Struct, gc=False):
             raise Mistake("number-out-of-range", message, value.span)
 
     def check_nils(self) -> None:
-        """Refuse a statement whose operands are all `NIL`."""
+        """Refuse a statement in which all operands are `NIL`."""
         nils = [o.plain for o in self.definition.operands if o.nil]
         if nils and not any(v for o, v in zip(self.definition.operands, self.values, strict=True) if o.nil):
             message = f"`{self.definition.op}` has no {' and no '.join(nils)}"
@@ -299,7 +299,7 @@ class _Reader(msgspec.Struct, gc=False):
         raise Mistake("too-many-operands", message, span, help=help)
 
     def is_too_early(self, token: Token) -> bool:
-        """True if a keyword was read as a name one operand too early."""
+        """True if a keyword was read as a name, one operand too early."""
         read = zip(self.definition.operands, self.values, strict=True)
         return token.kind is NAME and token.text.upper() in {o.word for o, v in read if v is None} - {"", NIL}
 

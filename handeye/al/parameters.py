@@ -1,6 +1,7 @@
-"""Lines of a macro with a call's operands instead of parameters.
+"""Lines of a macro with the operands of a call in place of the parameters.
 
-An operand is read where its parameter stands; a mistake in it alone is reported where it is written.
+An operand is read where its parameter stands; a mistake in the operand alone is reported where the operand is
+written.
 """
 
 import re
@@ -21,7 +22,9 @@ _BRACED: Final = re.compile(r"\{([A-Za-z_]\w*)\}", re.ASCII)  # a parameter in a
 
 
 class Argument(Located, frozen=True, gc=False):
-    """An operand of a macro call, where it is written; `call` is the scope of its names, `by` the call."""
+    """An operand of a macro call, at the place where it is written; `call` is the scope of its names, `by` the
+    statement of the call.
+    """
 
     tokens: tuple[Token, ...]
     text: str
@@ -30,7 +33,7 @@ class Argument(Located, frozen=True, gc=False):
 
 
 class _Piece(Located, frozen=True, gc=False):
-    """A token of the line, or the argument instead of a parameter."""
+    """A token of the line, or the argument in place of a parameter."""
 
     tokens: tuple[Token, ...]
     text: str
@@ -38,7 +41,7 @@ class _Piece(Located, frozen=True, gc=False):
 
 @dataclass(frozen=True, slots=True)
 class FilledLine:
-    """A line of a macro with arguments filled in; `given` is by the parameter's span."""
+    """A line of a macro with arguments filled in; `given` has the arguments by the span of their parameter."""
 
     statement: Statement
     pieces: Sequence[_Piece]
@@ -46,14 +49,14 @@ class FilledLine:
 
     @property
     def head(self) -> Token:
-        """The instruction, or the macro called."""
+        """The instruction, or the name of the called macro."""
         word = self.statement.word
         assert word is not None
         return Token(word.start, word.end, NAME, word.text)
 
     @property
     def tokens(self) -> list[Token]:
-        """Operand tokens; arguments have the position of their parameter."""
+        """Tokens of the operands; arguments have the position of their parameter."""
         return [token for piece in self.pieces for token in piece.tokens]
 
     @property
@@ -63,11 +66,11 @@ class FilledLine:
 
     @property
     def calls(self) -> tuple[Statement, ...]:
-        """Calls that its arguments are written in."""
+        """The calls in which the arguments are written."""
         return tuple(dict.fromkeys(given.by for given in self.given.values()))
 
     def at_source(self, values: Sequence[Value | None]) -> tuple[Value | None, ...]:
-        """Values, each located where it is written."""
+        """The values, each located where it is written."""
         return tuple(
             msgspec.structs.replace(value, start=given.start, end=given.end, use=value.span)
             if value is not None and (given := self.given.get(value.span)) is not None
@@ -76,7 +79,7 @@ class FilledLine:
         )
 
     def located(self, mistake: Diagnostic, call: Statement) -> Diagnostic:
-        """A mistake located at the argument if that alone is wrong, else at the line."""
+        """A mistake located at the argument, if only the argument is wrong; else at the line."""
         given = self.given.get(mistake.primary.span)
         if given is None or mistake.code == "too-many-operands":
             return replace(mistake, secondary=(Label(span=call.span, text="called here"),))
@@ -84,7 +87,7 @@ class FilledLine:
         return replace(mistake, primary=at, secondary=(used(mistake.primary.span),))
 
     def passed(self, value: Value, call: Call) -> Argument:
-        """An operand of this macro call as an argument."""
+        """An operand of a nested macro call, as an argument."""
         given = self.given.get(value.span)
         if given is not None:
             return given
@@ -94,7 +97,7 @@ class FilledLine:
 
 
 def filled(statement: Statement, given: Mapping[str, Argument]) -> FilledLine:
-    """A line of a macro, or a call, with arguments instead of parameters."""
+    """A line of a macro, or a call, with arguments in place of parameters."""
     assert statement.word is not None
     words = statement.word.text in FREE_TEXT
     uses = {t.span: given[t.text] for t in parameters_in(statement) if t.text in given}
@@ -103,7 +106,7 @@ def filled(statement: Statement, given: Mapping[str, Argument]) -> FilledLine:
 
 
 def parameters_in(statement: Statement) -> Iterator[Token]:
-    """Operands that may be parameters: names, not words of a text."""
+    """Operands that may be parameters: names, but not the words of a text."""
     if statement.word is not None and statement.word.text not in FREE_TEXT:
         yield from (token for token in statement.tokens if token.kind is NAME)
 
@@ -123,17 +126,17 @@ def braced(token: Token) -> Iterator[tuple[str, Span]]:
 
 
 def used(parameter: Span) -> Label:
-    """Label at the parameter that an argument replaces."""
+    """A label at the parameter that an argument replaces."""
     return Label(span=parameter, text="in the macro it is here")
 
 
 def uses(operand: Operand) -> tuple[Label, ...]:
-    """Label at the parameter that an operand replaces, if any."""
+    """A label at the parameter that an operand replaces, if it replaces one."""
     return () if operand.use is None else (used(operand.use),)
 
 
 def across(one: Operand, other: Operand) -> Span:
-    """Span from one operand to another; the first alone if either is an argument."""
+    """The span from one operand to another; only the first if either is an argument."""
     return one.span if one.use or other.use else Span(start=one.start, end=other.end)
 
 

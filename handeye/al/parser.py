@@ -1,4 +1,4 @@
-"""Parses text to a syntax tree, with one diagnostic a line."""
+"""Parses text to a syntax tree, with at most one diagnostic per line."""
 
 from dataclasses import dataclass, field
 from typing import Final
@@ -32,12 +32,12 @@ _CONSOLE_WORDS: Final = ("DO", "GO")  # console commands that execute an instruc
 
 
 def parse(text: str) -> tuple[Script, list[Diagnostic]]:
-    """The tree of a text alone and its syntax errors; stops after `LIMIT`."""
+    """The syntax tree of a text alone, and its syntax errors; stops after `LIMIT` errors."""
     return _parsed(Source(name="", text=text), None)
 
 
 def parse_whole(source: Source) -> tuple[Script, list[Diagnostic]]:
-    """The tree of a text with its required texts in place, and their syntax errors."""
+    """The syntax tree of a text including its required texts, and their syntax errors."""
     return _parsed(source, Requirements(source))
 
 
@@ -154,7 +154,7 @@ class _Parser:
             self.tell(mistake.diagnostic)
 
     def parameter(self, token: Token) -> None:
-        """Add a parameter to the open macro; raises Mistake if it cannot be one."""
+        """Add a parameter to the open macro; raises Mistake if the token cannot be a parameter."""
         if token.kind is not NAME:
             said = "the macro names its parameters; a call gives the numbers and vectors"
             message = f"a parameter is a name, not {quoted(token.text)}"
@@ -223,7 +223,7 @@ class _Parser:
             self.tell(problem("parameter-name-taken", message, label.span, parameter))
 
     def unknown(self, word: Name, line: Line, rest: tuple[Token, ...]) -> None:
-        """Report an unknown word, unless it is a macro with a wrong head."""
+        """Report an unknown word, unless it is a macro whose head has an error."""
         if word.text in self.known:
             return
         if word.text in _CONSOLE_WORDS:
@@ -239,7 +239,7 @@ class _Parser:
         self.tell(problem("unknown-instruction", message, word.span, help=help, meant=meant))
 
     def meant(self, written: str, line: Line, rest: tuple[Token, ...]) -> tuple[str | None, Meant | None]:
-        """Help for an unknown first word, and what it may mean."""
+        """A hint for an unknown first word, and the text that may have been intended."""
         label = f"a label ends with a colon: `{written}:`"
         behind = rest[0].text.upper() if rest else ""
         if not rest and line.comment is not None and line.tokens[-1].end == line.end - len(line.comment):

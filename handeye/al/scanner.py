@@ -20,14 +20,14 @@ NAME, NUMBER, STRING, MARK, JUNK = TokenKind  # members by name: looking one up 
 
 
 class Token(Located, frozen=True, gc=False):
-    """A token; offsets are of the whole."""
+    """A token; its offsets are in the combined text."""
 
     kind: TokenKind
     text: str
 
 
 class Line(msgspec.Struct, frozen=True, gc=False):
-    """A line, numbered from 1; `comment` starts at the `;`, without trailing blanks."""
+    """A line, numbered from 1; `comment` begins at the `;` and has no trailing blanks."""
 
     number: int
     start: int
@@ -37,7 +37,7 @@ class Line(msgspec.Struct, frozen=True, gc=False):
     indented: bool  # starts with a blank
 
     def split(self) -> tuple[tuple[Token, ...], tuple[Token, ...]]:
-        """Label tokens, and the tokens after them."""
+        """The tokens of labels, and the tokens after them."""
         tokens, at = self.tokens, 0
         if len(tokens) < 2 or tokens[1].text != ":":
             return (), tokens

@@ -1,4 +1,4 @@
-"""The syntax tree of an arm program; it has no cycles (`gc=False`)."""
+"""The syntax tree of an arm program. It has no cycles, so its classes are made with `gc=False`."""
 
 from typing import ClassVar, Final
 
@@ -11,20 +11,20 @@ LONGEST_LINE: Final = 1000  # characters; steps, plans and traces repeat it for 
 
 
 class Operand(Located, frozen=True, gc=False, kw_only=True):
-    """An operand; `use` is the span of the macro parameter it replaces, if any."""
+    """An operand; `use` is the span of the macro parameter that it replaces, if any."""
 
     use: Span | None = None
 
 
 class Name(Operand, frozen=True, gc=False):
-    """The name of something, or a keyword."""
+    """The name of an object, or a keyword."""
 
     what: ClassVar[str] = "a name"
     text: str
 
 
 class Number(Operand, frozen=True, gc=False):
-    """A number in its operand's unit."""
+    """A number in the unit of its operand."""
 
     what: ClassVar[str] = "a number"
     value: float
@@ -48,7 +48,7 @@ Value = Name | Number | Vector | Text
 
 
 class Statement(Located, frozen=True, gc=False):
-    """A line: labels, and perhaps an instruction or macro call."""
+    """A line: labels, and an instruction or macro call, which may be missing."""
 
     labels: tuple[Name, ...]
     word: Name | None  # instruction in capitals, or macro; None if there are only labels
@@ -60,7 +60,7 @@ class Statement(Located, frozen=True, gc=False):
 
 
 class Macro(msgspec.Struct, frozen=True, gc=False, kw_only=True):
-    """`DEFINE name parameter ...`, statements, and a blank line."""
+    """A macro: `DEFINE name parameter ...`, statements, and a blank line."""
 
     name: Name  # in capitals
     parameters: tuple[Name, ...] = ()
@@ -68,7 +68,7 @@ class Macro(msgspec.Struct, frozen=True, gc=False, kw_only=True):
 
 
 class Script(msgspec.Struct, frozen=True, gc=False, kw_only=True):
-    """A whole text, with what it requires."""
+    """A whole text, including the texts that it requires."""
 
     statements: tuple[Statement, ...]
     macros: dict[str, Macro]

@@ -1,1 +1,1 @@
-"""The first waist: a checked program of no particular language, and its beliefs about the cell."""
+"""The checked program, independent of language and arm, and the program's model of the cell."""

@@ -1,4 +1,4 @@
-"""Reads events back: the kinds that all systems have, and those that the system of the run adds."""
+"""Reads events: the kinds that all systems have, and those that the system of the run adds."""
 
 from functools import cache, reduce
 from operator import or_
@@ -16,14 +16,16 @@ _COMMON: Final = {kind.__name__ for kind in get_args(CommonEvent)}
 
 
 def own_kinds(system: str) -> tuple[type[SystemEvent], ...]:
-    """Kinds of events that a system adds; none if there is no such system here."""
+    """Kinds of events that a system adds; none if the system is unknown here."""
     entry = entries().get(system)
     return _at(entry.events) if entry is not None and entry.events else ()
 
 
 @cache
 def _at(place: str) -> tuple[type[SystemEvent], ...]:
-    """The kinds at `module:NAME`; raises InvalidInput if they cannot be loaded, written as JSON and read back."""
+    """The kinds of events at `module:NAME`; raises InvalidInput if they cannot be loaded, or cannot be written as
+    JSON and read back.
+    """
     own: tuple[type[SystemEvent], ...] = loaded(place)
     try:
         taken = _COMMON & {kind.__name__ for kind in own}
@@ -38,7 +40,7 @@ def _at(place: str) -> tuple[type[SystemEvent], ...]:
 
 
 def event_type(system: str) -> Any:
-    """The type of all events of a system, for msgspec."""
+    """The msgspec type of all events of a system."""
     return _union(own_kinds(system))
 
 
@@ -53,13 +55,13 @@ def _decoder(own: tuple[type[SystemEvent], ...] = ()) -> msgspec.json.Decoder[An
 
 
 class EventReader:
-    """Reads the events of one run in order; which kinds there are it learns from `RunStarted`."""
+    """Reads the events of one run in order; the system in `RunStarted` determines which kinds of events can follow."""
 
     def __init__(self, system: str = "") -> None:
         self.system = system
 
     def read(self, data: bytes) -> AnyEvent:
-        """The event in some JSON; raises msgspec.DecodeError if there is none, or of a kind that is not known."""
+        """The event in one line of JSON; raises msgspec.DecodeError if the line is no event of a known kind."""
         try:
             event = self._decoded(data)
         except UnicodeDecodeError as error:
@@ -82,7 +84,7 @@ class EventReader:
 
 
 def read_packed(data: msgspec.Raw, system: str) -> tuple[AnyEvent, ...]:
-    """Events in MessagePack, of a run of a system; raises ValueError if they are none, or of an unknown kind."""
+    """Events of a system's run in MessagePack; raises ValueError if the data are invalid or of an unknown kind."""
     kind: Any = tuple.__class_getitem__((event_type(system), ...))
     try:
         events: tuple[AnyEvent, ...] = decoded(data, kind)
@@ -93,7 +95,7 @@ def read_packed(data: msgspec.Raw, system: str) -> tuple[AnyEvent, ...]:
 
 
 def _refuse_unknown(plain: list[Any], system: str) -> None:
-    """Raise msgspec.ValidationError with a sentence if one of some events is of a kind that is not known."""
+    """Raise msgspec.ValidationError, with a sentence, if an event is of an unknown kind."""
     known = _COMMON | {kind.__name__ for kind in own_kinds(system)}
     for event in plain:
         kind = event.get("event") if isinstance(event, dict) else None

@@ -1,4 +1,6 @@
-"""Events of a run, as plain records. Simulated time only, so that two runs with one seed give the same bytes."""
+"""Events of a run, as plain records. They contain simulated time only, so that two runs with one seed give the same
+bytes.
+"""
 
 from typing import ClassVar, Literal
 
@@ -20,13 +22,13 @@ Choice = Literal["proceed", "retry", "skip"]  # continue after a stop, retry the
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
-    """Base of the events; `time` is the clock of the run, s: 0 as the program begins."""
+    """Base of all events; `time` is the clock of the run, s, which is 0 when the program begins."""
 
     time: float
 
 
 class SystemEvent(Event, frozen=True, kw_only=True):
-    """Base of the kinds of events that one system adds to those of all; its `System.events` lists them."""
+    """Base of the events that one system adds to those of all systems; `System.events` lists them."""
 
     importance: ClassVar[Importance] = "info"
 
@@ -36,7 +38,9 @@ class SystemEvent(Event, frozen=True, kw_only=True):
 
 
 class RunStarted(Event, frozen=True, kw_only=True):
-    """The working phase begins, at 0; has everything that determines later events except the operator's actions."""
+    """The working phase begins, at time 0. The event has everything that determines the later events, except the
+    operator's actions.
+    """
 
     system: str = "program"  # the kind of system that carries it out
     program: str
@@ -58,18 +62,20 @@ class RunStarted(Event, frozen=True, kw_only=True):
 
     @property
     def made_alike(self) -> "RunStarted":
-        """The event, whatever processor and versions the run is made with."""
+        """The event without processor, versions and platform of the renderer, to compare runs made on different
+        computers.
+        """
         camera = msgspec.structs.replace(self.camera, platform="")
         return msgspec.structs.replace(self, versions={}, processor=UNSET, camera=camera)
 
     @property
     def lacking(self) -> tuple[str, ...]:
-        """Senses that the program did without; empty where it had all."""
+        """Senses that were switched off in the program; empty if none was."""
         return self.without or ()
 
     @property
     def own_parts(self) -> dict[str, str]:
-        """Replaced parts; empty if all were handeye's own."""
+        """Replaced parts; empty if all parts are handeye's own."""
         return self.replaced or {}
 
 
@@ -87,7 +93,7 @@ class StageFinished(Event, frozen=True, kw_only=True):
 
 
 class StepStarted(Event, frozen=True, kw_only=True, omit_defaults=True):
-    """A step begins; `line` and `text` are the source's, or those of a required file."""
+    """A step begins; `line` and `text` are from the script, or from a required file."""
 
     step: int
     file: str = ""
@@ -96,36 +102,38 @@ class StepStarted(Event, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def place(self) -> str:
-        """Its line, as shown: `12`, or `pins.al:12`."""
+        """The line of the step, such as `12` or `pins.al:12`."""
         return line_name(self.line, self.file)
 
 
 class StepFinished(Event, frozen=True, kw_only=True):
-    """A step ended; where the hand is by the arm's own sensors (m), and the finger gap (m)."""
+    """A step ended; `hand` is the position of the hand by the arm's own sensors (m), and `gap` the finger gap (m)."""
 
     step: int
     hand: tuple[float, float, float] | None  # None: the system has no hand
     planned: tuple[float, float, float] | None
-    """Planned end of a motion (m); a guard or a measured world ends it elsewhere."""
+    """Planned end of a motion (m); a guard or a measured pose may end the motion elsewhere."""
     gap: float | None
 
 
 class Adjusted(Event, frozen=True, kw_only=True):
-    """A goal was moved off its planned value before the motion began: by how much (m)."""
+    """A goal was shifted from its planned position (m) before the motion began."""
 
     goal: str
     shift: tuple[float, float, float]
 
 
 class JointFriction(Record, frozen=True, kw_only=True):
-    """Coulomb friction of a joint: N m, or N if it slides."""
+    """Coulomb friction of a joint: N m, or N for a prismatic joint."""
 
     joint: JointName
     friction: float
 
 
 class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
-    """The arm has measured its joints and weighed its links before the working phase; `seconds` are simulated."""
+    """The arm measured the friction of its joints and weighed its links before the working phase; `seconds` are
+    simulated.
+    """
 
     joints: tuple[JointFriction, ...]
     links: tuple[float, ...] = ()  # weight of each link as found, over the model's; empty: not weighed
@@ -133,7 +141,9 @@ class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class GuardFaint(Event, frozen=True, kw_only=True):
-    """A guard waits for less than can be felt in free air where the motion begins: `friction` (N, N m)."""
+    """The limit of a guard is below the force or moment, `friction` (N, N m), that may be sensed in free air where
+    the motion begins.
+    """
 
     guard: GuardKind
     limit: float
@@ -141,7 +151,7 @@ class GuardFaint(Event, frozen=True, kw_only=True):
 
 
 class GuardTripped(Event, frozen=True, kw_only=True):
-    """A guard ended a motion."""
+    """A guard tripped and ended a motion."""
 
     guard: GuardKind
     value: float
@@ -156,14 +166,14 @@ class ErrorRaised(Event, frozen=True, kw_only=True):
 
 
 class ErrorTested(Event, frozen=True, kw_only=True):
-    """The program tested for an error; `occurred` is the answer."""
+    """The program tested for an error; `occurred` is True if the error had been raised."""
 
     number: int
     occurred: bool
 
 
 class SearchAdvanced(Event, frozen=True, kw_only=True):
-    """The search continues to its place number `count` (0 is the first)."""
+    """The search went on to its place number `count`; 0 is the first place."""
 
     count: int
     offset: tuple[float, float]
@@ -177,13 +187,15 @@ class Saved(Event, frozen=True, kw_only=True):
 
 
 class HandTold(Event, frozen=True, kw_only=True):
-    """WHERE: x, y, z (m) of the hand and its angles O, A, T (rad), by the arm's own sensors."""
+    """WHERE reported the hand: x, y, z (m) and the angles O, A, T (rad), by the arm's own sensors."""
 
     at: tuple[float, float, float, float, float, float]
 
 
 class PositionDefined(Event, frozen=True, kw_only=True):
-    """HERE: a position is now x, y, z (m), O, A, T (rad), by the arm's own sensors; relative to the part if `of`."""
+    """HERE defined a position as x, y, z (m), O, A, T (rad), by the arm's own sensors; relative to the part `of`,
+    if there is one.
+    """
 
     name: str
     at: tuple[float, float, float, float, float, float]
@@ -199,14 +211,14 @@ class Restored(Event, frozen=True, kw_only=True):
 
 
 class PictureTaken(Event, frozen=True, kw_only=True):
-    """A picture was taken through a lens (focal length in m)."""
+    """A picture was taken through a lens; `lens` is its focal length (m)."""
 
     picture: str
     lens: float
 
 
 class PartSeen(Event, frozen=True, kw_only=True):
-    """Vision measured a part: x, y (m) and yaw (rad), or no yaw from a general look."""
+    """Vision measured a part: x, y (m) and yaw (rad); a general look gives no yaw."""
 
     part: str
     x: float
@@ -215,7 +227,7 @@ class PartSeen(Event, frozen=True, kw_only=True):
 
 
 class PartInspected(Event, frozen=True, kw_only=True):
-    """Vision compared two pictures."""
+    """Vision inspected a part by comparing two pictures."""
 
     part: str
     ok: bool
@@ -223,7 +235,9 @@ class PartInspected(Event, frozen=True, kw_only=True):
 
 
 class PartMatched(Event, frozen=True, kw_only=True):
-    """Vision saw how far a part stands in one picture as in another."""
+    """Vision compared the place of a part in two pictures: displacement `off` (m), and the fraction `unlike` that
+    looks different.
+    """
 
     part: str
     ok: bool  # it has not moved
@@ -232,9 +246,9 @@ class PartMatched(Event, frozen=True, kw_only=True):
 
 
 class CameraStarted(Event, frozen=True, kw_only=True):
-    """The camera's mechanism set about something: `lens`, `aim` or `focus`, which takes it this long (s).
+    """The camera's mechanism was given an action, `lens`, `aim` or `focus`, that takes `seconds` (s).
 
-    It begins when its present movement ends; the arm continues.
+    The action begins when the mechanism's present movement ends; the arm continues meanwhile.
     """
 
     action: str
@@ -242,14 +256,16 @@ class CameraStarted(Event, frozen=True, kw_only=True):
 
 
 class CameraBusy(Event, frozen=True, kw_only=True):
-    """The arm stood still for the camera this long (s): `wait` for its mechanism, or `digitise` for a picture."""
+    """The arm stood still for the camera for `seconds` (s): to `wait` for its mechanism, or to `digitise` a
+    picture.
+    """
 
     action: str
     seconds: float
 
 
 class OperatorCalled(Event, frozen=True, kw_only=True):
-    """Brakes are set and the operator is called, with the program's own message, an error, or a cause."""
+    """The brakes were set and the operator was called, with the program's own message, an error or a cause."""
 
     message: str = ""  # the program's own words
     error: int | None = None
@@ -257,14 +273,16 @@ class OperatorCalled(Event, frozen=True, kw_only=True):
 
 
 class OperatorAnswered(Event, frozen=True, kw_only=True):
-    """Choice of the operator after a stop, and the step the program continues with (None: it ends)."""
+    """The operator's choice after a stop, and the step with which the program continues (None: the program ends)."""
 
     choice: Choice
     step: int | None
 
 
 class ExperimentMade(Event, frozen=True, kw_only=True):
-    """A person at the stepper changed the program's memory (m, rad): the run no longer follows from the plan alone."""
+    """A person at the stepper changed the program's memory (m, rad), so that the run no longer follows from the
+    plan alone.
+    """
 
     what: str  # `saved`, `position`, or another that the system has
     name: str
@@ -272,25 +290,29 @@ class ExperimentMade(Event, frozen=True, kw_only=True):
 
 
 class LineTyped(Event, frozen=True, kw_only=True):
-    """A person typed a line at the console of a system, for one of its tasks: the run is no longer the plan's alone."""
+    """A person typed a line at the console of a system, for one of its tasks, so that the run no longer follows
+    from the program alone.
+    """
 
     text: str
     task: str = ""  # the task it was typed to; empty: the only one, or the one that reads the console
 
 
 class PanicStopped(Event, frozen=True, kw_only=True):
-    """The operator hit the panic button: drives off, brakes set, at this servo period."""
+    """The operator pressed the panic button: drives off and brakes set in this servo period."""
 
 
 class WentBack(Event, frozen=True, kw_only=True):
-    """Everything after the first `events` events is undone. In a journal only; a trace leaves out what is undone."""
+    """All events after the first `events` events were undone. This event occurs only in a journal; a trace leaves
+    out the undone events.
+    """
 
     events: int
     why: Literal["back", "resumed"]
 
 
 class UndoOrdered(Event, frozen=True, kw_only=True):
-    """Reversal ordered: the arm undoes executed steps until `left` remain."""
+    """A reversal was ordered: the arm undoes executed steps until `left` remain."""
 
     left: int
     halts: bool  # the run ends there; else the program can continue
@@ -298,25 +320,25 @@ class UndoOrdered(Event, frozen=True, kw_only=True):
 
 
 class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
-    """The arm begins to undo a step, or the rounds of a loop that led back to it."""
+    """The arm begins to undo a step, or all rounds of a loop that led back to the step."""
 
     steps: int = 1  # executed steps that are undone at once
 
 
 class UndoFinished(StepFinished, frozen=True, kw_only=True):
-    """A step is undone."""
+    """A step has been undone; `force` (N) is the greatest force sensed meanwhile."""
 
     force: float  # greatest force on the hand meanwhile, N
 
 
 class StageUndone(Event, frozen=True, kw_only=True):
-    """All that was done in a stage since it last began is undone."""
+    """Everything done in a stage since it last began has been undone."""
 
     stage: str
 
 
 class UndoEnded(Event, frozen=True, kw_only=True):
-    """The reversal is complete; the program would continue with a step."""
+    """The reversal is complete; the program would continue with `step`."""
 
     step: int
 
@@ -342,7 +364,9 @@ _encoder = msgspec.json.Encoder()
 
 
 def to_line(event: Event) -> bytes:
-    """The event as one line of JSON; raises BadArgument if it could not be read back: NaN is null in JSON."""
+    """The event as one line of JSON; raises BadArgument for NaN, which JSON writes as null and which could not be
+    read back.
+    """
     try:
         line = _encoder.encode(event)
         msgspec.json.decode(line, type=type(event))

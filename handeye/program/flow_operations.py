@@ -9,9 +9,9 @@ from handeye.program.operation import Branch, Operation, action
 
 
 class Search(Operation, frozen=True, kw_only=True):
-    """Set up a search with this step (m) and at most `limit` places, the first being the present one.
+    """Start a search with step `step` (m) and at most `limit` places; the first place is the present one.
 
-    The places lie on a square spiral, or on a line if it is `along` a direction (rad from table x).
+    The places lie on a square spiral or, if `along` (rad from table x) is given, on a line in that direction.
     """
 
     family: ClassVar = "search"
@@ -24,7 +24,7 @@ class Search(Operation, frozen=True, kw_only=True):
 
 
 class Advance(Operation, frozen=True, kw_only=True):
-    """Go to the next place of the search (AOJ); error 6 when there is none."""
+    """Go to the next place of the search (AOJ); error 6 if there is none."""
 
     family: ClassVar = "search"
     raising: ClassVar = action(errors.SEARCH_EXHAUSTED)
@@ -32,7 +32,9 @@ class Advance(Operation, frozen=True, kw_only=True):
 
 
 class Test(Operation, frozen=True, kw_only=True):
-    """Test for error `number` of the last action, and clear it; `raised` is the next step then (None: the end)."""
+    """Test for error `number` of the last action, and clear it; if it was raised, the next step is `raised` (None:
+    the end).
+    """
 
     __test__ = False
     family: ClassVar = "test"
@@ -60,7 +62,7 @@ class Assign(Operation, frozen=True, kw_only=True):
 
 
 class Countdown(Operation, frozen=True, kw_only=True):
-    """Subtract one from a counter (SOJG); `positive` is the next step while it is positive (None: the end)."""
+    """Decrement a counter (SOJG); while it is positive, the next step is `positive` (None: the end)."""
 
     branches: ClassVar = True
     reading: ClassVar = {"counter": ("counter",)}
@@ -78,14 +80,15 @@ class Countdown(Operation, frozen=True, kw_only=True):
 
 
 class Jump(Operation, frozen=True, kw_only=True):
-    """Continue at the step's `next`."""
+    """Continue at the step given by `next`."""
 
 
 class Save(Operation, frozen=True, kw_only=True):
-    """Save the difference actual minus goal of the last Move; after Center only its part along the finger line.
+    """Save the difference between the actual position and the goal of the last Move; after Center only its part
+    along the finger line.
 
-    A Restore of the same name in that goal counts to the difference, so that saving again under one name
-    follows a datum that moves.
+    If the goal already contains a Restore of the same name, the restored shift is part of the new difference, so
+    that repeated saves under one name follow a moving reference.
     """
 
     family: ClassVar = "search"
@@ -96,7 +99,7 @@ class Save(Operation, frozen=True, kw_only=True):
 
 
 class Here(Operation, frozen=True, kw_only=True):
-    """Define a position as the present hand pose, relative to its part if it has one."""
+    """Define a position as the present hand pose, relative to the position's part if it has one."""
 
     writing: ClassVar = {"position": ("position",)}
 
@@ -104,7 +107,7 @@ class Here(Operation, frozen=True, kw_only=True):
 
 
 class Where(Operation, frozen=True, kw_only=True):
-    """Show the hand pose."""
+    """Report the hand pose."""
 
 
 class Wait(Operation, frozen=True, kw_only=True):
@@ -118,7 +121,7 @@ class Wait(Operation, frozen=True, kw_only=True):
 
 
 class Undo(Operation, frozen=True, kw_only=True):
-    """Reverse the stage and repeat it; after `times` reversals since the stage began, continue."""
+    """Reverse the stage and repeat it; after `times` reversals since the stage began, continue instead."""
 
     bounds: ClassVar = {"times": (1, 100)}
 
@@ -130,7 +133,7 @@ class Undo(Operation, frozen=True, kw_only=True):
 
 
 class Load(Operation, frozen=True, kw_only=True):
-    """Declare the weight (N) in the hand, for the servo to compensate."""
+    """Declare the weight (N) in the hand, which the servo then compensates."""
 
     bounds: ClassVar = {"weight": (-1e3, 1e3)}
 
@@ -138,7 +141,7 @@ class Load(Operation, frozen=True, kw_only=True):
 
 
 class Tool(Operation, frozen=True, kw_only=True):
-    """Set the screwdriver's spindle speed, rad/s; 0 is off."""
+    """Set the speed of the screwdriver's spindle, rad/s; 0 is off."""
 
     family: ClassVar = "hand"
     needs: ClassVar = "screwdriver"

@@ -14,7 +14,9 @@ MAX_SEARCHED: Final = 100  # steps
 
 @dataclass(frozen=True, slots=True)
 class Graph:
-    """Steps by number, with successors (None: the end), predecessors, numbers by kind, and the reachable ones."""
+    """Steps by number, with their successors (None: the end) and predecessors, numbers by kind of operation, and
+    the reachable steps.
+    """
 
     steps: Sequence[Step]
     onward: list[tuple[int | None, ...]] = field(init=False)
@@ -42,35 +44,37 @@ class Graph:
         object.__setattr__(self, "reached", reachable([0] if self.steps else [], onward))
 
     def which(self, *kinds: type[Operation]) -> list[int]:
-        """Steps with operations of these kinds, in order."""
+        """Numbers of the steps with operations of these kinds, in order."""
         return sorted(number for kind in kinds for number in self.kinds.get(kind, ()))
 
     def each(self, kind: type[A]) -> Iterator[tuple[int, A]]:
-        """Steps with operations of a kind, in order."""
+        """Steps with operations of one kind, in order, with their numbers."""
         for number in self.kinds.get(kind, ()):
             operation = self.steps[number].operation
             if isinstance(operation, kind):
                 yield number, operation
 
     def at(self, number: int | None, kind: type[A]) -> A | None:
-        """The operation of a step if it is of a kind, else None."""
+        """The operation of a step if it is of this kind, else None."""
         operation = None if number is None else self.steps[number].operation
         return operation if isinstance(operation, kind) else None
 
     def actions(self) -> list[int]:
-        """Steps that can raise an error, or clear it."""
+        """Steps that can raise an error or clear it."""
         return self.which(*(kind for kind in self.kinds if kind.raising))
 
     def after(self, numbers: Iterable[int]) -> set[int]:
-        """Steps that can follow, directly or not."""
+        """Steps that can follow these steps, directly or indirectly."""
         return reachable([target for number in numbers for target in self.onward[number]], self.onward)
 
     def before(self, numbers: Iterable[int]) -> set[int]:
-        """Steps that can precede, directly or not."""
+        """Steps that can precede these steps, directly or indirectly."""
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """Reachable steps of these kinds that can be last before one; none if it can do without, or search is long."""
+        """Reachable steps of these kinds that can be the last before a step; none if there is a path without such a
+        step, or if the search takes too long.
+        """
         found: list[int] = []
         seen: set[int] = set()
         waiting = [number]
@@ -86,7 +90,9 @@ class Graph:
         return found
 
     def leads(self, first: int | None, last: int | None, without: Container[int]) -> bool:
-        """True if a path leads from one step to another, or to the end, avoiding `without`; near steps come first."""
+        """True if a path leads from step `first` to step `last`, or to the end, without passing `without`; nearby
+        steps are searched first.
+        """
         waiting = [] if first is None or first in without else [first]
         seen = set(waiting)
         while waiting:
@@ -113,7 +119,7 @@ class Graph:
         return found
 
     def _finished(self) -> list[int]:
-        """Steps in order of completion of a depth-first search."""
+        """Steps in the order in which a depth-first search finishes them."""
         finished: list[int] = []
         seen: set[int] = set()
         waiting = [(number, False) for number in range(len(self.steps))]
@@ -128,7 +134,7 @@ class Graph:
         return finished
 
     def trapped(self, exits: Iterable[int]) -> set[int]:
-        """Steps from which neither the end nor an exit can be reached."""
+        """Steps from which neither the end nor any of `exits` can be reached."""
         out = set(exits)
         turns = {n for n, step in enumerate(self.steps) if step.next is not None and step.next <= n} - out
         if all(any(t is None or t > n for t in self.onward[n]) for n in turns):
@@ -137,7 +143,7 @@ class Graph:
         return set(range(len(self.steps))) - reachable(out, self.back)
 
     def loop(self, start: int, known: set[int]) -> set[int]:
-        """Steps reachable from `start`, empty if they lead into `known`; adds them to `known`."""
+        """Steps reachable from `start`, or none if they lead into `known`; adds them to `known`."""
         found = reachable([start], self.onward, known)
         met = any(target in known for number in found for target in self.onward[number])
         known |= found
@@ -147,7 +153,7 @@ class Graph:
 def reachable(
     first: Iterable[int | None], edges: Sequence[Iterable[int | None]], without: Iterable[int] = ()
 ) -> set[int]:
-    """Nodes reachable along edges, the first included."""
+    """Nodes that can be reached along edges, including those in `first`."""
     found = set(without)
     waiting = list(first)
     while waiting:

@@ -1,4 +1,4 @@
-"""Guards: conditions that end a motion, and the error if it ends without."""
+"""Guards: conditions that end a motion, each with the error raised if the motion ends without the condition."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -14,7 +14,7 @@ FORCE: Final[Bounds] = (1e-6, 1e4)  # N, or N m
 
 
 class GuardKind(StrEnum):
-    """Kinds of guards, by their names on disk."""
+    """Kinds of guards, with their names in the plan file."""
 
     FORCE = "force"
     AGAINST = "against"
@@ -24,14 +24,14 @@ class GuardKind(StrEnum):
 
 
 class HandLoad(NamedTuple):
-    """A force (N), or moment (N m) if `turning`, that the hand exerts, table axes."""
+    """A force (N), or with `turning` a moment (N m), that the hand exerts, in table axes."""
 
     vector: Vector3
     turning: bool
 
 
 class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda name: name.lower()):
-    """Base of the guards; the class name in lower case is the kind, and the tag on disk."""
+    """Base of the guards; the class name in lower case is the kind, and the tag in the plan file."""
 
     kind: ClassVar[GuardKind]
     error: ClassVar[int]  # raised if the motion ends without meeting the guard
@@ -39,16 +39,16 @@ class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda nam
 
     @classmethod
     def sense(cls) -> Sense | None:
-        """The sense it depends on; None for the screwdriver's motor current."""
+        """The sense on which the guard depends; None for the current of the screwdriver's motor."""
         return TESTED.get(cls.error)
 
     def exerted(self, along: Vector3 | None) -> "HandLoad | None":
-        """The least force or moment that meets it in a motion along a vector; None if none does."""
+        """The least force or moment that trips the guard in a motion along a vector; None if no force does."""
         return None
 
 
 class Force(Guard, frozen=True, kw_only=True):
-    """The hand exerts more than this force (N, table axes) along it."""
+    """Trips when the hand exerts more than this force (N, table axes) along its direction."""
 
     kind: ClassVar = GuardKind.FORCE
     error: ClassVar = errors.NO_FORCE
@@ -61,7 +61,7 @@ class Force(Guard, frozen=True, kw_only=True):
 
 
 class Against(Guard, frozen=True, kw_only=True):
-    """The motion is opposed by more than `force` (N), whatever its direction."""
+    """Trips when more than `force` (N) opposes the motion, whatever its direction."""
 
     kind: ClassVar = GuardKind.AGAINST
     error: ClassVar = errors.NO_FORCE
@@ -78,7 +78,7 @@ class Against(Guard, frozen=True, kw_only=True):
 
 
 class Moment(Guard, frozen=True, kw_only=True):
-    """The hand exerts more than this moment (N m, table axes) about its tool centre point."""
+    """Trips when the hand exerts more than this moment (N m, table axes) about its tool centre point."""
 
     kind: ClassVar = GuardKind.MOMENT
     error: ClassVar = errors.NO_FORCE
@@ -91,7 +91,7 @@ class Moment(Guard, frozen=True, kw_only=True):
 
 
 class Torque(Guard, frozen=True, kw_only=True):
-    """The screwdriver's motor exerts a torque (N m)."""
+    """Trips when the motor of the screwdriver exerts this torque (N m)."""
 
     kind: ClassVar = GuardKind.TORQUE
     error: ClassVar = errors.NO_TORQUE
@@ -101,7 +101,7 @@ class Torque(Guard, frozen=True, kw_only=True):
 
 
 class Touch(Guard, frozen=True, kw_only=True):
-    """A finger touches: 1 the one on the hand's +y side, 2 the other, 3 either."""
+    """Trips when a finger touches: 1 is the finger on the hand's +y side, 2 the other, 3 either."""
 
     kind: ClassVar = GuardKind.TOUCH
     error: ClassVar = errors.NO_TOUCH
@@ -115,5 +115,5 @@ Guards = tuple[AnyGuard, ...]
 
 
 def unmet(guards: Sequence[AnyGuard]) -> int:
-    """The error of a motion that ends without meeting its guards, of which there is at least one."""
+    """The error of a motion that ends without meeting its guards; there must be at least one guard."""
     return guards[0].error

@@ -1,4 +1,4 @@
-"""Languages as values, chosen by file ending, so that no skill knows a language."""
+"""Languages as values, chosen by file ending, so that the rest of the program depends on no particular language."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -17,39 +17,41 @@ Compiled = tuple[Program | None, list[Diagnostic]]  # a program, None if there a
 
 
 class Language(Record, frozen=True, kw_only=True):
-    """A scripting language."""
+    """A language for scripts."""
 
     name: str  # as stored in programs and plans
     read: Callable[[Path], Source]  # reads a script with all it requires; raises InvalidInput
     compile: Callable[[Source, Taught], Compiled]
     phrase: Callable[[Program, NamedArm, Iterable[PlanFinding]], list[Diagnostic]]
-    """Diagnostics for planning findings, at their places in the text."""
+    """Makes diagnostics from planning findings, at their places in the text."""
 
 
 class OwnLanguage(ABC):
-    """A system's language for its own files: answers to commands and editors about a text."""
+    """A system's own language for its files: checks a text, and answers commands and editors."""
 
     system: str
 
     @abstractmethod
     def check(self, source: Source) -> list[Diagnostic]:
-        """Diagnostics on a text; nothing moves."""
+        """Diagnostics for a text; nothing is executed."""
 
     def formatted(self, text: str) -> str:
-        """The text in its usual form; raises Refused if there is none."""
+        """The text in the language's standard format; raises Refused if there is none."""
         raise refusal(self.system, "format")
 
     def explanation(self, word: str) -> str | None:
-        """An explanation of a word, or of the code of a diagnostic, of this language; None if it is neither."""
+        """An explanation of a word of this language, or of the code of one of its diagnostics; None if it is
+        neither.
+        """
         return None
 
     def words(self, source: Source, offset: int) -> Sequence[tuple[str, str]]:
-        """Words that may stand at an offset, each with what it means."""
+        """Words that may stand at an offset, each with its meaning."""
         return ()
 
 
 def own_language(file: str) -> OwnLanguage | None:
-    """The language that a system has for files of this name; None: the file is a script for a planned program."""
+    """The system's language for files of this name; None if the file is a script for a planned program."""
     entry, ending = entry_of_file(file)
     if entry is None:
         return None
@@ -64,6 +66,6 @@ def own_languages() -> Iterator[OwnLanguage]:
 
 
 def language_of(file: PurePath, languages: Mapping[str, Language]) -> Language:
-    """The language of a file's ending; the first one if none has that ending."""
+    """The language of a file, by its ending; the first language if no language has that ending."""
     found = languages.get(file.suffix.lower())
     return next(iter(languages.values())) if found is None else found

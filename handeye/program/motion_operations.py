@@ -1,4 +1,4 @@
-"""Operations that move the arm or the hand, and checks of its travel."""
+"""Operations that move the arm or the hand, and checks of the distance moved."""
 
 import math
 from typing import Annotated, ClassVar, Final
@@ -16,14 +16,14 @@ _GAP: Final[Bounds] = (0.0, 0.2)  # m
 
 
 class Restore(Record, frozen=True, kw_only=True):
-    """Shift a goal by a saved difference."""
+    """A shift of a goal by a saved difference; `level`: only horizontally."""
 
     name: str
     level: bool = False  # horizontal components only
 
 
 class ArmMotion(Operation, frozen=True, kw_only=True):
-    """Base of arm motions; raises an error if it has guards and none trips."""
+    """Base of arm motions; a motion with guards raises an error if none of them trips."""
 
     family: ClassVar = "motion"
     moves: ClassVar = True
@@ -48,7 +48,7 @@ class ArmMotion(Operation, frozen=True, kw_only=True):
 
 
 class Move(ArmMotion, frozen=True, kw_only=True):
-    """Planned motion to a position, departing upwards and approaching from above."""
+    """Planned motion to a position, with a departure upwards and an approach from above."""
 
     planned: ClassVar = True
     reading: ClassVar = {"position": ("goal", "via")}
@@ -63,7 +63,7 @@ class Move(ArmMotion, frozen=True, kw_only=True):
 
     @property
     def reads(self) -> tuple[Use, ...]:
-        """Everything it depends on, shifts included."""
+        """All values that the motion depends on, including those of its shifts."""
         shifts = [Use("difference", restore.name, restore.level) for restore in self.restore]
         search = [Use("search")] if self.searching else []
         return (*self.used(self.reading), *shifts, *search)
@@ -93,12 +93,12 @@ class Change(ArmMotion, frozen=True, kw_only=True):
 
     @property
     def meets(self) -> bool:
-        """True if it should make contact: it has guards, presses or turns."""
+        """True if the motion should make contact: it has guards, presses or turns."""
         return bool(self.guards) or self.press is not None or self.moment is not None
 
     @property
     def complies(self) -> bool:
-        """True if force or moment shifts the hand."""
+        """True if force or moment may shift the hand."""
         return any(way is not None for way in (self.press, self.free, self.moment, self.spin))
 
     @property
@@ -107,7 +107,7 @@ class Change(ArmMotion, frozen=True, kw_only=True):
 
 
 class Turn(ArmMotion, frozen=True, kw_only=True):
-    """Motion on a circle about the vertical through a position, by `angle` (rad, counter-clockwise from above)."""
+    """Motion on a circle about a vertical axis through a position, by `angle` (rad, counter-clockwise from above)."""
 
     bounds: ClassVar = {"angle": (-4 * math.pi, 4 * math.pi)}
     reading: ClassVar = {"position": ("centre",)}
@@ -135,7 +135,9 @@ class Open(Operation, frozen=True, kw_only=True):
 
 
 class Close(Operation, frozen=True, kw_only=True):
-    """Close until both switches fire; error 2 below `minimum` (m; 0: on nothing), error 7 above `maximum`."""
+    """Close the fingers until both switches close; error 2 if the gap is below `minimum` (m; 0: the hand is empty),
+    error 7 if it is above `maximum`.
+    """
 
     family: ClassVar = "hand"
     needs: ClassVar = "hand"
@@ -153,7 +155,9 @@ class Close(Operation, frozen=True, kw_only=True):
 
 
 class Center(Operation, frozen=True, kw_only=True):
-    """Close, moving the hand so that the object is not pushed; error 2 below `minimum` (m; 0: on nothing)."""
+    """Close the fingers and move the hand so that the object is not pushed; error 2 if the gap is below `minimum`
+    (m; 0: the hand is empty).
+    """
 
     family: ClassVar = "hand"
     needs: ClassVar = "hand"
@@ -169,7 +173,7 @@ class Center(Operation, frozen=True, kw_only=True):
 
 
 class Travel(Operation, frozen=True, kw_only=True):
-    """Check how far the hand went (m) in the last Change or Center: error 8 outside the range."""
+    """Check the distance (m) that the hand moved in the last Change or Center; error 8 if it is outside the range."""
 
     family: ClassVar = "test"
     raising: ClassVar = action(errors.WRONG_TRAVEL)
@@ -182,7 +186,9 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Check how much higher the hand stopped than where a difference was saved (m): error 9 outside the range."""
+    """Check how much higher (m) the hand stopped than where a difference was saved; error 9 if it is outside the
+    range.
+    """
 
     family: ClassVar = "test"
     raising: ClassVar = action(errors.WRONG_HEIGHT)

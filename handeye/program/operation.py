@@ -1,4 +1,6 @@
-"""The base of all operations: what each reads, writes, raises and needs, so that readers need not know it by name."""
+"""The base of all operations, with the values that each reads and writes, the errors that it raises, and the
+devices that it needs. Code that uses these properties need not know the operations by name.
+"""
 
 from collections.abc import Mapping
 from typing import ClassVar, Literal, NamedTuple, Self
@@ -8,18 +10,18 @@ from handeye.core.record import Record, Vector3
 from handeye.program.guards import Bounds, Guards
 
 Kind = Literal["position", "part", "target", "picture", "difference", "counter", "search", "goal", "travel"]
-"""Kinds of values that a run remembers.
+"""Kinds of values that a run stores.
 
-A target is a position or part; `goal` is that of the last Move, `travel` of the last Change.
+A target is a position or a part; `goal` is the goal of the last Move, `travel` the distance of the last Change.
 """
 Family = Literal["motion", "hand", "sight", "test", "search", "other"]
 Device = Literal["hand", "screwdriver", "camera"]
 Fields = Mapping[Kind, tuple[str, ...]]
-"""Fields of an operation that name things of each kind; empty for kinds with a single, unnamed value."""
+"""Fields of an operation that name values of each kind; empty for kinds with a single, unnamed value."""
 
 
 class Use(NamedTuple):
-    """Something an operation reads or writes; `level`: only its horizontal components."""
+    """A value that an operation reads or writes; `level`: only its horizontal components."""
 
     kind: Kind
     name: str = ""
@@ -27,7 +29,9 @@ class Use(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A branch to `target` (None: the end), if the last action raised `error`, or while `counter` is positive."""
+    """A branch to `target` (None: the end), taken if the last action raised `error`, or while `counter` is
+    positive.
+    """
 
     target: int | None
     error: int | None = None
@@ -37,9 +41,9 @@ class Branch(NamedTuple):
 class Operation(
     Record, frozen=True, kw_only=True, omit_defaults=True, tag_field="op", tag=lambda name: name.lower()
 ):
-    """Base of the operations; the class name in lower case is the tag on disk.
+    """Base of the operations; the class name in lower case is the tag in the plan file.
 
-    A default is always absence: what is left out of a plan keeps its meaning.
+    The default of a field always means absence, so that plans that leave the field out keep their meaning.
     """
 
     family: ClassVar[Family] = "other"
@@ -57,71 +61,71 @@ class Operation(
 
     @property
     def raises(self) -> frozenset[int]:
-        """Error numbers it can raise."""
+        """Numbers of the errors that the operation can raise."""
         return self.raising
 
     @property
     def guards(self) -> Guards:
-        """Guards that may end it."""
+        """Guards that may end the operation."""
         return ()
 
     @property
     def press(self) -> Vector3 | None:
-        """Force it exerts while moving, N, table axes."""
+        """Force that the hand exerts during the motion, N, table axes."""
         return None
 
     @property
     def complies(self) -> bool:
-        """True if force or moment shifts the hand."""
+        """True if force or moment may shift the hand."""
         return False
 
     @property
     def feels(self) -> bool:
-        """True if its course depends on the hand's force or moment."""
+        """True if the course of the motion depends on the force or moment on the hand."""
         return self.complies or any(guard.exerted((0.0, 0.0, 1.0)) is not None for guard in self.guards)
 
     @property
     def examines(self) -> str | None:
-        """The picture it examines."""
+        """The picture that the operation examines."""
         return None
 
     @property
     def reads(self) -> tuple[Use, ...]:
-        """Everything it depends on."""
+        """All values that the operation depends on."""
         return self.used(self.reading)
 
     @property
     def writes(self) -> tuple[Use, ...]:
-        """Everything it may change."""
+        """All values that the operation may change."""
         return self.used(self.writing)
 
     @property
     def calls(self) -> str | None:
-        """Its message to the operator."""
+        """The operation's message to the operator."""
         return None
 
     @property
     def undoes(self) -> int:
-        """Maximum number of times that it reverses and repeats its stage."""
+        """Greatest number of times that the operation reverses and repeats its stage."""
         return 0
 
     @property
     def branch(self) -> Branch | None:
-        """Its branch."""
+        """The operation's branch, if it has one."""
         return None
 
     def leading_to(self, target: int | None) -> Self:
-        """A copy with another branch target."""
+        """A copy of the operation with another branch target."""
         raise NotImplementedError(f"{type(self).__name__} has no branch")
 
     @property
     def goal_position(self) -> str | None:
-        """The named position it leads the hand to."""
+        """The named position to which the operation moves the hand."""
         return None
 
     @property
     def knots(self) -> int | None:
-        """Number of knots of its planned motion; None if it has none."""
+        """Number of knots of the planned motion; None if there is no planned motion."""
         return None
 
     def used(self, fields: Fields) -> tuple[Use, ...]:
@@ -136,5 +140,5 @@ class Operation(
 
 
 def action(*numbers: int) -> frozenset[int]:
-    """Errors of an action: these, and the watchdog's."""
+    """Errors that an action can raise: the given numbers, and that of the watchdog."""
     return frozenset({errors.WATCHDOG, *numbers})

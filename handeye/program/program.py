@@ -1,7 +1,7 @@
-"""A checked program: labelled operations with symbolic goals, in SI units, of no particular language.
+"""A checked program: labelled operations with symbolic goals, in SI units, independent of language and arm.
 
-This is the first waist: every arm language ends here, and the planner starts here. The same operations,
-joined by planned motions, make the plan.
+The program is the first waist of the system: every arm language compiles to it, and the planner starts from it.
+Joined with planned motions, the same operations make the plan.
 """
 
 from collections.abc import Collection, Mapping
@@ -20,7 +20,7 @@ Columns = tuple[int, int]  # start and end on a line, from 0, end exclusive
 
 
 class SourcePlace(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """A place in the source; `file` is empty for the main text, `line` counts from 1."""
+    """A place in the source; `file` is empty for the main text, and `line` counts from 1."""
 
     file: str = ""
     line: int
@@ -28,7 +28,7 @@ class SourcePlace(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """One step of the graph, numbered by its index."""
+    """One step of the program; its number is its index."""
 
     operation: AnyOperation
     stage: int  # index
@@ -44,33 +44,33 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def ways(self) -> tuple[int | None, ...]:
-        """Steps that may follow, `next` first."""
+        """Steps that may follow, with `next` first."""
         branch = self.operation.branch
         return (self.next,) if branch is None else (self.next, branch.target)
 
     @property
     def called(self) -> str:
-        """The macro that its stage calls here, or ""."""
+        """The macro that the stage calls at this step, or ""."""
         return self.call or self.macro
 
     @property
     def needs(self) -> Device | None:
-        """The device it needs besides the arm."""
+        """The device that the step needs besides the arm."""
         return self.operation.needs
 
     @property
     def place(self) -> str:
-        """Its line, as `12` or `pins.al:12`."""
+        """The line of the step, such as `12` or `pins.al:12`."""
         return line_name(self.line, self.file)
 
     @property
     def examines(self) -> str | None:
-        """The picture that its operation looks at, if it looks at one."""
+        """The picture that the step's operation examines; None if it examines none."""
         return self.operation.examines
 
     @property
     def guarded(self) -> bool:
-        """Its operation moves until something is felt."""
+        """True if the step's motion is ended by guards."""
         return bool(self.operation.guards)
 
     @property
@@ -83,7 +83,9 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class Position(Record, frozen=True, kw_only=True):
-    """A taught or written hand position: x, y, z (m) and angles O, A, T (rad), relative to the part `of`, if any."""
+    """A taught or written position of the hand: x, y, z (m) and the angles O, A, T (rad), relative to the part
+    `of`, if any.
+    """
 
     at: tuple[float, float, float, float, float, float]
     of: str | None = None
@@ -98,9 +100,10 @@ class Hole(Record, frozen=True, kw_only=True):
 
 
 class Part(Record, frozen=True, kw_only=True):
-    """A part as the program knows it: where it is planned to be, and what it looks like from above.
+    """A part as the program knows it: its planned place, and its appearance from above.
 
-    The reference point is the centre of the first hole; the reference direction points from it to the second.
+    The reference point is the centre of the first hole; the reference direction points from there to the second
+    hole.
     """
 
     at: tuple[float, float, float, float]  # planned x, y, z (m), yaw (rad)
@@ -112,7 +115,7 @@ class Part(Record, frozen=True, kw_only=True):
 
 
 class Fixture(Record, frozen=True, kw_only=True):
-    """A fixed obstacle in the cell, as boxes in its frame, which is at x, y, z (m) and yaw (rad)."""
+    """A fixed obstacle in the cell: boxes in a frame that is at x, y, z (m) and yaw (rad)."""
 
     at: tuple[float, float, float, float]
     boxes: tuple[Box, ...]
@@ -124,7 +127,7 @@ class Held(Record, frozen=True, kw_only=True, omit_defaults=True):
     positions: tuple[str, ...]
     boxes: tuple[Box, ...]
     thickness: Annotated[float, Meta(gt=0)] | None = None
-    """The gap of fingers that hold it there, as drawn, m; None: not known."""
+    """Nominal gap of fingers that hold the object there, m; None: not known."""
 
 
 class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
@@ -144,13 +147,13 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def whole(self) -> Source:
-        """The text with the texts it requires."""
+        """The main text of the script together with the texts that it requires."""
         required = tuple(Source(name=key, key=key, text=text) for key, text in self.required.items())
         return Source(name=self.name, text=self.source, required=required)
 
     @property
     def labels(self) -> dict[str, list[int]]:
-        """Steps by label; a label in a macro has one for each call."""
+        """Numbers of steps by label; a label in a macro has one step for each call."""
         found: dict[str, list[int]] = {}
         for number, step in enumerate(self.steps):
             for label in step.labels:
@@ -159,7 +162,7 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def calls(self) -> frozenset[str]:
-        """Macros that its stages call, which a run can leave out."""
+        """Macros that the stages call, and that a run can leave out."""
         return frozenset(step.called for step in self.steps if step.macro)
 
     @property
@@ -169,9 +172,9 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def feels(self) -> bool:
-        """True if a step depends on the force or moment of the hand."""
+        """True if a step depends on the force or moment on the hand."""
         return any(step.operation.feels for step in self.steps)
 
     def written(self, kind: Kind) -> set[str]:
-        """Names of a kind that its steps write."""
+        """Names of one kind that the steps write."""
         return {use.name for step in self.steps for use in step.operation.writes if use.kind == kind}

@@ -1,4 +1,4 @@
-"""Senses and macros that a run can do without, and the assumption in their place."""
+"""Senses and macros that can be switched off in a run, and the assumption that replaces each."""
 
 from typing import Final, Literal, get_args
 
@@ -17,9 +17,9 @@ ASSUMPTIONS: Final[dict[str, str]] = {
 
 
 def assumption(name: str) -> str:
-    """What a run assumes that goes without a sense, or without a macro of its program."""
+    """The assumption that a run makes without a sense, or without a macro of its program."""
     return ASSUMPTIONS.get(name, f"{name} is skipped")
 
 
 TESTED: Final[dict[int, Sense]] = {errors.NO_FORCE: "force", errors.NO_TOUCH: "touch"}
-"""Errors for what a sense should have felt."""
+"""The sense whose absence of contact each error reports."""

@@ -1,4 +1,4 @@
-"""Finds stages by number, name or part of a name."""
+"""Finds stages by number, name or part of the name."""
 
 import re
 from collections.abc import Sequence
@@ -11,7 +11,9 @@ _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 
 
 def stage_index(text: str, stages: Sequence[str]) -> int:
-    """Index of a stage given by number from 1, name, or unique part of a name."""
+    """Index of a stage that is given by its number from 1, its name, or a unique part of its name; raises an error
+    if there is none.
+    """
     if _NUMBER.fullmatch(text.strip()):
         if not 1 <= int(text) <= len(stages):
             raise NoSuchName(f"there is no stage {int(text)}; the program has stages 1 to {len(stages)}")
@@ -23,7 +25,9 @@ def stage_index(text: str, stages: Sequence[str]) -> int:
 
 
 def stage_called(text: str, stages: Sequence[str]) -> int | None:
-    """Index of the one stage of this name, else the one that starts with it, else the one that contains it, or None."""
+    """Index of the only stage with this name, else of the only one that begins with it, else of the only one that
+    contains it; None if there is none.
+    """
     wanted = text.strip().casefold()
     names = [name.casefold() for name in stages]
     if not wanted:
@@ -39,7 +43,7 @@ def stage_called(text: str, stages: Sequence[str]) -> int | None:
 
 
 def _meant(text: str, stages: Sequence[str]) -> str:
-    """`; did you mean ...` with stages of similar names, else all names."""
+    """The end of an error sentence: `; did you mean ...` with stages of similar names, else all names."""
     typed = text.strip().casefold()
     words = {word for name in stages for word in (name, *name.split())}
     near = nearest(typed, words, len(typed) // 3)

@@ -1,4 +1,4 @@
-"""The part of its state that every system has: its place in a listing."""
+"""The part of a state that all systems have: the place in the listing of steps."""
 
 from typing import Annotated, NamedTuple
 
@@ -11,7 +11,7 @@ Natural = Annotated[int, msgspec.Meta(ge=0)]
 
 
 class TaskPlace(NamedTuple):
-    """The place of one task of a system."""
+    """The place of one task of a system in the listing."""
 
     task: str  # empty: the only one
     step: int  # the step that it does next
@@ -19,7 +19,7 @@ class TaskPlace(NamedTuple):
 
 
 class SystemState(MutableRecord, kw_only=True):
-    """Base of the states of systems: where it is among its steps."""
+    """Base of the states of systems, with the present step."""
 
     at: Natural | None = 0  # the step to do next; None when the program has ended or the operator was called
     stage: Natural | None = None  # the stage under way; None between two stages
@@ -28,5 +28,7 @@ class SystemState(MutableRecord, kw_only=True):
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """The place of each unfinished task, in order; that at `at` runs next. A system of several overrides it."""
+        """The place of each unfinished task, in order; the task at `at` runs next. A system with several tasks
+        overrides this.
+        """
         return () if self.at is None else (TaskPlace("", self.at),)

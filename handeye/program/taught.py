@@ -1,4 +1,4 @@
-"""Taught files: positions that the teacher stored by moving the arm, and the cell around it, as TOML.
+"""Taught files (TOML): hand positions that were stored by moving the arm, and the parts, fixtures and held objects.
 
 [positions.PIN]
 at = [18, 44, 3, 0, 90, 0]         # x, y, z in inches, angles O, A, T in degrees
@@ -9,12 +9,12 @@ at = [18, 44, 0, 0]                # x, y, z in inches, yaw in degrees
 face = 1.75                        # height of its upper face, inches
 holes = [[0, 0, 2.25]]             # x, y, diameter, inches, largest first
 
-[fixtures.RACK]                    # what no motion may lead through
+[fixtures.RACK]                    # an obstacle for motions
 at = [6, 33, 0, 0]                 # optional: x, y, z in inches, yaw in degrees, of the frame of its boxes
 boxes = [[-1, -1, 0, 1, 1, 5]]     # x, y, z from and x, y, z to, inches
 
-[held.DRIVER]                      # what the hand carries
-positions = ["PIN"]                # when it has closed at one of these
+[held.DRIVER]                      # an object that the hand carries
+positions = ["PIN"]                # held after the hand has closed at one of these
 boxes = [[-1, -1, -1, 1, 1, 4]]    # across the fingers, along the finger line, out from the tips: from and to
 """
 
@@ -47,7 +47,7 @@ class Taught:
 
 
 class PositionTable(msgspec.Struct, forbid_unknown_fields=True):
-    """`[positions.NAME]`"""
+    """Table `[positions.NAME]` of a taught file, in inches and degrees."""
 
     at: tuple[float, float, float, float, float, float]
     of: str | None = None
@@ -61,7 +61,7 @@ Circle = tuple[float, float, float]
 
 
 class PartTable(msgspec.Struct, forbid_unknown_fields=True):
-    """`[parts.NAME]`"""
+    """Table `[parts.NAME]` of a taught file, in inches and degrees."""
 
     at: tuple[float, float, float, float]
     face: float = 0.0
@@ -84,7 +84,7 @@ class PartTable(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class FixtureTable(msgspec.Struct, forbid_unknown_fields=True):
-    """`[fixtures.NAME]`"""
+    """Table `[fixtures.NAME]` of a taught file, in inches and degrees."""
 
     boxes: tuple[Box, ...]
     at: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
@@ -95,7 +95,7 @@ class FixtureTable(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class HeldTable(msgspec.Struct, forbid_unknown_fields=True):
-    """`[held.NAME]`"""
+    """Table `[held.NAME]` of a taught file, in inches."""
 
     positions: tuple[str, ...]
     boxes: tuple[Box, ...]
@@ -110,7 +110,7 @@ Entry = TypeVar("Entry", PositionTable, PartTable, FixtureTable, HeldTable)
 
 
 class UnfitEntry(Exception):
-    """An entry that cannot be used."""
+    """An entry of a taught file that cannot be used."""
 
     def __init__(self, kind: str, name: str, said: str) -> None:
         super().__init__(said)
@@ -118,14 +118,14 @@ class UnfitEntry(Exception):
 
     @property
     def key(self) -> str:
-        """`positions.NAME`"""
+        """The key of the entry, such as `positions.NAME`."""
         return f"{self.kind}.{self.name}"
 
 
 def read_tables(
     kind: str, tables: dict[str, dict[str, object]], type: type[Entry]
 ) -> Iterator[tuple[str, Entry]]:
-    """Tables of a kind by name; raises UnfitEntry."""
+    """Tables of one kind, by name; raises UnfitEntry."""
     for name, table in tables.items():
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             said = "a name consists of letters, digits and _, and does not start with a digit"
@@ -176,7 +176,7 @@ _KINDS: Final = {
 
 
 def unfit(error: msgspec.ValidationError) -> str:
-    """The mismatch and its place, as the rest of a sentence; parsed from `msgspec`'s message."""
+    """The mismatch and its place, as the rest of a sentence, from the message of `msgspec`."""
     said, _, where = str(error).partition(" - at `$")
     where = where.rstrip("`").lstrip(".")
     about = f"{where}: " if where else ""
@@ -203,12 +203,12 @@ MAX_BOXES: Final = 500  # in a file: checking motions takes time for each
 
 
 def load_taught(path: str | Path) -> Taught:
-    """Read a taught TOML file (inches and degrees); raises BadFile, naming the key."""
+    """Read a taught TOML file (inches and degrees); raises BadFile with the key at fault."""
     return read_taught(read_source(path))
 
 
 def read_taught(source: Source) -> Taught:
-    """Parse a taught TOML text (inches and degrees)."""
+    """Parse the text of a taught TOML file (inches and degrees); raises BadFile with the key at fault."""
     path = source.name
     try:
         tables = msgspec.convert(tomllib.loads(source.text), _File)
@@ -240,7 +240,7 @@ def _taught(tables: _File) -> Taught:
 
 
 def _line(source: Source, fault: UnfitEntry) -> int | None:
-    """The line, from 1, on which an entry begins, if it is in the usual form."""
+    """The line, from 1, on which an entry begins; None if the entry is not in the usual form."""
     kind, name = map(re.escape, (fault.kind, fault.name))
     header = rf"\[\s*{kind}\s*\.\s*[\"']?{name}[\"']?\s*\]"
     found = re.search(rf"^[ \t]*(?:{header}|[\"']?{name}[\"']?[ \t]*=)", source.text, re.MULTILINE)

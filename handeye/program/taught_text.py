@@ -1,7 +1,7 @@
-"""Edits a taught position in the text of its file, leaving all else as it is.
+"""Edits a position in the text of a taught file, and leaves everything else unchanged.
 
-It understands the usual forms: `A = { at = [...] }` under `[positions]`, on a line of its own, and
-`at = [...]` under `[positions.A]`. The new text is parsed again; a change of anything else is refused.
+The usual forms are supported: `A = { at = [...] }` on one line under `[positions]`, and `at = [...]` under
+`[positions.A]`. The new text is parsed again; a change that affects anything else is refused.
 """
 
 import re
@@ -20,7 +20,7 @@ _OF_ALONE: Final = rf"[ \t]*,[ \t]*{_OF}|{_OF}[ \t]*,[ \t]*|{_OF}"
 
 
 def with_position(text: str, name: str, position: Position) -> str:
-    """A taught text with a position added or replaced; raises BadFile if anything else would change."""
+    """The text of a taught file with a position added or replaced; raises BadFile if anything else would change."""
     before = tomllib.loads(text)
     entry = {"at": _figures(position), **({} if position.of is None else {"of": position.of})}
     wanted = {**before, "positions": {**before.get("positions", {}), name: entry}}
@@ -41,7 +41,7 @@ def with_position(text: str, name: str, position: Position) -> str:
 
 
 def _figures(position: Position) -> list[float]:
-    """x, y, z (in) to a thousandth, O, A, T (degrees) to a hundredth."""
+    """x, y, z (in) rounded to a thousandth, and O, A, T (degrees) rounded to a hundredth."""
     lengths = [round(value / INCH, 3) + 0.0 for value in position.at[:3]]
     return [*lengths, *(round(value / DEGREE, 2) + 0.0 for value in position.at[3:])]
 
@@ -56,7 +56,7 @@ def _line(name: str, position: Position) -> str:
 
 
 def _added(text: str, name: str, position: Position) -> str:
-    """Text with a line after the table's last entry, or at the end."""
+    """The text with a new line after the last entry of the table, or at the end."""
     header, line_end = _HEADER.search(text), "\r\n" if "\r\n" in text else "\n"
     if header is None:
         gap = "" if not text else line_end if text.endswith("\n") else 2 * line_end
@@ -72,7 +72,7 @@ def _added(text: str, name: str, position: Position) -> str:
 
 
 def _replaced(text: str, name: str, position: Position) -> str:
-    """Text with other figures in the line or table of a name."""
+    """The text with other figures in the line or table of the position `name`."""
     key = rf"[\"']?{re.escape(name)}[\"']?"
     line = re.compile(rf"^[ \t]*(?:positions\s*\.\s*)?{key}[ \t]*=[ \t]*\{{.*$", re.MULTILINE)
     table = re.compile(rf"^[ \t]*\[\s*positions\s*\.\s*{key}\s*\].*(?:\n(?![ \t]*\[).*)*", re.MULTILINE)

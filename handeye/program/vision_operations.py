@@ -1,4 +1,4 @@
-"""Operations of camera and vision."""
+"""Operations of the camera and of vision."""
 
 from typing import ClassVar
 
@@ -20,7 +20,7 @@ class Lens(Operation, frozen=True, kw_only=True):
 
 
 class Aim(Operation, frozen=True, kw_only=True):
-    """Point the camera at a position or part and focus there."""
+    """Turn the camera to a position or part and focus there."""
 
     family: ClassVar = "sight"
     needs: ClassVar = "camera"
@@ -45,7 +45,7 @@ class Look(Operation, frozen=True, kw_only=True):
 
 
 class General(Operation, frozen=True, kw_only=True):
-    """Locate a part roughly by its outline in a picture; error 30 if it is not seen."""
+    """Locate a part roughly by its outline in a picture; error 30 if the part is not seen."""
 
     family: ClassVar = "sight"
     raising: ClassVar = action(errors.PART_NOT_SEEN)
@@ -61,7 +61,7 @@ class General(Operation, frozen=True, kw_only=True):
 
 
 class Specific(Operation, frozen=True, kw_only=True):
-    """Measure a part's pose by its holes in a picture; error 31 if they are not found."""
+    """Measure the pose of a part by its holes in a picture; error 31 if the holes are not found."""
 
     family: ClassVar = "sight"
     raising: ClassVar = action(errors.FEATURES_NOT_SEEN)
@@ -92,7 +92,7 @@ class Comparison(Operation, frozen=True, kw_only=True):
 
 
 class Inspect(Comparison, frozen=True, kw_only=True):
-    """Compare pictures before and after a gasket was put on; error 32 if it lies wrong."""
+    """Compare pictures from before and after a gasket was laid on; error 32 if the gasket lies wrong."""
 
     raising: ClassVar = action(errors.GASKET_WRONG)
 

@@ -1,4 +1,4 @@
-"""The world model: for each part a planned pose and, once seen or felt, a measured one."""
+"""The world model: for each part a planned pose and, after vision or touch has measured it, a measured pose."""
 
 from dataclasses import dataclass, field
 
@@ -11,7 +11,7 @@ from handeye.program.program import Part, Position, Program
 
 
 def planned_pose(part: Part) -> Pose:
-    """Planned `X_WP`."""
+    """The planned pose `X_WP` of a part."""
     return planar(*part.at)
 
 
@@ -22,7 +22,7 @@ def rounded_place(X: Pose) -> tuple[float, float, float, float, float, float]:
 
 
 class WorldState(MutableRecord, kw_only=True):
-    """Departures from the plan: measured part poses `X_WP`, and redefined positions."""
+    """Differences from the plan: measured part poses `X_WP`, and redefined positions."""
 
     measured: dict[str, Pose] = msgspec.field(default_factory=dict)
     moved: dict[str, Position] = msgspec.field(default_factory=dict)
@@ -30,7 +30,7 @@ class WorldState(MutableRecord, kw_only=True):
 
 @dataclass(slots=True, kw_only=True)
 class WorldModel:
-    """The world as the program believes it; only the executor changes it."""
+    """The cell as the program believes it to be; only the executor changes this model."""
 
     parts: dict[str, Part]
     positions: dict[str, Position]
@@ -38,7 +38,7 @@ class WorldModel:
 
     @classmethod
     def of(cls, program: Program, state: WorldState | None = None) -> "WorldModel":
-        """The world of a program with these departures, by default none."""
+        """The model of a program with given differences from the plan, by default none."""
         return cls(parts=program.parts, positions=program.positions, state=state or WorldState())
 
     def measure(self, part: str, X_WP: Pose) -> None:
@@ -47,22 +47,22 @@ class WorldModel:
         self.state.measured[part] = X_WP
 
     def part(self, name: str) -> Pose:
-        """`X_WP`, measured or else planned."""
+        """The pose `X_WP` of a part: measured, or else planned."""
         measured = self.state.measured.get(name)
         return planned_pose(self.parts[name]) if measured is None else measured
 
     def position(self, name: str) -> Pose:
-        """`X_WT` of a hand position, by the present pose of its part."""
+        """The pose `X_WT` of a hand position, with the present pose of its part."""
         position = self.state.moved.get(name) or self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else self.part(position.of) @ X_PT
 
     def seen_from(self, part: str | None, X_WT: Pose) -> Position:
-        """The hand pose `X_WT` as a position relative to a part, or in table coordinates."""
+        """The hand pose `X_WT` as a position relative to a part, or in table coordinates if `part` is None."""
         return Position(at=rounded_place(X_WT if part is None else inverse(self.part(part)) @ X_WT), of=part)
 
     def planned_position(self, name: str) -> Pose:
-        """`X_WT` of a hand position, by planned poses only."""
+        """The pose `X_WT` of a hand position, with planned poses only."""
         position = self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else planned_pose(self.parts[position.of]) @ X_PT

@@ -1,1 +1,1 @@
-"""Checks of a program whose form is right."""
+"""Checks of a program that has no syntax errors."""

@@ -1,4 +1,4 @@
-"""Stops and checks with only one possible outcome, whatever the arm meets."""
+"""Finds stops and checks that have only one possible outcome, whatever the arm meets."""
 
 import math
 import re
@@ -19,7 +19,7 @@ TOLERANCE_M: Final = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class AlwaysFails:
-    """A step that never does its job; `cause` is the step that makes it so."""
+    """A step that can never have its effect; `cause` is the step that is the reason."""
 
     code: str
     step: int
@@ -29,7 +29,7 @@ class AlwaysFails:
 
 
 def always_failing(graph: Graph) -> Iterator[AlwaysFails]:
-    """Yield the steps that never do their job, or always raise an error."""
+    """Yield the steps that can never have their effect, or that always raise an error."""
     yield from _stops(graph)
     yield from _grasps(graph)
     yield from _travels(graph)
@@ -53,7 +53,7 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
-    """Grasps wider than the hand was opened."""
+    """Grasps that expect a wider object than the hand was opened for."""
     least = min(_gaps(graph, graph.which(Open)), default=math.inf)  # no OPEN is too little for less
     grasps: Iterator[tuple[int, Close | Center]] = chain(graph.each(Close), graph.each(Center))
     for number, grasp in grasps:
@@ -76,7 +76,7 @@ def _gaps(graph: Graph, numbers: Iterable[int]) -> list[float]:
 
 
 def _travels(graph: Graph) -> Iterator[AlwaysFails]:
-    """TRAVELs that ask for more than the motion before can go."""
+    """TRAVELs that require more than the length of the motion before."""
     for number, travel in graph.each(Travel):
         before = graph.last(number, Change)
         changes = (graph.at(n, Change) for n in before)
@@ -91,7 +91,7 @@ def _travels(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _torques(graph: Graph) -> Iterator[AlwaysFails]:
-    """Stops on a torque while the screwdriver is off."""
+    """Stops on a torque while the screwdriver is switched off."""
     tools = graph.each(Tool)
     running = {number for number, tool in tools if tool.speed}
     started: set[int] | None = None
@@ -115,14 +115,14 @@ def _touches(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _guarded(graph: Graph, kind: GuardKind) -> Iterator[int]:
-    """Motions with a guard of a kind."""
+    """Motions with a guard of this kind."""
     for number in graph.which(*(one for one in graph.kinds if one.family == "motion")):
         if any(guard.kind is kind for guard in graph.steps[number].operation.guards):
             yield number
 
 
 def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
-    """WAITs that were meant as a delay."""
+    """WAITs that were intended as a delay."""
     for number, wait in graph.each(Wait):
         if _TIME.fullmatch(wait.message):
             message = "`WAIT` stops the run and calls the operator: it does not wait for a number of seconds"

@@ -1,6 +1,7 @@
 """Checks of control flow, on the graph of steps.
 
-A statement of a macro becomes several steps; it is reported only if it is wrong in every call with the same operands.
+A statement of a macro becomes several steps, one for each call; it is reported only if it is wrong in every call
+with the same operands.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -27,7 +28,7 @@ _CURES = {
 
 
 def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
-    """Control-flow diagnostics for a program without errors; `origins` is the statement of each step."""
+    """Diagnostics on the control flow of a program without errors; `origins` has the statement of each step."""
     flow = _Flow(graph, origins)
     found = [*flow.unreachable(), *flow.loops()]
     for check in (flow.tests, flow.rounds, flow.vain, *(_order(flow, order) for order in _ORDERS)):
@@ -37,7 +38,7 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Order:
-    """An operation that makes sense only after another, or with `later` only before it."""
+    """An operation that makes sense only after another one, or with `later` only before it."""
 
     code: str
     of: type[Operation]
@@ -119,7 +120,7 @@ class _Flow:
         self.trapped = graph.trapped(graph.which(Wait, Advance))
 
     def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
-        """Diagnostics of a check that hold at every reachable step of a statement."""
+        """Diagnostics of a check that applies to all reachable steps of a statement."""
         found = {number: diagnostic for number, diagnostic in check() if number in self.reached}
         if not found:
             return
@@ -129,7 +130,7 @@ class _Flow:
                 yield diagnostic
 
     def unreachable(self) -> Iterator[Diagnostic]:
-        """The first statement of each unreachable stretch, unless it only follows an endless loop."""
+        """The first statement of each unreachable part, unless it only follows an endless loop."""
         if len(self.reached) == len(self.graph.steps):
             return
         reached = {self.span(number) for number in self.reached}
@@ -144,7 +145,7 @@ class _Flow:
             before = lost
 
     def loops(self) -> Iterator[Diagnostic]:
-        """Loops without an exit, each once."""
+        """Loops without an exit, each reported once."""
         known: set[int] = set()
         for number in sorted(self.trapped & self.reached, reverse=True):
             loop = set() if number in known else self.graph.loop(number, known)
@@ -166,7 +167,7 @@ class _Flow:
         return problem(code, message, self.word(number).span, *head, notes=(note,))
 
     def tests(self) -> Iterator[Finding]:
-        """Tests of errors that cannot be pending where they stand."""
+        """Tests of errors that cannot be pending at that point."""
         raised, actions = self.incoming()
         for number, operation in self.graph.each(Test):
             if not actions[number]:
@@ -180,7 +181,7 @@ class _Flow:
                 yield number, self.problem("test-of-no-effect", number, message, help=help)
 
     def rounds(self) -> Iterator[Finding]:
-        """Searches and counts that repeat the same round."""
+        """Searches and counts that repeat the same round forever."""
         reported: dict[int, Span] = {}
         for jump, cause in stale_rounds(self.graph):
             word = self.word(jump).text
@@ -208,7 +209,7 @@ class _Flow:
             yield found.step, self.problem(found.code, found.step, found.message, *cause, help=found.help)
 
     def incoming(self) -> tuple[dict[int, set[int]], dict[int, set[int]]]:
-        """For each test: the errors that can be pending there, and the actions that can raise them."""
+        """For each test, the errors that can be pending there, and the actions that can raise them."""
         steps, onward = self.graph.steps, self.graph.onward
         tests = self.graph.which(Test)
         raised: dict[int, set[int]] = {number: set() for number in tests}
@@ -243,7 +244,7 @@ class _Flow:
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: Test, number: int, raised: Mapping[int, set[int]]) -> bool:
-        """True if a test skips only the next test, of an error that can be pending, and both lead to the same case."""
+        """True if a test skips only the next test, of an error that can be pending, and both lead to the same step."""
         steps, behind = self.graph.steps, self.graph.steps[number].next
         second = self.graph.at(behind, Test)
         if behind is None or second is None or second.number not in raised[behind]:
@@ -286,7 +287,7 @@ Circles = Callable[[], list[set[int]]]
 
 
 def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
-    """The jumps that repeat the same round of a search or count; the cause is None if nothing moves on."""
+    """The jumps that repeat the same round of a search or count; the cause is None if nothing advances the round."""
     circles = cache(graph.circles)  # asked for only where something looks wrong
     searches, moves = set(graph.which(Search)), set(graph.which(Move))
     places = searches | moves
@@ -305,7 +306,7 @@ def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
 def _anew(
     graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]
 ) -> Iterator[StaleRound]:
-    """A jump back that restarts in every round; none if another path leads to the end."""
+    """A jump back that restarts the search or count in every round; none if another path leads to the end."""
     if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):
         return
     if target in circles()[jump]:

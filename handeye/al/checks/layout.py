@@ -1,4 +1,4 @@
-"""Checks of layout: indentation and blank lines that suggest a meaning the language does not have."""
+"""Checks of layout: indentation and blank lines that suggest a meaning that they do not have."""
 
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
@@ -30,7 +30,7 @@ def check_layout(script: Script, source: Source) -> Iterator[Diagnostic]:
 
 
 def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnostic]:
-    """Skips followed by several lines indented deeper, as if all of them were skipped."""
+    """Skips followed by several lines that are indented deeper, as if all of them were skipped."""
     for number, statement in enumerate(statements):
         skip = statement.word
         if number == 0 or skip is None or skip.text not in SKIPS:
@@ -62,7 +62,7 @@ def _steps_behind(statements: Sequence[Statement], skip: int) -> list[Name]:
 
 
 def _column(word: Name, source: Source) -> int:
-    """Column of a word, from 0, tabs expanded."""
+    """Column of a word, from 0, with tabs expanded."""
     text, start = source.find(word.start)
     return len(text.text[text.text.rfind("\n", 0, start) + 1 : start].expandtabs())
 
@@ -73,7 +73,7 @@ def _modifies(statement: Statement) -> bool:
 
 
 def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnostic]:
-    """A macro that ends in a modifier, separated by blank lines from its motion."""
+    """A macro that ends in a modifier, separated from its motion by blank lines."""
     modifier, motion = macro.body[-1].word, behind.word
     assert modifier is not None
     fits = {*INSTRUCTIONS[modifier.text].fits} - {*_OPENING_MOTIONS}

@@ -1,4 +1,4 @@
-"""Checks of names: each must refer to a position, part, picture, saved difference or error number that exists."""
+"""Checks of names: each must refer to an existing position, part, picture, saved difference or error number."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
@@ -29,7 +29,7 @@ _DECLARING = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
 def check_names(
     statements: Sequence[Statement], words: ByWord, used: Used, taught: Taught
 ) -> list[Diagnostic]:
-    """Diagnostics for names, macros included, that are unknown or defined twice."""
+    """Diagnostics for names, including those of macros, that are unknown or defined twice."""
     declared = {
         op: [name for s in words.get(op, ()) if s.operands and isinstance(name := s.operands[0], Name)]
         for op in _DECLARING
@@ -59,7 +59,7 @@ def check_names(
 
 
 def _swapped(statements: Sequence[Statement], known: dict[Refers, set[str]]) -> Iterator[Diagnostic]:
-    """Pairs of operands that would be right in the other order."""
+    """Pairs of operands that would be valid in the other order."""
     labels = {label.text for statement in statements for label in statement.labels}
     known = {**known, Refers.LABEL: labels}
     for statement in statements:
@@ -93,7 +93,7 @@ def _known(declared: dict[str, list[Name]], taught: Taught) -> dict[Refers, set[
 
 
 def _twice(what: str, names: list[Name], taken: Mapping[str, str]) -> Iterator[Diagnostic]:
-    """Errors for names that are defined again; `taken` says of some why they are not free."""
+    """Errors for names that are defined again; `taken` gives the reason why some names are not free."""
     first: dict[str, Name] = {}
     for name in names:
         before, why = first.setdefault(name.text, name), taken.get(name.text)

@@ -1,4 +1,4 @@
-"""Checks of a whole program whose statements are all well formed."""
+"""Checks of a whole program whose statements have no errors."""
 
 import re
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
@@ -25,7 +25,9 @@ from handeye.program.taught import Taught
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompiledScript:
-    """A script with the intermediate results of compiling it; `statements` has macros with parameters as called."""
+    """A script with the intermediate results of its compilation; in `statements`, macros with parameters appear as
+    they are called.
+    """
 
     source: Source
     script: Script
@@ -38,7 +40,7 @@ class CompiledScript:
 
 
 def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]) -> list[Diagnostic]:
-    """Diagnostics of every check of a whole program; `positions` are those taught or written."""
+    """The diagnostics of all checks of a whole program; `positions` are the taught and the written positions."""
     graph = Graph(whole.lowered.steps)
     found = check_flow(graph, whole.lowered.origins)
     found += check_sights(whole.words, taught)
@@ -51,7 +53,7 @@ def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]
 
 
 def _unused(whole: CompiledScript, found: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Unused names, except on lines that are never executed."""
+    """Warnings for unused names, except on lines that are never executed."""
     lost = {_line(whole.source, d) for d in found if d.code == "unreachable-code"}
     unused = [
         *unused_parameters(whole.script),
@@ -66,7 +68,7 @@ def _unused(whole: CompiledScript, found: Sequence[Diagnostic]) -> list[Diagnost
 
 
 def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:
-    """File key and line of a diagnostic."""
+    """Key of the file, and line, of a diagnostic."""
     text, offset = source.find(diagnostic.primary.span.start)
     return text.key, text.position(offset)[0]
 
@@ -75,7 +77,9 @@ _POSITION_KINDS: Final = (Refers.POSITION, Refers.TARGET)
 
 
 def check_here(placed: Sequence[ExpandedStatement], known: Container[str]) -> Iterator[Diagnostic]:
-    """An error for each use before the `HERE` it needs, in text order; `known`: positions taught or written."""
+    """An error for each use of a position before the `HERE` that defines it, in text order; `known` are the taught
+    and the written positions.
+    """
     defined: dict[str, int] = {}
     for number, item in enumerate(placed):
         word, operands = item.statement.word, item.statement.operands
@@ -113,7 +117,9 @@ _TOO_FAR = ("search-begun-anew", "count-begun-anew")
 def check_unused(
     script: Script, statements: Iterable[Statement], words: ByWord, used: Used, source: Source
 ) -> Iterator[Diagnostic]:
-    """Warnings for unused names in a script without errors. Taught positions may be there for another script."""
+    """Warnings for unused names in a script without errors. Taught positions do not count, because another script
+    may use them.
+    """
     targets = {name.text for name in used[Refers.LABEL]}
     for statement in statements:
         for label in statement.labels:
@@ -137,7 +143,7 @@ def check_unused(
 
 
 def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagnostic]:
-    """All diagnostics; a jump too far back and an unused label that it may have meant are one mistake."""
+    """All diagnostics; a jump too far back and an unused label that it may refer to are reported as one mistake."""
     left, merged = list(unused), []
     for diagnostic in found:
         if diagnostic.code in _TOO_FAR:
@@ -152,7 +158,7 @@ def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagn
 
 
 def _in_comments(source: Source, refers: tuple[Refers, ...]) -> dict[str, int]:
-    """First operands of instructions in comments, with their lines."""
+    """First operands of the instructions in comments, with their lines."""
     words = {i.op for i in INSTRUCTIONS.values() if i.operands and i.operands[0].refers in refers}
     found: dict[str, int] = {}
     for comment in _COMMENTED_OUT.finditer(source.text):
@@ -174,7 +180,7 @@ _NEEDS: Final = {
 
 
 def check_sights(words: ByWord, taught: Taught) -> Iterator[Diagnostic]:
-    """Diagnostics on vision instructions of a script whose names are right."""
+    """Diagnostics for vision instructions, in a script whose names are valid."""
     for op, needs in _NEEDS.items():
         for statement in words.get(op, ()):
             name = statement.operands[0] if statement.operands else None
@@ -196,7 +202,7 @@ def _not_described(
 
 
 def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
-    """Comparisons with a picture that was not taken with `HOLD`."""
+    """Comparisons with a picture that was taken without `HOLD`."""
     looks: dict[str, list[tuple[Name, bool]]] = {}
     for look in words.get("LOOK", ()):
         name, hold = look.operands
@@ -224,7 +230,7 @@ def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
 
 
 def check_parameters(script: Script) -> Iterator[Diagnostic]:
-    """Warnings for braces in a text of a macro that name no parameter of it."""
+    """Warnings for words in braces, in the texts of a macro, that name no parameter of the macro."""
     for macro in script.macros.values():
         known = {parameter.text for parameter in macro.parameters}
         for name, span in (found for s in macro.body if known for found in braced_in(s)):

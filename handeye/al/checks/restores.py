@@ -1,6 +1,7 @@
-"""RESTOREs of differences that no path to them saves.
+"""Finds RESTOREs of differences that are not saved on any path to them.
 
-A difference saved for the goal it is restored to follows something that moves: it starts at zero.
+A difference that is saved from the goal to which it is restored follows a moving reference, and is allowed to start
+at zero.
 """
 
 from collections.abc import Iterator
@@ -48,7 +49,7 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
 
 
 def _follows(graph: Graph, move: int, name: str) -> bool:
-    """True if the difference is saved from the goal of this MOVE, before the next MOVE."""
+    """True if the difference is saved relative to the goal of this MOVE, before the next MOVE."""
     seen: set[int] = set()
     waiting = list(graph.onward[move])
     while waiting:
@@ -65,9 +66,9 @@ def _follows(graph: Graph, move: int, name: str) -> bool:
 
 
 def _saved(graph: Graph, bits: dict[int, int]) -> list[int | None]:
-    """For each step, the bit set of names that may have been saved before it; None if it is unreachable.
+    """For each step, the bit set of the names that may have been saved before it; None if the step is unreachable.
 
-    Propagates forwards through the steps until nothing changes.
+    The sets are propagated forwards through the steps until nothing changes.
     """
     before: list[int | None] = [None] * len(graph.steps)
     before[0] = 0

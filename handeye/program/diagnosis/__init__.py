@@ -1,1 +1,1 @@
-"""Diagnosis: facts about what fails in a plan or a run, and their sentences."""
+"""Facts about failures in a plan or a run, and sentences for them."""

@@ -1,4 +1,4 @@
-"""Sentences for causes, in period units."""
+"""Sentences for causes, in inches, degrees and ounces."""
 
 from typing import assert_never
 
@@ -19,7 +19,7 @@ def error_sentence(number: int, cause: Cause | None) -> str:
 
 
 def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
-    """A call of the operator: the program's own message, or the error, or the cause."""
+    """The sentence of a call of the operator: the program's own message, the error, or the cause."""
     if message:
         return message
     if error is not None:
@@ -28,7 +28,7 @@ def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
 
 
 def cause_sentence(cause: Cause) -> str:
-    """The reach_sentence of a cause; empty if its error's meaning says it all."""
+    """The sentence of a cause; empty if the meaning of the error says it all."""
     match cause:
         case c.BeyondArm():
             goal = f"{cause.goal}: " if cause.goal else ""
@@ -101,7 +101,7 @@ def _or_moved(part: str) -> str:
 
 
 def inspection_sentence(cause: c.InspectionCause | None) -> str:
-    """The result of an inspection; None is a pass."""
+    """The result of an inspection as a sentence; None is a pass."""
     match cause:
         case None:
             return "the gasket is in place"
@@ -113,7 +113,7 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
 
 
 def match_sentence(off: float, unlike: float) -> str:
-    """The result of a match: displacement (m), and the fraction that looks different."""
+    """The result of a match as a sentence, from the displacement (m) and the fraction that looks different."""
     return f"moved by {_inches(off)} relative to its surroundings; {100 * unlike:.1f} % of it looks different"
 
 
@@ -192,7 +192,7 @@ _FINGERS = ("+y", "-y")  # by side of the hand, in switch order
 
 
 def doubt_sentence(cause: c.SenseCause) -> str:
-    """Why a sensor is not believed, in inches, degrees and ounces."""
+    """The reason why a sensor is not believed, in inches, degrees and ounces."""
     match cause:
         case c.SwitchesClosed():
             return f"{_switches(cause.fingers)} closed although the fingers are open"
@@ -262,7 +262,7 @@ def doubt_sentence(cause: c.SenseCause) -> str:
 
 
 def _jump(cause: c.GapJumped) -> str:
-    """What can make a gap jump. Nothing but its potentiometer does where the fingers touch nothing."""
+    """The possible causes of a jump of the gap. If the fingers touch nothing, only the potentiometer can cause it."""
     if not cause.held:
         return "no finger can move so fast"
     moved = "slipped" if cause.gap < cause.before else "been pushed, and the fingers apart"
@@ -270,7 +270,7 @@ def _jump(cause: c.GapJumped) -> str:
 
 
 def touching_fingers(fingers: tuple[bool, bool]) -> str:
-    """Fingers, with the verb `touch`."""
+    """The touching fingers with their verb, such as `both fingers touch`."""
     named = _named(fingers)
     return f"the {named[0]} finger touches" if len(named) == 1 else "both fingers touch"
 

@@ -1,4 +1,4 @@
-"""Causes of errors and of operator calls, as facts in SI units; `cause_text` words them."""
+"""Causes of errors and of operator calls, as facts in SI units; `cause_text` has the sentences."""
 
 from typing import Literal
 
@@ -11,7 +11,7 @@ LargeHole = Literal["largest", "second"]  # holes that vision locates a part by
 
 
 class CauseRecord(Record, frozen=True, kw_only=True, tag_field="cause", tag=True):
-    """Base of the causes."""
+    """Base of all causes."""
 
 
 # -- the arm ----------------------------------------------------------------------------------------
@@ -25,7 +25,7 @@ class JointName(Record, frozen=True, kw_only=True):
 
 
 class ArmNames(Record, frozen=True, kw_only=True):
-    """Names of an arm and its joints."""
+    """Names of an arm and of its joints, for sentences."""
 
     name: str
     joints: tuple[JointName, ...]
@@ -38,7 +38,7 @@ class ArmNames(Record, frozen=True, kw_only=True):
 
 
 class BeyondArm(CauseRecord, frozen=True, kw_only=True):
-    """The arm cannot reach a pose, or cannot move there; `goal` is the position's name, if it has one."""
+    """The arm cannot reach a pose, or cannot move there; `goal` is the name of the position, if it has one."""
 
     goal: str = ""
     reason: ReachFailure
@@ -51,7 +51,7 @@ class BeyondArm(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointBehind(CauseRecord, frozen=True, kw_only=True):
-    """A joint did not keep up with its set-point; `swings`: it was far off on both sides in this motion.
+    """A joint did not follow its set-point; `swings`: it was far off on both sides during the motion.
 
     `of`: the part at whose place the motion should end, if any.
     """
@@ -62,10 +62,10 @@ class JointBehind(CauseRecord, frozen=True, kw_only=True):
 
 
 class HandAstray(CauseRecord, frozen=True, kw_only=True):
-    """The hand is not at its set-point at the end of a motion, by `distance` (m).
+    """The hand is off its set-point by `distance` (m) at the end of a motion.
 
-    `joint` is furthest behind for its limit; `swings`: it was far off on both sides in this motion; `of`: the part at
-    whose place the motion should end, if any.
+    `joint` has the largest following error relative to its limit; `swings`: it was far off on both sides during the
+    motion; `of`: the part at whose place the motion should end, if any.
     """
 
     distance: float
@@ -75,19 +75,19 @@ class HandAstray(CauseRecord, frozen=True, kw_only=True):
 
 
 class HandStuck(CauseRecord, frozen=True, kw_only=True):
-    """The hand moved only this far (m) while it pressed."""
+    """The hand moved only by `moved` (m) while it pressed."""
 
     moved: float
 
 
 class GuardsUnmet(CauseRecord, frozen=True, kw_only=True):
-    """A motion ended without meeting any of its guards."""
+    """A motion ended without meeting any of these guards."""
 
     guards: tuple[GuardKind, ...]
 
 
 class TravelOutside(CauseRecord, frozen=True, kw_only=True):
-    """The last straight motion was too short or too long (m)."""
+    """The last straight motion, `travel` (m), was too short or too long."""
 
     travel: float
     minimum: float
@@ -95,7 +95,7 @@ class TravelOutside(CauseRecord, frozen=True, kw_only=True):
 
 
 class HeightOutside(CauseRecord, frozen=True, kw_only=True):
-    """The hand is too high or too low (m) over where a difference was saved."""
+    """The hand is too high or too low (m) above the place at which a difference was saved."""
 
     name: str
     height: float
@@ -104,7 +104,7 @@ class HeightOutside(CauseRecord, frozen=True, kw_only=True):
 
 
 class HeightUnknown(CauseRecord, frozen=True, kw_only=True):
-    """The difference to compare a height with was not saved."""
+    """The saved difference for a height check does not exist."""
 
     name: str
 
@@ -113,7 +113,9 @@ class HeightUnknown(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapTooSmall(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) of the closed fingers is below the minimum; `of`: the part at whose place they closed, if any."""
+    """The gap (m) of the closed fingers is below the minimum; `of`: the part at whose place the fingers closed, if
+    any.
+    """
 
     gap: float
     minimum: float
@@ -137,35 +139,36 @@ class NothingBetween(CauseRecord, frozen=True, kw_only=True):
 
 
 class SwitchesClosed(CauseRecord, frozen=True, kw_only=True):
-    """Finger switches are closed although the fingers have been opened; `fingers` are those, as `Sensed.touch`."""
+    """The switches of `fingers` are closed although the fingers have been opened; order as in `Sensed.touch`."""
 
     fingers: tuple[bool, bool]
 
 
 class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
-    """Switches of `fingers` are open although something holds the driven fingers apart at `gap` (m)."""
+    """The switches of `fingers` are open although an object holds the driven fingers apart at `gap` (m)."""
 
     fingers: tuple[bool, bool]
     gap: float
 
 
 class SwitchesCrossed(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` stay closed although the hand has gone to that side by `moved` (m)."""
+    """The switches of `fingers` stay closed although the hand has moved by `moved` (m) to that side."""
 
     fingers: tuple[bool, bool]
     moved: float
 
 
 class SwitchesHard(CauseRecord, frozen=True, kw_only=True):
-    """Switches of `fingers` are open although the fingers are driven together with `force` (N)."""
+    """The switches of `fingers` are open although the fingers press together with `force` (N)."""
 
     fingers: tuple[bool, bool]
     force: float
 
 
 class GapJumped(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) has changed faster than the fingers can move; `held`: they touched something, or something kept them
-    apart."""
+    """The gap (m) has changed faster than the fingers can move; `held`: the fingers touched an object, or one kept
+    them apart.
+    """
 
     gap: float
     before: float
@@ -173,7 +176,7 @@ class GapJumped(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) is not that of an object of known thickness (m), by its name in the taught file."""
+    """The gap (m) does not fit an object of known thickness (m); `held` is the object's name in the taught file."""
 
     gap: float
     thickness: float
@@ -181,7 +184,7 @@ class GapUnlike(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapAstray(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) is not what the fingers were driven to."""
+    """The gap (m) differs from the goal to which the fingers were driven."""
 
     gap: float
     goal: float
@@ -195,7 +198,9 @@ class GapStill(CauseRecord, frozen=True, kw_only=True):
 
 
 class ForceInAir(CauseRecord, frozen=True, kw_only=True):
-    """The hand feels a force (N, table axes, no tare) where it should touch nothing; `load` is the declared weight."""
+    """The hand senses a force (N, table axes, before taring) where it should touch nothing; `load` is the declared
+    weight (N).
+    """
 
     force: Vector3
     limit: float
@@ -203,7 +208,9 @@ class ForceInAir(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
-    """A joint's two sensors disagree on how far it went in a motion, or (`braked`) under brakes, which may slip."""
+    """The two sensors of a joint disagree on its displacement in a motion, or, if `braked`, under brakes that may
+    have slipped.
+    """
 
     joint: JointName
     potentiometer: float
@@ -212,8 +219,10 @@ class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
-    """A joint takes a torque (N m, N if prismatic) that no force at the hand explains; `friction` is what it took at
-    first, None where it does not get on at all; `one_way`: it moved one way only, and a weight would feel the same."""
+    """A joint takes a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
+    measured at first, None if the joint does not move at all. `one_way`: the joint moved in one direction only, so
+    a weight would have the same effect.
+    """
 
     joint: JointName
     torque: float
@@ -222,34 +231,38 @@ class JointAlone(CauseRecord, frozen=True, kw_only=True):
 
 
 class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The drives of these joints give these multiples of the commanded torque, or something bears on the hand."""
+    """The drives of these joints give these multiples of the commanded torque, or an external force acts on the
+    hand.
+    """
 
     joints: tuple[JointName, ...]
     factors: tuple[float, ...]
 
 
 class CurrentUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The motor showed this torque (N m), where a known one was."""
+    """The motor of the screwdriver showed torque `torque` (N m) at a moment when the torque should be `known`."""
 
     torque: float
     known: float
 
 
 class CurrentShort(CauseRecord, frozen=True, kw_only=True):
-    """The motor was held fast and showed this torque (N m) for a second, less than that asked for."""
+    """The motor was held fast and showed torque `torque` (N m) for a second, less than the requested torque
+    `asked`.
+    """
 
     torque: float
     asked: float
 
 
 class MotorSlow(CauseRecord, frozen=True, kw_only=True):
-    """The motor had started after this share of the time that it takes."""
+    """The motor started in this fraction of its usual time."""
 
     share: float
 
 
 class CurrentSilent(CauseRecord, frozen=True, kw_only=True):
-    """The screwdriver ran, and its motor current showed at most this torque (N m)."""
+    """The screwdriver ran, but its motor current showed at most this torque (N m)."""
 
     torque: float
 
@@ -262,13 +275,13 @@ class PictureRepeated(CauseRecord, frozen=True, kw_only=True):
 
 
 class PictureBlank(CauseRecord, frozen=True, kw_only=True):
-    """A picture has one intensity all over."""
+    """All points of a picture have the same intensity."""
 
     picture: str
 
 
 class PictureNoisy(CauseRecord, frozen=True, kw_only=True):
-    """A picture has more noise (sigma, levels) than a sound camera's, which has `most`."""
+    """A picture has more noise (standard deviation, levels) than `most`, the greatest of a sound camera."""
 
     picture: str
     noise: float
@@ -279,7 +292,7 @@ class PictureNoisy(CauseRecord, frozen=True, kw_only=True):
 
 
 class NoPicture(CauseRecord, frozen=True, kw_only=True):
-    """The picture to be examined was not taken."""
+    """The picture to be examined has not been taken."""
 
     picture: str
 
@@ -289,51 +302,51 @@ class NoGeneral(CauseRecord, frozen=True, kw_only=True):
 
 
 class NoOutline(CauseRecord, frozen=True, kw_only=True):
-    """Nothing of the part's size stands out in the picture."""
+    """Nothing of the part's size stands out from the background in the picture."""
 
 
 class OutsidePicture(CauseRecord, frozen=True, kw_only=True):
-    """The part is outside the close picture."""
+    """The part is outside the close-up picture."""
 
 
 class NoHoles(CauseRecord, frozen=True, kw_only=True):
-    """The part's two largest holes are not among the dark blobs."""
+    """The part's two largest holes are not among the dark blobs of the picture."""
 
     blobs: int
 
 
 class NoGasket(CauseRecord, frozen=True, kw_only=True):
-    """The later picture shows nothing new where the gasket should be."""
+    """The later picture shows no change where the gasket should be."""
 
 
 class HoleFault(Record, frozen=True, kw_only=True, tag_field="fault", tag=True):
-    """Base class of the faults at one hole of an inspected part."""
+    """Base of the faults at one hole of an inspected part."""
 
     hole: LargeHole
 
 
 class BaseHoleUnseen(HoleFault, frozen=True, kw_only=True):
-    """The base's hole is not found in the picture before."""
+    """The hole of the base was not found in the first picture."""
 
 
 class GasketHoleUnseen(HoleFault, frozen=True, kw_only=True):
-    """The gasket's hole is not found in the difference picture."""
+    """The hole of the gasket was not found in the difference of the pictures."""
 
 
 class GasketHoleOff(HoleFault, frozen=True, kw_only=True):
-    """The gasket's hole is off the base's by `off` (m)."""
+    """The hole of the gasket is displaced from that of the base by `off` (m)."""
 
     off: float
 
 
 class GasketWrong(CauseRecord, frozen=True, kw_only=True):
-    """A gasket is present but lies wrong."""
+    """A gasket is present but lies wrong; `faults` has the reasons."""
 
     faults: tuple[BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff, ...]
 
 
 class PartAstray(CauseRecord, frozen=True, kw_only=True):
-    """A part has moved by `off` (m) against its surroundings; a fraction `unlike` of it looks different."""
+    """A part has moved by `off` (m) relative to its surroundings; a fraction `unlike` of it looks different."""
 
     off: float
     unlike: float
@@ -343,18 +356,18 @@ class PartAstray(CauseRecord, frozen=True, kw_only=True):
 
 
 class NoSearch(CauseRecord, frozen=True, kw_only=True):
-    """No search was set up."""
+    """No search has been started."""
 
 
 class PlacesTried(CauseRecord, frozen=True, kw_only=True):
-    """The search has tried all its places; `around` is the position it started from, if it has a name."""
+    """The search has tried all its places; `around` is the name of the position at which it started, if it has one."""
 
     places: int
     around: str = ""
 
 
 class Looping(CauseRecord, frozen=True, kw_only=True):
-    """The program loops without time passing; `place` is the line, as `12` or `pins.al:12`."""
+    """The program loops without time passing; `place` is the line, such as `12` or `pins.al:12`."""
 
     place: str
 
@@ -363,14 +376,14 @@ class Looping(CauseRecord, frozen=True, kw_only=True):
 
 
 class UndoResisted(CauseRecord, frozen=True, kw_only=True):
-    """The hand felt more than the allowed force (N) while a step was reversed."""
+    """The hand sensed more than the permitted force (N) while a step was reversed."""
 
     force: float
     limit: float
 
 
 class HoldOff(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) differs from `kept`, the gap when the step was executed."""
+    """The gap (m) differs from `kept`, the gap at the time of the step."""
 
     gap: float
     kept: float
@@ -378,7 +391,7 @@ class HoldOff(CauseRecord, frozen=True, kw_only=True):
 
 
 class MetEarly(CauseRecord, frozen=True, kw_only=True):
-    """Closing fingers touched at a wider gap (m) than `kept`, the gap when the step was executed."""
+    """Closing fingers touched at a wider gap (m) than `kept`, the gap at the time of the step."""
 
     fingers: tuple[bool, bool]
     gap: float
@@ -387,25 +400,25 @@ class MetEarly(CauseRecord, frozen=True, kw_only=True):
 
 
 class ScrewFast(CauseRecord, frozen=True, kw_only=True):
-    """The driver turned left, at most at this torque (N m), and the screw rose only `risen` (m)."""
+    """The screwdriver turned left with at most `torque` (N m), and the screw rose by only `risen` (m)."""
 
     torque: float
     risen: float
 
 
 class ScrewLost(CauseRecord, frozen=True, kw_only=True):
-    """A screw was not carried along: going down `way` (m), the hand did not meet `force` (N)."""
+    """A screw was lost on the way: descending by `way` (m), the hand did not sense `force` (N)."""
 
     way: float
     force: float
 
 
 class BackingOut(CauseRecord, frozen=True, kw_only=True):
-    """The step turned a screw out, which is not reversed."""
+    """The step turned a screw out, which cannot be reversed."""
 
 
 class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
-    """The record that the step left for its reversal cannot be used."""
+    """The record that a step made for its reversal cannot be used."""
 
 
 SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part

@@ -1,4 +1,4 @@
-"""Planning findings: facts in SI units, each at a step; a language words them."""
+"""Findings of the planner, as facts in SI units, each at a step; the language has the sentences."""
 
 from handeye.core.record import Record
 from handeye.program.diagnosis.reach import (
@@ -12,7 +12,7 @@ from handeye.program.guards import HandLoad
 
 
 class NoConfiguration(Record, frozen=True, kw_only=True):
-    """No joint positions exist for a goal, or at a distance `along` (m) on the way to it."""
+    """There are no joint positions for a goal, or for a point at distance `along` (m) on the way to the goal."""
 
     step: int
     position: str | None  # the goal or via point; None: the finding is about the motion
@@ -44,7 +44,7 @@ class GoalBelowTable(Record, frozen=True, kw_only=True):
 
 
 class RunsInto(Record, frozen=True, kw_only=True):
-    """The hand, or what it holds, would pass through a fixture or the table."""
+    """The hand, or the object that it holds, would collide with a fixture or the table."""
 
     step: int
     position: str | None  # the goal, if deepest there
@@ -62,7 +62,7 @@ class RunsInto(Record, frozen=True, kw_only=True):
 
 
 class TooHeavy(Record, frozen=True, kw_only=True):
-    """A load of `weight` (N) cannot be held up; `joint`, from 0, fails first, at `most` (N)."""
+    """The arm cannot hold a load of `weight` (N); `joint`, from 0, limits the load to `most` (N)."""
 
     step: int
     weight: float
@@ -74,7 +74,7 @@ class TooHeavy(Record, frozen=True, kw_only=True):
 
 
 class TooWeak(Record, frozen=True, kw_only=True):
-    """A force or moment is beyond the arm; `joint`, from 0, fails first, at `most` (N, N m)."""
+    """The arm cannot exert a force or moment; `joint`, from 0, limits it to `most` (N, N m)."""
 
     step: int
     exerted: HandLoad
@@ -89,7 +89,9 @@ class TooWeak(Record, frozen=True, kw_only=True):
 
 
 class TooFaint(Record, frozen=True, kw_only=True):
-    """A guard's threshold is hard to distinguish from joint friction: `felt` (N, N m) can be felt there in free air."""
+    """The threshold of a guard is hard to distinguish from joint friction: up to `felt` (N, N m) may be sensed
+    there in free air.
+    """
 
     step: int
     exerted: HandLoad

@@ -1,4 +1,4 @@
-"""Reach failures: why an arm cannot reach a pose or make a motion. Facts, joints from 0, SI units; and sentences."""
+"""Reasons why an arm cannot reach a pose or make a motion, as facts (joints from 0, SI units) and as sentences."""
 
 from collections.abc import Sequence
 from typing import Protocol, assert_never
@@ -9,16 +9,16 @@ from handeye.core.units import DEGREE, INCH
 
 
 class ReachFailureRecord(Record, frozen=True, tag_field="reason", tag=True):
-    """Base of the reach failures."""
+    """Base of the reasons."""
 
     @property
     def named_joints(self) -> tuple[int, ...]:
-        """Joints named in its sentence."""
+        """Joints that the sentence names."""
         return ()
 
 
 class BeyondRange(ReachFailureRecord, frozen=True):
-    """Base of failures with a joint at `amount`, beyond the end `limit` of its range (rad, m)."""
+    """Base of failures in which a joint would be at `amount`, beyond the end `limit` of its range (rad, m)."""
 
     joint: int
     amount: float
@@ -30,42 +30,42 @@ class BeyondRange(ReachFailureRecord, frozen=True):
 
     @property
     def excess(self) -> float:
-        """Distance beyond the limit."""
+        """Distance beyond the limit, rad or m."""
         return abs(self.amount - self.limit)
 
 
 class OutOfReach(BeyondRange, frozen=True):
-    """A sliding joint beyond its range, on every branch."""
+    """A prismatic joint would be beyond its range on every branch."""
 
 
 class TooNear(BeyondRange, frozen=True):
-    """A boom retracted too far: the hand is too near to the column."""
+    """The boom would be retracted too far: the hand is too near to the column."""
 
 
 class JointLimit(BeyondRange, frozen=True):
-    """A turning joint beyond its range."""
+    """A revolute joint would be beyond its range."""
 
 
 class InnerCylinder(ReachFailureRecord, frozen=True):
-    """The wrist nearer to the column's axis (m) than the shoulder's offset allows."""
+    """The wrist would be nearer to the axis of the column (m) than the shoulder's offset allows."""
 
     radius: float
     least: float
 
     @property
     def excess(self) -> float:
-        """Distance too near, m."""
+        """Distance by which the wrist is too near, m."""
         return self.least - self.radius
 
 
 class FixedOrientation(ReachFailureRecord, frozen=True):
-    """The hand turned by `angle` (rad), which no joint can do."""
+    """The hand would have to turn by `angle` (rad), for which the arm has no joint."""
 
     angle: float
 
 
 class FixedDirection(ReachFailureRecord, frozen=True):
-    """The hand `off` (m) the line or plane spanned by the sliding joints."""
+    """The hand would be `off` (m) from the line or plane of the prismatic joints."""
 
     joints: tuple[int, ...]
     off: float
@@ -76,7 +76,7 @@ class FixedDirection(ReachFailureRecord, frozen=True):
 
 
 class HeldJoint(ReachFailureRecord, frozen=True):
-    """A joint that would have to move, held at `at` (rad, m)."""
+    """A joint that is held at `at` (rad, m) would have to move."""
 
     joint: int
     at: float
@@ -87,13 +87,13 @@ class HeldJoint(ReachFailureRecord, frozen=True):
 
 
 class InLine(ReachFailureRecord, frozen=True):
-    """Two joint axes that come into line on the way, where the orientation cannot be kept."""
+    """Two joint axes would come into line on the way, where the orientation of the hand cannot be kept."""
 
     joints: tuple[int, int]
 
 
 class TooFast(ReachFailureRecord, frozen=True):
-    """A joint that would exceed its rate limit (rad/s, m/s)."""
+    """A joint would exceed its rate limit (rad/s, m/s)."""
 
     joint: int
     rate: float
@@ -105,7 +105,7 @@ class TooFast(ReachFailureRecord, frozen=True):
 
 
 class BelowTable(ReachFailureRecord, frozen=True):
-    """The hand `depth` (m) below the table top."""
+    """The hand would be `depth` (m) below the table top."""
 
     depth: float
 
@@ -121,12 +121,12 @@ class NamedJoint(Protocol):
 
     @property
     def name(self) -> str:
-        """The link it moves, as people call it."""
+        """The name of the link that the joint moves."""
         ...
 
     @property
     def kind(self) -> str:
-        """`prismatic` if it slides."""
+        """`prismatic` or `revolute`."""
         ...
 
 
@@ -135,17 +135,17 @@ class NamedArm(Protocol):
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The arm's name."""
         ...
 
     @property
     def joints(self) -> Sequence[NamedJoint]:
-        """Joints from base to hand."""
+        """Joints, from base to hand."""
         ...
 
 
 def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
-    """The reach_sentence of a reach failure: inches and degrees, joints by number and name."""
+    """The sentence for a reach failure, in inches and degrees, with joints by number and name."""
     match reason:
         case OutOfReach() | TooNear() | JointLimit():
             return _beyond(arm, reason)
@@ -184,7 +184,7 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
 
 
 def named(arm: NamedArm, joint: int) -> str:
-    """A joint by number and name."""
+    """The number, from 1, and the name of a joint."""
     return f"joint {joint + 1} ({arm.joints[joint].name})"
 
 
