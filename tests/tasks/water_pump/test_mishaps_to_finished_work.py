@@ -12,6 +12,9 @@ from handeye.core.variation import WorldSpec
 from handeye.judge.measured import SettledState
 from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.cell import build_cell
+from handeye.tasks.water_pump.faults.during import due
+from handeye.tasks.water_pump.faults.finished import LATER_S
+from handeye.tasks.water_pump.faults.mishap import MishapState, Scene
 from handeye.tasks.water_pump.referee.measure import head_force, head_gap
 from handeye.tasks.water_pump.task import WATER_PUMP
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
@@ -67,6 +70,16 @@ def test_a_screw_that_is_turned_out_leaves_its_hole_and_one_in_no_thread_stays_a
     assert threads_of(cell).loosen(HOLE)
     assert threads_of(cell).holes[HOLE].screw is None
     assert not threads_of(cell).loosen(HOLE, 0.25)
+
+
+def test_a_person_loosens_a_screw_some_time_after_the_last_stage_began() -> None:
+    cell = screwed()
+    ((_, mishap),) = due((WATER_PUMP.faults(WorldSpec(seed=3)).kind(f"screw.{HOLE + 1}.loosened").usual(12),))
+    scene = Scene(cell.truth.model, cell.truth.data, threads_of(cell))
+    assert not mishap.act(scene, MishapState(seconds=LATER_S - 0.1))
+    assert threads_of(cell).holes[HOLE].clamp > 40
+    assert mishap.act(scene, MishapState(seconds=LATER_S))
+    assert head_gap(SettledState(cell.truth, 0.1), HOLE) > dimensions()("screw.pitch")
 
 
 def test_a_rotor_meets_its_stop_on_one_side_and_from_a_state_that_was_kept() -> None:

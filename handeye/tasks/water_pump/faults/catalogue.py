@@ -34,7 +34,7 @@ _TRIED: Final = {
     "thread": ("1.scarred", "1.stripped", "3.crosses", "6.full"),
     "gasket": ("missing", "doubled", "off.x", "turned", "dropped", "reversed", "removed"),
     "top": ("missing", "off.y", "tilted", "dropped", "reversed", "removed"),
-    "screw": ("3.missing", "1.burred", "2.slotless", "2.loose", "5.removed"),
+    "screw": ("3.missing", "1.burred", "2.slotless", "2.loose", "4.loosened", "5.removed"),
     "rotor": ("jammed", "stops", "turned"),
     "driver": ("fallen",),
     "arm": ("pushed.y",),

@@ -15,6 +15,7 @@ from handeye.tasks.water_pump.faults.declaration import declared
 from handeye.tasks.water_pump.faults.mishap import ON_BASE_M, Mishap, MishapFault, MishapState, Scene, always
 
 LAST_STAGE: Final = 12
+LATER_S: Final = 150.0  # after the last stage began: its screws have been driven again, and no picture taken
 JAM_FRICTION_NM: Final = 20.0  # more than the arm can turn
 _FREE_RAD: Final = 1e3  # beyond any turn of the rotor
 
@@ -27,6 +28,11 @@ def _loose(screw: int, turns: float | None, scene: Scene, _: MishapState) -> boo
     if turns is None:
         scene.take(f"screw{screw}")
     return True
+
+
+def _loosened(screw: int, turns: float, scene: Scene, state: MishapState) -> bool:
+    """A person loosens a screw some time after the stage began."""
+    return (state.seconds or 0.0) >= LATER_S and _loose(screw, turns, scene, state)
 
 
 def _take(part: str, scene: Scene, _: MishapState) -> bool:
@@ -88,6 +94,10 @@ def _with_turns(screw: int) -> Callable[[float], Mishap]:
     return lambda turns: Mishap(partial(_loose, screw, turns))
 
 
+def _loosened_by(screw: int) -> Callable[[float], Mishap]:
+    return lambda turns: Mishap(partial(_loosened, screw, turns))
+
+
 def faults_of_finished_work() -> Iterator[MishapFault]:
     """All of them, in the order they are listed."""
     yield from _screws()
@@ -107,8 +117,23 @@ def _screws() -> Iterator[MishapFault]:
         yield declared(
             f"screw.{number}.loose", meaning, _with_turns(number - 1), expected, size, stage=LAST_STAGE
         )
+    size = Size(unit="", usual=1.5, limits=(0.05, 6.0))
     for number in range(1, len(detect.SCREWED) + 1):
-        expected = ExpectedDetection(calls=(detect.missing_head(number), detect.untight_screw(number)))
+        expected = ExpectedDetection(
+            errors=(FORCE_WRONG,),  # the hand comes down on a head that stands far out
+            calls=(detect.high_head(number),),
+        )
+        meaning = (
+            f"A person loosens screw {number} by this number of turns, {LATER_S:.0f} s after the stage began: in the "
+            "last stage, after it was driven again."
+        )
+        yield declared(
+            f"screw.{number}.loosened", meaning, _loosened_by(number - 1), expected, size, stage=LAST_STAGE
+        )
+    for number in range(1, len(detect.SCREWED) + 1):
+        expected = ExpectedDetection(
+            calls=(detect.missing_head(number), detect.untight_screw(number), detect.unfelt_head(number))
+        )
         meaning = f"Screw {number} is turned out behind the driver, and taken away."
         yield declared(
             f"screw.{number}.removed", meaning, always(Mishap(partial(_loose, number - 1, None))), expected,

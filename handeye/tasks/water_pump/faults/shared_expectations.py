@@ -113,6 +113,16 @@ def missing_head(number: int) -> str:
     )
 
 
+def unfelt_head(number: int) -> str:
+    return (
+        f"SCREW {number} IS GONE: NO HEAD IS UNDER THE FINGERS, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
+    )
+
+
+def high_head(number: int) -> str:
+    return f"SCREW {number} STANDS HIGH: IT IS LOOSE, OR SOMETHING LIES UNDER THE TOP, OR A JOINT READS WRONG"
+
+
 def untight_screw(number: int) -> str:
     return f"SCREW {number} DOES NOT HOLD, OR IS GONE: IT MEETS NO TORQUE"
 
