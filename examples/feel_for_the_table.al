@@ -1,4 +1,4 @@
-; The hand goes down on the table until it presses with 40 ounces.
+; The hand goes down to the table until it presses on it with 40 ounces.
 TRANS   ABOVE [25 38 .5 90 90 0]
         STAGE   "feel for the table"
         OPEN    1

@@ -1,9 +1,9 @@
-"""Draw force against time of a guarded motion, the guard dashed, its trip as a dot: force.svg.
+"""Plot the force of a guarded motion against time, with the limit dashed and the trip as a dot, into force.svg.
 
     python force_against_time.py [RUN LINE]
 
-RUN is the folder of a run, LINE a line of its script that moves until a force stops it; its last motion is drawn.
-Without them a short run is made, in which the hand feels for the table.
+RUN is the folder of a run, and LINE a line of its script with a motion that a force stops. The plot shows the last
+motion of this line. Without arguments, the program makes a short run, in which the hand feels for the table.
 """
 
 import sys
@@ -14,7 +14,7 @@ import numpy as np
 
 import handeye
 
-WIDE, HIGH, LEFT, TOP = 640, 300, 50, 40  # of the plot, and its corner, in points
+WIDE, HIGH, LEFT, TOP = 640, 300, 50, 40  # size of the plot, and its corner, in points
 
 
 def chart(times: np.ndarray, force: np.ndarray, limit: float, title: str) -> str:

@@ -1,4 +1,4 @@
-"""A pin is missing where the hand reaches for it: the program calls the operator, and a program answers for them."""
+"""No pin is where the hand reaches for one: the arm program calls the operator, and this Python program answers."""
 
 import handeye
 
@@ -11,7 +11,7 @@ SCRIPT = """\
 """
 TAUGHT = """\
 [positions]
-PIN = { at = [15.0, 32.0, 3.0, 90, 90, 0] }  # nothing stands there
+PIN = { at = [15.0, 32.0, 3.0, 90, 90, 0] }  # there is no pin at this place
 """
 THERE = "15 35 3"  # x, y and z of the first holder, in
 

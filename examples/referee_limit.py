@@ -1,4 +1,4 @@
-"""Other limits for the referee: how far has a pin moved when the hand has felt for it?"""
+"""Give the referee other limits: how far has a pin moved after the hand has felt for it?"""
 
 import handeye
 
@@ -21,7 +21,7 @@ for limits in (None, {"pins": 0.05, "pins_tilt": 0.2}):
 
 
 def nothing_fell(truth):
-    """A referee of one's own: the height of the lowest movable part, from the truth that no program sees."""
+    """A referee of your own: it measures the height of the lowest movable part, in the simulator's truth."""
     lowest = min(truth.data.body(name).xpos[2] for name in ("base", "gasket", "top", "pin0", "pin1"))
     return {"lowest": handeye.at_least(lowest * 1e3, 0.0, "mm", "height of the lowest part")}
 

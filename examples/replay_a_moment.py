@@ -1,9 +1,10 @@
-"""Look at a moment of a recorded run: what the arm was doing, and how the cell looked (moment.png).
+"""Show one moment of a recorded run: what the arm was doing, and a photograph of the cell (moment.png).
 
     python replay_a_moment.py [RUN SECONDS]
 
-RUN is the folder of a run, SECONDS a time in it as `handeye trace show` tells. Without them a short run is made, in
-which the hand feels for the table, and its end is looked at. Nothing is simulated again; the photograph takes OpenGL.
+RUN is the folder of a run, and SECONDS a time in it, as `handeye trace show` prints it. Without arguments, the program
+makes a short run, in which the hand feels for the table, and shows its end. It does not simulate the run again. The
+photograph needs OpenGL.
 """
 
 import sys

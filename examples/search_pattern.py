@@ -1,4 +1,4 @@
-"""A search pattern of one's own: where the guess is off along x, a row of places finds a pin sooner than a spiral."""
+"""A search pattern of your own: if the guess is wrong along x, a row of places finds a pin sooner than a spiral."""
 
 import handeye
 
@@ -9,8 +9,8 @@ SCRIPT = """\
 L:      MOVE    GUESS
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] .8
-        SKIPN   23              ;it met something: there it is
-        AOJ     L               ;nothing: the next place
+        SKIPN   23              ;it met something: this is the pin
+        AOJ     L               ;it met nothing: try the next place
 """
 TAUGHT = """\
 [positions]
@@ -19,7 +19,7 @@ GUESS = { at = [15.85, 35.0, 4.2, 90, 90, 0] }
 
 
 def row(place: int) -> tuple[float, float]:
-    """Places along x, farther and farther to both sides: 0, 1, -1, 2, -2, ... steps of the search."""
+    """Places along x, farther and farther on both sides: 0, 1, -1, 2, -2, ... steps of the search."""
     return (place + 1) // 2 * (1 if place % 2 else -1), 0
 
 

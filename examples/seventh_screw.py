@@ -1,4 +1,4 @@
-"""A seventh screw: docs/language/seventh-screw.md as a program. With `run` behind it, the pump is assembled, too."""
+"""Add a seventh screw, as in docs/language/seventh-screw.md. With the argument `run`, also assemble the pump."""
 
 import sys
 

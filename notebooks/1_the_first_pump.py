@@ -12,10 +12,11 @@
 # # 1. The first pump
 #
 # At the end you will know what a *script*, a *plan*, a *world* and a *run* are, what happens in each of the twelve
-# stages of the pump, where the time goes, and how it compares with the five and a half minutes of 1973.
+# stages of the assembly, how long each stage takes, and how the total compares with the five and a half minutes of
+# 1973.
 #
-# You can read this notebook without running it. Running it takes a minute of a processor, nearly all of it for one
-# assembly; the photographs need OpenGL.
+# You can read this notebook without running it. Running it takes a minute of processor time, nearly all of it for one
+# assembly. The photographs need OpenGL.
 
 # %%
 import matplotlib.pyplot as plt
@@ -25,17 +26,17 @@ import handeye
 # %% [markdown]
 # ## A script becomes a plan
 #
-# The script is a text in the arm language of 1973. *Planning* compiles it and computes every motion in advance,
-# without arm, clock or random numbers, so the plan is the same each time. A plan displays its stages, and the
-# duration of the arm's motions in each if no step is repeated.
+# The script is a text in the arm language of 1973. *Planning* compiles it and computes every motion in advance. It
+# uses no arm, no clock and no random numbers, so the plan is the same each time. In a notebook, a plan shows its
+# stages, and for each stage how long the arm's motions take if no step is repeated.
 
 # %%
 plan = handeye.plan(handeye.scripts / "water_pump.al")
 plan
 
 # %% [markdown]
-# A step is a line of the script. The `conditions` of the steps distinguish this program from a recording: most
-# motions that touch something end when they *feel* something, not at a given place.
+# A step is a line of the script. Its `conditions` distinguish this program from a recording of motions: most motions
+# that touch something end when the hand *feels* something, not at a given place.
 
 # %%
 for_pins = [step for step in plan.stages[3].steps if step.conditions]
@@ -44,9 +45,9 @@ for_pins = [step for step in plan.stages[3].steps if step.conditions]
 # %% [markdown]
 # ## A plan meets a world
 #
-# A world is a cell with its errors: the place of the base on the belt, the reading errors of each joint, the
-# position errors of the holes. A seed determines all of them. The program does not know these figures; it must
-# measure what it needs with its sensors.
+# A world is a cell with its errors: where the base really lies on the belt, how wrong the sensor of each joint
+# reads, how far each hole is from its place in the drawing. A seed determines all errors. The program does not know
+# these figures; it must measure what it needs with its sensors.
 
 # %%
 world = handeye.World(0)
@@ -54,7 +55,8 @@ print(len(world.values), "quantities, among them")
 print("\n".join(f"{name:24} {world[name]:7.3f} {world.unit(name)}" for name in [*world.values][:8]))
 
 # %% [markdown]
-# Now the whole assembly. `out` saves the run in a folder: events, every servo period, the pictures, the result.
+# The next cell runs the whole assembly. `out` saves the run in a folder: events, every servo period, the pictures,
+# the result.
 
 # %%
 run = handeye.assemble(world=world, out="pump", overwrite=True)
@@ -62,19 +64,19 @@ run
 
 # %% [markdown]
 # The first line is the verdict of the *referee*, which measures the finished pump in the simulator, where the
-# program cannot look. Its findings are at the end, each with its limit.
+# program cannot look. The referee's findings are at the end, each with its limit.
 #
-# Between them is the timing table, with the times printed in 1973. *Manipulation* is the motion of the arm; for the
-# rest of the working phase it waits for the television camera, whose lens turret, pan, tilt and focus are slow
-# motors. Today's program lets them work while the arm moves, where possible, as the paper of 1973 suggests, so the
-# camera now costs less time than it did then. The nearly three extra minutes are all in manipulation: the arm is
-# slower than that of 1973, and the program measures more by touch. The last stage, an inspection of the pump, was
-# not in the program of 1973, and takes the arm 48 s.
+# The table in the middle compares the times with those printed in 1973. *Manipulation* is the motion of the arm.
+# During the rest of the working phase, the arm waits for the television camera, whose lens turret, pan, tilt and
+# focus have slow motors. As the paper of 1973 suggests, today's program lets these motors work while the arm moves,
+# where possible. So the camera takes less time than in 1973. In all, the run takes nearly three minutes longer, all
+# of it for manipulation: the arm is slower than that of 1973, and the program measures more by touch. The last stage
+# inspects the pump; it was not in the program of 1973, and takes the arm 48 s.
 #
 # ## Look at it
 #
-# The trace holds the places of all bodies, sixty times a second. So you can photograph any moment afterwards, from
-# any camera of the cell, without simulating again.
+# The trace holds the places of all bodies, sixty times a second. So you can photograph any moment of the run later,
+# from any camera of the cell, without simulating again.
 
 # %%
 trace = run.trace
@@ -94,11 +96,11 @@ shown = [axis.imshow(frame) for axis, frame in zip(axes.flat, frames, strict=Tru
 hidden = [axis.axis("off") for axis in axes.flat]
 
 # %% [markdown]
-# In a notebook of your own, write `trace` alone into a cell: it shows the report of the run in a frame, a 3D replay
-# next to the script. The report is a megabyte, so it is left out of this file.
+# In a notebook of your own, a cell that contains only `trace` shows the report of the run: a 3D replay next to the
+# script. The report is a megabyte, so this notebook leaves it out.
 #
-# The hand has no force sensor. The program computes the force from the torques of the motors, during guarded and
-# compliant motions. Each spike is a contact.
+# The hand has no force sensor. During guarded and compliant motions, the program computes the force from the torques
+# of the motors. In the next plot, each spike is a contact.
 
 # %%
 felt = trace.forces()
@@ -110,8 +112,8 @@ axis.set(
 lines = [axis.axvline(stage.begin / 60, color="0.85", zorder=0) for stage in trace.stages]
 
 # %% [markdown]
-# The trace also describes events in words. `trace.table()` lists all events; a slice shows part of it, a column is
-# an array, and `to_pandas()` makes a DataFrame if pandas is installed.
+# The trace also describes events in words. `trace.table("events")` lists all events. A slice of this table shows
+# part of it, a column is an array or a list, and `to_pandas()` makes a DataFrame if pandas is installed.
 
 # %%
 events = trace.table("events")
@@ -122,7 +124,7 @@ events[begin + 20 : begin + 36]
 # ## Repeating the run
 #
 # The same world, plan and version of handeye give the same run, to the last bit of its trace. Another seed gives
-# another run: `handeye.assemble(1)`. `handeye.compare("pump", "other")` reports the first difference and the
-# divergence of two runs.
+# another run: `handeye.assemble(1)`. `handeye.compare("pump", "other")` reports the first difference between two
+# runs, and the event at which they diverge.
 #
-# The next notebook, [2. The language by doing](2_the_language_by_doing.ipynb), writes programs.
+# In the next notebook, [2. The language by doing](2_the_language_by_doing.ipynb), you write programs.

@@ -11,8 +11,8 @@
 # %% [markdown]
 # # 2. The language by doing
 #
-# At the end you will have written a program for the arm, made the common mistakes, repaired a failed run from
-# within, and given the pump a seventh screw with two lines of your own.
+# At the end you will have written a program for the arm, made the common mistakes, repaired a failed run while it
+# was stopped, and given the pump a seventh screw with two lines of your own.
 #
 # You can read this notebook without running it. Running it takes half a minute.
 
@@ -22,9 +22,10 @@ import handeye
 # %% [markdown]
 # ## Write
 #
-# A program is a text with one instruction on each line; everything after a semicolon is a comment. The text has no
-# places: these are *taught*, by moving the arm there, and kept in a file next to the script. A taught place is the
-# point midway between the finger tips (inches) and the orientation of the hand (degrees).
+# A program is a text with one instruction on each line; everything after a semicolon is a comment. The text contains
+# no coordinates. You *teach* positions by moving the arm there, and a file next to the script holds them. A taught
+# position consists of the point midway between the finger tips (in inches) and the orientation of the hand (in
+# degrees).
 #
 # This program takes a pin out of its holder.
 
@@ -44,19 +45,19 @@ plan = handeye.plan(script, taught=taught)
 plan
 
 # %% [markdown]
-# Nothing has moved yet: this is a plan, with the *flow* of its steps below. A red edge would be taken after an
-# error; this program has none, since it tests for no errors.
+# Nothing has moved yet: this is a plan, with the *flow* of its steps below. A red edge would show where the program
+# goes after an error. This flow has no red edge, since the program tests for no errors.
 #
 # ## Break it
 #
-# Two typing errors. The checker reports all mistakes at once, each with its place and a suggestion. (In your own
-# program they are values: `error.diagnostics`.)
+# The next cell makes two typing errors. The checker reports all mistakes at once, each with its place and a
+# suggestion. (A Python program finds them as values in `error.diagnostics`.)
 
 # %% tags=["raises-exception"]
 handeye.plan(script.replace("CLOSE", "CLOES").replace("MOVE    PIN", "MOVE    PINN"), taught=taught)
 
 # %% [markdown]
-# A place out of the arm's reach is a mistake too, found before anything moves.
+# A place out of the arm's reach is also a mistake that the checker finds before anything moves.
 
 # %% tags=["raises-exception"]
 handeye.plan(script, taught=taught.replace("32", "132"))
@@ -72,14 +73,15 @@ run = handeye.begin(plan, seed=3)
 run.until()
 
 # %% [markdown]
-# The program calls the operator, because the fingers met nothing. `CLOSE .1` requires at least a tenth of an inch
-# between them, so the program does not continue with an empty hand. It was right: no pin is at y = 32; the place was
-# taught wrong.
+# The program called the operator, because the fingers met nothing. `CLOSE .1` requires at least a tenth of an inch
+# between them, so the program does not continue with an empty hand. The program was right: there is no pin at y =
+# 32, because we taught the position wrong.
 #
 # ## Repair the run
 #
-# A run can go back, to the beginning of a stage or by single steps: arm, parts and clock return to their earlier
-# state. It also takes the commands of the stepper. Here we correct the position, and repeat the stage.
+# A run can go back, to the beginning of a stage or by single steps. The arm, the parts and the clock then return to
+# their earlier state. A run also accepts the commands of the stepper. Here we correct the position, and repeat the
+# stage.
 
 # %%
 run.back("take a pin")
@@ -87,20 +89,20 @@ print(run.say("set position PIN 15 35 3"))
 run.until()
 
 # %% [markdown]
-# The program finished, and the gap of the fingers is now the thickness of a pin:
+# The program finished, and the gap between the fingers is now the thickness of a pin:
 
 # %%
 print(f"{run.state.gap / 0.0254:.2f} in; by a person: {run.result.interventions}")
 
 # %% [markdown]
-# A result always shows that a run was changed by hand. So we correct the script's file as well: `PIN` is taught at y
-# = 35.
+# A result always shows whether a person has changed the run. To avoid this next time, we would also correct the
+# taught file: `PIN` is at y = 35.
 #
 # ## Expect errors
 #
-# A program for every world tests for possible failures. `STOP` ends the motion below it when the hand presses; if
-# the motion meets nothing, it raises error 23. `SKIPE 23` skips the next line if that error was raised, `SKIPN 23`
-# if not. So an error is not an accident but a result: *nothing is there*.
+# A program that must work in every world tests for possible failures. `STOP` ends the motion below it when the hand
+# presses on something. If the motion meets nothing, it raises error 23. `SKIPE 23` skips the next line if this error
+# was raised, and `SKIPN 23` if it was not. So an error is not an accident but a result, here *nothing is there*.
 
 # %%
 careful = """\
@@ -118,9 +120,9 @@ guess = "[positions]\nOVER = { at = [15.6, 35.3, 4.2, 90, 90, 0] }\n"
 handeye.plan(careful, taught=guess).flow()
 
 # %% [markdown]
-# Now there is a red edge, and one that leads back: from `AOJ` to the search's next place. The pin is at (15, 35);
-# the guess is wrong by more than half an inch. The fingers are three quarters of an inch wide, so they need not come
-# down exactly over it.
+# This flow has a red edge, and an edge that leads back from `AOJ` to the `MOVE`, for the next place of the search.
+# The pin is at (15, 35); the guess is wrong by more than half an inch. The fingers are three quarters of an inch
+# wide, so they need not come down exactly over the pin.
 
 # %%
 run = handeye.begin(careful, seed=3, taught=guess)
@@ -131,9 +133,10 @@ print(f"{run.state.why}: found at place {run.state.memory.place + 1}, ({x:.2f}, 
 # %% [markdown]
 # ## A seventh screw
 #
-# According to the paper of 1973, adding one more screw takes a few minutes. Here the pump has a seventh hole, which
-# the program does not know. The *macro* `SCREW` of the script fetches and drives a screw; its operands are the place
-# of the screw, its hole, and its number. These lines drive the last four:
+# According to the paper of 1973, adding one more screw to the program takes a few minutes. Here the pump has a
+# seventh hole, which the program does not know. The *macro* `SCREW` of the script fetches and drives a screw. Its
+# operands are the place of the screw, its hole, a saved sideways offset, and its number. These lines drive the last
+# four screws:
 
 # %%
 text = (handeye.scripts / "water_pump.al").read_text()
@@ -141,8 +144,8 @@ rack = text.rindex("        RACK")
 print(text[text.rindex("        DRIVER") : rack])
 
 # %% [markdown]
-# One more call drives one more screw. It needs two new places: that of the seventh screw in the dispenser, and that
-# of its hole in the pump.
+# One more call drives one more screw. It needs two new places: the place of the seventh screw in the dispenser, and
+# the place of its hole in the pump.
 
 # %%
 new_place = "        TRANS   S7 [6 43.8 6.37 90 90 0] ;the seventh place of the dispenser\n"
@@ -161,10 +164,10 @@ print(
 print("new places:", sorted({*after.record.program.positions} - {*before.record.program.positions}))
 
 # %% [markdown]
-# The referee checks the result: `world = handeye.World(set={"pump.screws": 7})` has such a pump, and
-# `handeye.assemble(world=world, script=after)` assembles it in a minute of a processor, and finds seven screws in
-# their threads. With `before` it finds six, and rejects the pump. The [exercise](../docs/language/seventh-screw.md)
-# does the same with a text editor and no Python.
+# `world = handeye.World(set={"pump.screws": 7})` has a pump with seven holes. `handeye.assemble(world=world,
+# script=after)` assembles this pump in a minute of processor time, and the referee finds seven screws in their
+# threads. With `before`, it finds six, and rejects the pump. The [exercise](../docs/language/seventh-screw.md) does
+# the same with a text editor, without Python.
 #
-# [One page](../docs/language/README.md) describes the whole language. The next notebook, [3. Beams, blobs and
-# bouncing](3_beams_blobs_and_bouncing.ipynb), looks through the camera.
+# [One page](../docs/language/README.md) describes the whole language. In the next notebook, [3. Beams, blobs and
+# bouncing](3_beams_blobs_and_bouncing.ipynb), you look through the camera.

@@ -12,11 +12,11 @@
 # # 3. Beams, blobs and bouncing
 #
 # At the end you will know how a program of 1973 finds a casting on a belt while it reads only a small part of its
-# picture: what a *beam* is, how to box a *blob*, why to *bounce* inside a hole, and how to check a gasket without a
-# model of it.
+# picture. You will know what a *beam* is, how to put a box around a *blob*, why to *bounce* inside a hole, and how
+# to check a gasket without a model of it.
 #
-# You can read this notebook without running it. Running it takes some seconds: the pictures are from a recorded run
-# included with handeye.
+# You can read this notebook without running it. Running it takes a few seconds, because the pictures are from a
+# recorded run that is included with handeye.
 
 # %%
 import matplotlib.pyplot as plt
@@ -26,10 +26,10 @@ import handeye
 # %% [markdown]
 # ## Six pictures
 #
-# The camera is a television camera. Its pictures have 256 lines of 333 pixels in sixteen levels of grey, with noise,
-# so that no two are alike. A whole assembly takes six of them: the wide view of the belt, the close-up of the base,
-# the base in its standard position without and with its gasket, and the finished pump before and after its last
-# push.
+# The camera is a television camera. Its pictures have 256 lines of 333 pixels in sixteen levels of grey. They have
+# noise, so no two pictures are alike. A whole assembly takes six pictures: the wide view of the belt, the close-up
+# of the base, the base in its standard position without and with its gasket, and the finished pump before and after
+# the last time the arm pushes it.
 
 # %%
 trace = handeye.open(handeye.demo)
@@ -43,14 +43,15 @@ hidden = [axis.axis("off") for axis in axes.flat]
 
 # %% [markdown]
 # A program of today would filter all 85,000 pixels. In 1973 each pixel cost time on a shared computer, so the
-# program reads a pixel only where it expects information. A `Scan` is a picture that records which pixels were read.
+# program read pixels only where it expected information. A `Scan` is a picture that records which of its pixels were
+# read.
 #
 # ## A beam
 #
-# A beam starts at a point and follows a straight line until the brightness changes by a step: it compares the mean
-# of three pixels ahead with the mean of three pixels behind, so that noise does not stop it. The plot shows the
-# levels along one line of the close-up, from the inside of the large hole to the right, and the place where a beam
-# stops.
+# A beam starts at a point and follows a straight line until the brightness changes by a step. It compares the mean
+# of three pixels ahead with the mean of three pixels behind, so that noise does not stop it. The next plot shows the
+# grey levels along one line of the close-up, from the inside of the large hole to the right, and the place where a
+# beam stops.
 
 # %%
 close = pictures["CLOSE_UP"]
@@ -74,9 +75,9 @@ print(
 #
 # ## A blob
 #
-# In the wide picture the base is a bright blob on the dark belt. The *localiser* sends beams inwards from the border
-# of a window until one meets something brighter. From there it grows a box, each side outwards while a line just
-# outside it still crosses the blob. Red marks all pixels that it has read.
+# In the wide picture, the base is a bright blob on the dark belt. The *localiser* sends beams inwards from the
+# border of a window until one meets a brighter area. There it begins a box around the blob, and moves each side of
+# the box outwards as long as a line just outside this side crosses the blob. Red marks all pixels that it has read.
 
 # %%
 wide = pictures["WIDE"]
@@ -92,14 +93,15 @@ axis.axis("off")
 print(f"{box}: {scan.beams} beams, {scan.points / wide.size:.0%} of the picture read")
 
 # %% [markdown]
-# The window is the region where the program expects the base, from its knowledge of belt and camera. The box locates
-# the base to an inch or two, enough to aim the long lens at it.
+# The window is the region where the program expects the base, because it knows the belt and the camera. The box
+# shows the place of the base to an inch or two, which is good enough to aim the long lens at the base.
 #
 # ## Bouncing
 #
-# Where exactly is a hole? Start anywhere inside. Two beams, left and right, meet its border; go to the middle
-# between them. Two beams up and down; go to the middle again. For any convex shape this soon converges to the
-# centre, with four beams for each bounce. This is the first bounce, from a seed that is far off:
+# To find exactly where a hole is, start anywhere inside it. Send two beams, left and right, to its border, and go to
+# the middle between their ends. Then send two beams up and down, and go to the middle again. For any convex shape,
+# this procedure soon converges to the centre, with four beams for each bounce. This is the first bounce, from a
+# start (the seed) far from the centre:
 
 # %%
 scan = handeye.vision.Scan(close)
@@ -120,7 +122,7 @@ axis.axis("off")
 print(f"centre ({hole.u:.1f}, {hole.v:.1f}), {hole.width:.1f} points wide, {hole.height:.1f} high")
 
 # %% [markdown]
-# Only this part of the picture was read for it:
+# To find this hole, the program read only this part of the picture:
 
 # %%
 print(f"{scan.beams} beams, {scan.points} of {close.size} points")
@@ -128,9 +130,10 @@ print(f"{scan.beams} beams, {scan.points} of {close.size} points")
 # %% [markdown]
 # ## From two holes to a pose
 #
-# The base has two large holes. The line through their centres gives its place and its rotation; their sizes tell
-# them apart. The program then looks for the screw holes at the places that this pose predicts, and accepts it only
-# if they are there. The result of this run, and the truth in the world of its seed:
+# The base has two large holes. The line through their centres gives the place and the rotation of the base; the
+# different sizes of the holes show which is which. The program then looks for the screw holes at the places that
+# this pose predicts, and accepts the pose only if they are there. The next cell prints the result of this run, and
+# the truth in the world of its seed:
 
 # %%
 events = trace.table("events")
@@ -140,15 +143,15 @@ world = handeye.World(trace.head.world.seed)
 print(f"in truth ({world['base.x']:.2f}, {world['base.y']:.2f}) in, turned {world['base.yaw']:.1f} degrees")
 
 # %% [markdown]
-# The error is some hundredths of an inch and some tenths of a degree: small enough for a finger to come down into a
-# large hole. The rest is measured by *touch*, as the next notebook shows.
+# The error is a few hundredths of an inch and a few tenths of a degree. This is small enough for a finger to come
+# down into a large hole. The program measures the remaining error by *touch*, as the next notebook shows.
 #
 # ## Is the gasket on?
 #
 # A dark gasket on a bright casting, seen from the side, with shadows and pins, is hard to describe. So the program
-# uses no description. It takes a picture before and one after, and analyses the *difference*, where everything
-# unchanged is gone. There the gasket is one blob with two holes, whose borders, found by beams, show whether it is
-# in place.
+# uses no description. It takes one picture before the gasket is put on and one after, and analyses their
+# *difference*, in which everything unchanged disappears. In the difference, the gasket is one blob with two holes.
+# Beams find the borders of these holes, and their places show whether the gasket is in place.
 
 # %%
 before, after = pictures["BEFORE"], pictures["AFTER"]

@@ -11,9 +11,9 @@
 # %% [markdown]
 # # 4. Force and search
 #
-# At the end you will know how a hand without a force sensor feels, how a pin finds a hole that it cannot see, and
-# one rule that connects clearance, chamfer and the step of a search: each step must be smaller than the catch of the
-# hole times the square root of two.
+# At the end you will know how a hand without a force sensor feels, and how a pin finds a hole that no camera sees.
+# You will know a rule that connects clearance, chamfer and the step of a search: the step must be smaller than √2
+# times the distance from which a hole catches the pin.
 #
 # You can read this notebook without running it. Running it takes half a minute.
 
@@ -26,10 +26,11 @@ import handeye
 # ## A pin goes back into its holder
 #
 # The hand takes an aligning pin out of its holder, lifts it, and puts it down again: over the hole, or beside it.
-# `STOP [0 0 -50]` ends the motion below it when the hand presses down with 50 ounces. If nothing stops it, it raises
-# error 23, and here that means *success*: the pin is in the hole.
+# `STOP [0 0 -50]` ends the motion below it when the hand presses down with 50 ounces. If nothing stops the motion,
+# it raises error 23. Here this error means *success*: the pin is in the hole.
 #
-# The arm of this world makes no errors, so that only geometry counts. The place over the hole is filled in later.
+# The arm of this world has no errors, so that only geometry counts. The coordinates of the position `OVER` are
+# filled in later.
 
 # %%
 script = """\
@@ -56,9 +57,9 @@ print(beside.until().why, inside.until().why, sep="\n")
 # %% [markdown]
 # ## What the hand felt
 #
-# There is no force sensor in the wrist. Sixty times a second the program compares the torques of the motors with
-# those that the motion itself needs; the difference comes from outside. Beside the hole it grows as soon as the pin
-# meets the holder, and trips the guard; in the hole nothing comes near the limit.
+# There is no force sensor in the wrist. Sixty times a second, the program compares the torques of the motors with
+# the torques that the motion itself needs; the difference is due to an external force. Beside the hole, this force
+# grows as soon as the pin meets the holder, and trips the guard. In the hole, the force stays far below the limit.
 
 # %%
 beside.close(), inside.close()
@@ -71,15 +72,15 @@ axis.legend(fontsize=8)
 print(f"{felt['beside the hole'].value[-1] / 0.278:.1f} ounces when it stopped")
 
 # %% [markdown]
-# The motion stops at more than 50 ounces: the program measures once in each servo period, and in that time a stiff
-# arm on a stiff holder adds ten more.
+# The motion stops at more than 50 ounces, because the program measures the force once in each servo period. In this
+# time, a stiff arm on a stiff holder adds ten more ounces.
 #
 # ## What a hole catches
 #
-# How far off may the pin come down and still slide in? The hole is larger than the pin by its *clearance*; its rim
-# has a *chamfer*, a slope that leads inwards; and the end of the pin has a *bevel*. A pin that comes down anywhere
-# on a slope slides into the hole. From the [drawing of the scene](../scenes/water_pump/dimensions.toml), in
-# millimetres:
+# How far from the hole may the pin come down and still slide in? The hole is larger than the pin by its *clearance*.
+# Its rim has a *chamfer*, a slope that leads inwards, and the end of the pin has a *bevel*. A pin that comes down
+# anywhere on a slope slides into the hole. These are the dimensions in the [drawing of the
+# scene](../scenes/water_pump/dimensions.toml), in millimetres:
 
 # %%
 clearance, chamfer, bevel = 0.3, 2.0, 0.35
@@ -98,18 +99,19 @@ print(
 )
 
 # %% [markdown]
-# The simulated physics, which does not use this sum, agrees with it.
+# The simulated physics agrees with this sum, although it does not use it.
 #
 # ## The rule
 #
-# `SEARCH s` tries places on a square grid of step *s*, in a spiral. The worst place for a hole is in the middle
-# between four of them, at a distance of *s* / √2 from each. So the search finds a hole anywhere if
+# `SEARCH s` tries places on a square grid with the step *s*, in a spiral. The worst place for a hole is in the
+# middle between four of these places, at a distance of *s* / √2 from each. So the search finds the hole wherever it
+# is if
 #
 # **s / √2 ≤ clearance + chamfer + bevel.**
 #
-# A wider chamfer or more clearance allows a coarser search, but both cost precision or machining. A finer step costs
-# time: half the step means four times the places. Here a step of .14 in is just fine enough, and .18 is not. Both
-# searches begin with the hole at the worst place.
+# A wider chamfer or more clearance allows a coarser search, but a chamfer costs machining, and clearance costs
+# precision. A finer step costs time: half the step means four times as many places. Here a step of .14 in is just
+# fine enough, and a step of .18 in is not. In both searches, the hole is at the worst place.
 
 # %%
 searching = """\
@@ -129,7 +131,8 @@ coarse = handeye.begin(searching.format(step=0.18), world=world, taught=taught.f
 print(fine.until().why, coarse.until().why, sep="\n")
 
 # %% [markdown]
-# The first four places of each search, with the catch of the hole around each, and the hole:
+# The next plot shows the first four places of each search, the area around each place in which a hole would be
+# found, and the hole:
 
 # %%
 places = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -143,37 +146,39 @@ right.set(title="step .18 in: a gap", aspect="equal", xlim=(-0.15, 0.33), ylim=(
 print(f"fine: ended at place {fine.state.memory.place + 1}; coarse: at place {coarse.state.memory.place + 1}")
 
 # %% [markdown]
-# The fine search found the hole from its first place, though that is at the edge of the catch. The coarse one struck
-# the holder at all four, and continued outwards until it met no resistance. Where is that?
+# The fine search found the hole from its first place, although this place is at the edge of the area. The coarse
+# search struck the holder at all four places, and continued outwards until it met no resistance. Where did it end?
 
 # %%
 x, y, _ = coarse.state.hand[:3, 3] / 0.0254
 print(f"({x:.2f}, {y:.2f}) in; the hole is at (15, 35)")
 
 # %% [markdown]
-# Beside the holder. The pin hangs in the air over its edge, and *no resistance* meant not a hole but nothing at all.
+# It ended beside the holder. The pin hangs in the air beyond the edge of the holder, and *no resistance* did not
+# mean a hole, but nothing at all.
 #
 # ## Why the pump's program presses twice
 #
-# For this reason the listing of 1973 has a second motion: TRY TO GO DOWN WITHOUT MEETING RESISTANCE, and then IT
-# SHOULD MEET SOME RESISTANCE. A hole has a bottom; the air beside the holder has none.
+# For this reason, the listing of 1973 has a second motion. The comment of the first is TRY TO GO DOWN WITHOUT
+# MEETING RESISTANCE, and that of the second IT SHOULD MEET SOME RESISTANCE. A hole has a bottom; the air beside the
+# holder has none.
 
 # %%
 text = (handeye.scripts / "water_pump_1973.al").read_text()
 print(text[text.index("        SEARCH  .07\nL1:") : text.index("        SAVE    E1")])
 
 # %% [markdown]
-# And its step? The screw holes of the base are narrow: .05 mm of clearance with a pin, a chamfer of 1 mm, the bevel
-# of .35. By the rule:
+# Is the step of this program fine enough? The screw holes of the base are narrow: they have .05 mm of clearance for
+# a pin and a chamfer of 1 mm, and the pin has its bevel of .35 mm. By the rule:
 
 # %%
 catches = (0.05 + 1.0 + 0.35) / 25.4
 print(f"catches {catches:.3f} in; a step of .07 needs {0.07 / 2**0.5:.4f}")
 
 # %% [markdown]
-# The rule holds, with a tenth to spare for the errors of the arm. The drawing says which figures of the cell were
-# printed in 1973, and which were chosen so that the program of 1973 can work.
+# The step satisfies the rule, with a tenth to spare for the errors of the arm. The drawing says which dimensions of
+# the cell were printed in 1973, and which we chose so that the program of 1973 can work.
 #
-# The next notebook, [5. What each sense is worth](5_what_each_sense_is_worth.ipynb), takes the senses away, one by
-# one. [The tutorial](../docs/language/tutorial.md) teaches the language again, with every run shown;
-# [stepping](../docs/stepping.md) goes through a run step by step.
+# The next notebook, [5. What each sense is worth](5_what_each_sense_is_worth.ipynb), removes the senses one by one.
+# [The tutorial](../docs/language/tutorial.md) teaches the language again, and shows every run.
+# [Stepping](../docs/stepping.md) goes through a run step by step.

@@ -11,8 +11,8 @@
 # %% [markdown]
 # # 5. What each sense is worth
 #
-# At the end you will know which error each sense of the arm corrects, what a program uses without it, and how many
-# pumps then succeed: counted over the same worlds, with the sense and without.
+# At the end you will know which error each sense of the arm corrects, what the program assumes without this sense,
+# and how many pumps it then assembles in the same worlds.
 #
 # You can read this notebook without running it. Running it takes half a minute.
 
@@ -24,10 +24,10 @@ import handeye
 # %% [markdown]
 # ## An arm that does not know where it is
 #
-# The potentiometers in the joints read wrong, by an offset, a scale and a ripple that differ in each world. When the
-# joints read right for a place, the hand is somewhere else. And nothing is exactly where the drawing has it: not the
-# holder of the pins, not the rack, not the blocks that the base is pushed against. A seed determines all these
-# errors.
+# The potentiometers in the joints read wrong, by an offset, a scale error and a ripple that differ in each world.
+# When the joints show the right readings for a place, the hand is at another place. And no object is exactly where
+# it is in the drawing: not the holder of the pins, not the rack, not the blocks against which the arm pushes the
+# base. A seed determines all these errors.
 
 # %%
 worlds = [handeye.World(seed) for seed in range(150)]
@@ -37,8 +37,8 @@ print(len(worlds[3].values), "quantities are drawn in each world")
 # %% [markdown]
 # ## Vision
 #
-# The base lies anywhere on the belt. Without vision, the hand goes to the planned place of the base; the program
-# feels for a wall of the base there, and its search reaches 25 mm to either side.
+# The base may lie anywhere in a region of the belt. Without vision, the hand goes to the planned place of the base.
+# The program feels for a wall of the base there, and its search reaches 25 mm to either side.
 
 # %%
 figure, axis = plt.subplots(figsize=(6.4, 2.6), dpi=80, layout="constrained")
@@ -51,14 +51,14 @@ far = [
 print("the base lies within {:.1f} by {:.1f} in".format(*far))
 
 # %% [markdown]
-# The camera is calibrated with a lamp that this same arm carries through the picture. So it learns the wrong
-# coordinates of the arm, and an error that both share cancels.
+# To calibrate the camera, the same arm carries a lamp through the picture. So the camera learns the wrong
+# coordinates of the arm, and an error that arm and camera share cancels out.
 #
 # ## Touch
 #
-# Two switches in the fingers let CENTER move the *hand* to a part instead of the part to the hand. SAVE keeps the
-# displacement, and RESTORE applies it later. Here the hand centres on the screwdriver in its rack, in four worlds
-# with large errors; the plot shows the displacement, which the program knows from then on.
+# With the two switches in the fingers, CENTER can move the *hand* to a part instead of the part to the hand. SAVE
+# keeps the displacement, and RESTORE applies it later. In the next cell, the hand centres on the screwdriver in its
+# rack, in four worlds with large errors. The output shows the displacement, which the program knows from then on.
 
 # %%
 centring = """\
@@ -76,8 +76,8 @@ print("\n".join(f"seed {seed}: {far:.1f} mm" for seed, far in enumerate(felt)))
 # %% [markdown]
 # ## Force
 #
-# The hand goes down to the table, whose height is 0. `STOP` ends the motion at 40 ounces; what height do the joints
-# then report?
+# In the next cell, the hand goes down to the table, whose height is 0. `STOP` ends the motion at 40 ounces. What
+# height do the joints then report?
 
 # %%
 script = """\
@@ -91,15 +91,16 @@ stopped = [run.until().why for run in feeling]
 print("\n".join(f"{run.state.hand[2, 3] / 0.0254:+.3f} in, on a table at 0" for run in feeling))
 
 # %% [markdown]
-# With force the motion ends where the table really is, whatever the joints report. Without it, a hand sent to the
-# assumed height of the table would stop short, or press on the table with its full torque. And heights measured by
-# touch can be compared: so the program knows whether one gasket lies on the base, or two.
+# With force, the motion ends where the table really is, whatever the joints report. Without force, a hand that moves
+# to the assumed height of the table would stop too high, or press on the table with its full torque. The program can
+# also compare two heights that it has measured by touch. In this way it knows whether one gasket lies on the base,
+# or two.
 #
 # ## Search
 #
-# A search corrects what the other senses leave: it tries one place after the other, in a square spiral, until the
-# hand goes down into the hole. Most searches end at their first place if vision and touch have done their work. The
-# recorded run included with handeye shows how many extra places a whole pump needed.
+# A search corrects the error that the other senses leave. It tries one place after the other, in a square spiral,
+# until the hand goes down into the hole. If vision and touch have worked well, most searches end at their first
+# place. The next cell lists all further places that the searches tried in the recorded run included with handeye.
 
 # %%
 demo = handeye.open(handeye.demo)
@@ -113,8 +114,8 @@ print("\n".join(tried))
 # %% [markdown]
 # ## The count
 #
-# The worth of a sense is the number of pumps that fail without it. `--without` replaces a sense by the program's
-# assumption; everything else is the same, including the worlds:
+# The worth of a sense is the number of pumps that fail without it. With `--without`, the program uses its assumption
+# instead of the sense; everything else is the same, including the worlds:
 #
 # ```
 # $ handeye trials assembly --n 60 --seed 890000 --out whole
@@ -122,8 +123,9 @@ print("\n".join(tried))
 # $ handeye trials compare whole without-touch
 # ```
 #
-# This takes an evening on two processors. [The result](../docs/trials.md#what-they-are-worth) is plotted here: pumps
-# assembled in 60 worlds, and in 20 with doubled errors for the senses that hardly matter in the 60.
+# These commands take an evening on two processor cores. The next cell plots [their
+# result](../docs/trials.md#what-they-are-worth), as the number of pumps assembled in 60 worlds. For the senses that
+# hardly matter in these, it also shows the number in 20 worlds with doubled errors.
 
 # %%
 nominal = {"nothing": 60, "centring": 59, "touch": 56, "search": 20, "vision": 2, "force": 0}
@@ -136,9 +138,8 @@ right.set(xlabel="of 20, errors twice as large", xlim=(0, 20))
 flipped = left.invert_yaxis(), right.invert_yaxis()
 
 # %% [markdown]
-# Force, vision and search are decisive in any world; touch and centring where errors are large. Every failure was
-# noticed: the program called the operator. [Trials](../docs/trials.md) explains the uncertainty of such counts, and
-# the test (McNemar's) of whether unequal pairs could be chance.
+# Force, vision and search are decisive in any world; touch and centring are decisive where errors are large. The
+# program noticed every failure and called the operator. [Trials](../docs/trials.md) explains how uncertain these
+# counts are, and McNemar's test, which shows whether a difference between two sets of runs could be chance.
 #
-# [Force and search](4_force_and_search.ipynb) shows how the hand feels; [trials](../docs/trials.md) shows how to
-# count, and with what certainty.
+# [Force and search](4_force_and_search.ipynb) shows how the hand feels.

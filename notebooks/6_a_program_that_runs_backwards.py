@@ -14,9 +14,9 @@
 # At the end you will have taught a robot without writing a program, seen the program grow from your actions, and
 # understood why undoing is more than replaying in reverse.
 #
-# [TRIG](../docs/trig.md) was made at MIT in 1982. At a terminal (`handeye trig`) you type short commands and drive
-# the arm with a teach box; here the same lines are in cells. You can read this notebook without running it. Running
-# it takes half a minute.
+# [TRIG](../docs/trig.md) was made at MIT in 1982. At a terminal (`handeye trig`), you type short commands and drive
+# the arm with a teach box. In this notebook, cells contain the same lines. You can read it without running it. To
+# run it takes half a minute.
 
 # %%
 import matplotlib.pyplot as plt
@@ -26,9 +26,10 @@ import handeye
 # %% [markdown]
 # ## Taught by doing
 #
-# The arm works over a moving platter, with physics. A line with `*` changes the platter by hand; here it adds a
-# stack of three blocks. `M` is a move: if its position is undefined, the teach box drives the arm there, and
-# `RECORD` defines it. Each command is carried out at once, and becomes a step of the program.
+# The arm works over a moving platter, with simulated physics. A line with `*` changes the objects on the platter by
+# hand; here it adds a stack of three blocks. `M` adds a move. If its position is undefined, you drive the arm there
+# with the teach box, and `RECORD` defines the position. The arm does each command at once, and the command becomes a
+# step of the program.
 
 # %%
 session = handeye.TrigSession("purbrick")
@@ -60,15 +61,16 @@ axis.set_axis_off()
 # %% [markdown]
 # ## And back
 #
-# `RUN -1000` undoes everything. The simulator is not reset: the *arm* goes back, picks up each block and puts it on
-# the stack again, step by step, the last one first.
+# `RUN -1000` undoes everything. It does not reset the simulator: the *arm* goes back step by step, the last step
+# first. It picks up each block that it has moved, and puts the block back on the stack.
 
 # %%
 session.type("RUN -1000")
 
 # %% [markdown]
-# How well? Three photographs: before the program runs again, after its end, and after undoing it once more. The
-# differences from the first show what the program changed, and what is left of that.
+# How exactly does it do this? The next cell takes three photographs: before the program runs again, after its end,
+# and after the arm has undone it once more. The differences from the first photograph show what the program changed,
+# and what remains after undoing.
 
 # %%
 before = session.photograph()[150:400, 210:560].astype(int)
@@ -89,27 +91,28 @@ axes[2].set(xticks=[], yticks=[])
 told
 
 # %% [markdown]
-# Nothing visible is left. This world has no errors; in others, blocks return some tenths of a millimetre off, which
-# a referee measures ([TRIG](../docs/trig.md#jobs-in-seeded-worlds)).
+# No visible change remains. This world has no errors. In other worlds, blocks return to within a few tenths of a
+# millimetre of their places, as a referee measures ([TRIG](../docs/trig.md#jobs-in-seeded-worlds)).
 #
 # ## What cannot be undone
 #
-# Undo reverses recorded actions, and assumes that the world has not changed since. So it must verify by touch. Run
-# the program, and take the blocks away before undoing it:
+# Undo reverses recorded actions, and assumes that the world has not changed since then. So the arm must verify this
+# by touch. The next cell runs the program, and takes the blocks away before undoing it:
 
 # %%
 session.type("RUN\n* CLEAR\nRUN -1000")
 
 # %% [markdown]
 # The hand closed where it had released the block, and its fingers met nothing. The arm stops there, with the cursor
-# at the step that could not be undone, and waits for the user. The gap of the fingers is one of four guards: force,
-# following error, gap, and support under a block ([TRIG](../docs/trig.md#forwards-and-backwards)).
+# at the step that could not be undone, and waits for the user. The gap between the fingers is one of four guards of
+# an undo. The others are the force, the following error, and the support under a block
+# ([TRIG](../docs/trig.md#forwards-and-backwards)).
 #
 # ## Loops, too
 #
-# The paper's second example moves a stack onto a pallet: a guarded move feels for the top of the stack, a position
-# advances with each block, and two loops count rows and columns. On an arm without physics twenty blocks take no
-# time.
+# The paper's second example moves a stack of blocks onto a pallet. A guarded move feels for the top of the stack, a
+# position advances with each block, and two loops count rows and columns. With the arm without physics, twenty
+# blocks take no time.
 
 # %%
 palletiser = handeye.TrigSession()
@@ -120,5 +123,6 @@ palletiser
 palletiser.type("RUN\nRUN -1000")
 
 # %% [markdown]
-# With physics, errors and a referee: `handeye trig palletise --out DIR`, which also writes a report. For the pump,
-# whose program is more than a list of places, undoing needs more care: [dismantling](../docs/dismantling.md).
+# `handeye trig palletise --out DIR` does the same with physics, errors and a referee, and also writes a report. The
+# program of the pump is more than a list of places, so undoing it needs more care:
+# [dismantling](../docs/dismantling.md).
