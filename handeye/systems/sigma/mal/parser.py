@@ -2,42 +2,28 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Final, Literal, NoReturn
+from typing import Final, Literal
 
 from handeye.core.diagnostics import Diagnostic, SimilarName, nearest, quoted
 from handeye.core.plain_text import one_line
 from handeye.core.source import Source, Span
 from handeye.systems.sigma.mal.codes import mistake
+from handeye.systems.sigma.mal.expressions import ExpressionReader
 from handeye.systems.sigma.mal.scanner import Token, tokens
 from handeye.systems.sigma.mal.syntax import (
     MAIN,
     AxisGoal,
-    Binary,
-    Call,
     Expression,
     Line,
     Number,
     Statement,
     Text,
-    Unary,
-    Variable,
 )
-from handeye.systems.sigma.mal.words import FUNCTIONS, MAL_DEVICES, RESERVED, STATEMENTS, WORDS
-from handeye.systems.sigma.protocol import AXES
+from handeye.systems.sigma.mal.token_reader import Mistaken
+from handeye.systems.sigma.mal.words import MAL_DEVICES, RESERVED, STATEMENTS
 
 LARGEST_NUMBER: Final = 99_999  # of a line
 MOST_LINES: Final = 5000
-DEEPEST: Final = 30
-_RELATIONS: Final = ("=", "<>", "<", ">", "<=", ">=")
-_OF_AXES: Final = ("POS", "FORCE", "CRASHPOS", "STATUS")
-
-
-class Mistaken(Exception):
-    """A line cannot be parsed."""
-
-    def __init__(self, diagnostic: Diagnostic) -> None:
-        super().__init__(diagnostic.message)
-        self.diagnostic = diagnostic
 
 
 def parsed(source: Source) -> tuple[list[Line], list[Diagnostic]]:
@@ -88,84 +74,8 @@ def _line_number(token: Token) -> int:
     return int(token.text)
 
 
-class _Parser:
-    """The tokens behind a line number."""
-
-    def __init__(self, tokens: list[Token], whole: Span) -> None:
-        self._tokens, self._at, self._depth = tokens, 0, 0
-        self._end = Span(start=max(whole.start, whole.end - 1), end=whole.end)
-        self._word = ""
-
-    # -- tokens ---------------------------------------------------------------------------------------
-
-    @property
-    def _next(self) -> Token | None:
-        return self._tokens[self._at] if self._at < len(self._tokens) else None
-
-    def _take(self) -> Token:
-        token = self._tokens[self._at]
-        self._at += 1
-        return token
-
-    def _is(self, *texts: str) -> bool:
-        token = self._next
-        return token is not None and token.kind in ("mark", "name") and token.text in texts
-
-    def _skip(self, *texts: str) -> bool:
-        found = self._is(*texts)
-        self._at += found
-        return found
-
-    def _wrong(self, wanted: str) -> NoReturn:
-        token = self._next
-        span = self._end if token is None else token.span
-        found = "the line ends" if token is None else f"there is {quoted(token.text)}"
-        usage = f"the form is `{WORDS[self._word].usage}`" if self._word in WORDS else None
-        raise Mistaken(mistake("syntax", f"{wanted} is wanted here, and {found}", span, help=usage))
-
-    def _need(self, *texts: str) -> Token:
-        if not self._is(*texts):
-            self._wrong(" or ".join(f"`{text}`" for text in texts))
-        return self._take()
-
-    def _deeper(self) -> None:
-        self._depth += 1
-        if self._depth > DEEPEST:
-            token = self._next
-            told = f"this is nested more than {DEEPEST} deep"
-            raise Mistaken(mistake("too-deep", told, self._end if token is None else token.span))
-
-    def _name(self, what: str) -> Token:
-        token = self._next
-        if token is None or token.kind != "name":
-            self._wrong(what)
-        if token.text in RESERVED:
-            told = f"{quoted(token.text)} is a word of MAL and cannot be {what}"
-            raise Mistaken(mistake("reserved-word", told, token.span))
-        return self._take()
-
-    def _one_of(self, known: tuple[str, ...], what: str) -> Token:
-        token = self._next
-        if token is None or token.kind != "name" or token.text not in known:
-            self._wrong(f"{what} ({', '.join(known)})")
-        return self._take()
-
-    def _axis(self) -> Token:
-        return self._one_of(AXES, "an axis")
-
-    def _target(self) -> Token:
-        token = self._next
-        if token is None or token.kind != "number" or not token.text.isdigit():
-            self._wrong("a line number")
-        return self._take()
-
-    def _listed(self, one: Callable[[], Token]) -> tuple[Token, ...]:
-        found = [one()]
-        while self._skip(","):
-            found.append(one())
-        return tuple(found)
-
-    # -- statements -----------------------------------------------------------------------------------
+class _Parser(ExpressionReader):
+    """The statement behind a line number."""
 
     def whole_statement(self) -> Statement:
         """The statement that these tokens are, all of them."""
@@ -341,100 +251,6 @@ class _Parser:
         axis = () if self._is("GOTO") else (self._axis(),)
         self._need("GOTO")
         return Statement(word=word, span=self._end, names=axis, target=self._target())
-
-    # -- expressions ----------------------------------------------------------------------------------
-
-    def _condition(self) -> Expression:
-        """OR of ANDs of relations."""
-        self._deeper()
-        left = self._conjunction()
-        while self._skip("OR"):
-            left = Binary("OR", left, self._conjunction())
-        self._depth -= 1
-        return left
-
-    def _conjunction(self) -> Expression:
-        left = self._negation()
-        while self._skip("AND"):
-            left = Binary("AND", left, self._negation())
-        return left
-
-    def _negation(self) -> Expression:
-        if self._skip("NOT"):
-            self._deeper()
-            operand = self._negation()
-            self._depth -= 1
-            return Unary("NOT", operand)
-        return self._relation()
-
-    def _relation(self) -> Expression:
-        if self._is("("):  # of a condition, unless an expression is what it encloses
-            mark, depth = self._at, self._depth
-            self._take()
-            try:
-                inner = self._condition()
-                self._need(")")
-                if not (self._is(*_RELATIONS, "+", "-", "*", "/")):
-                    return inner
-            except Mistaken:
-                pass
-            self._at, self._depth = mark, depth
-        left = self._expression()
-        relation = self._need(*_RELATIONS).text
-        return Binary(relation, left, self._expression())
-
-    def _expression(self) -> Expression:
-        self._deeper()
-        left = self._term()
-        while self._is("+", "-"):
-            operator = self._take().text
-            left = Binary(operator, left, self._term())
-        self._depth -= 1
-        return left
-
-    def _term(self) -> Expression:
-        left = self._factor()
-        while self._is("*", "/"):
-            operator = self._take().text
-            left = Binary(operator, left, self._factor())
-        return left
-
-    def _factor(self) -> Expression:
-        if self._is("-", "+"):
-            sign = self._take().text
-            self._deeper()
-            operand = self._factor()
-            self._depth -= 1
-            return Unary("-", operand) if sign == "-" else operand
-        if self._skip("("):
-            inner = self._expression()
-            self._need(")")
-            return inner
-        token = self._next
-        if token is None or token.kind not in ("number", "name"):
-            self._wrong("a number, a variable or a function")
-        if token.kind == "number":
-            return Number(float(self._take().text))
-        return self._call() if token.text in FUNCTIONS else self._variable()
-
-    def _variable(self) -> Variable:
-        name = self._name("the name of a variable")
-        if self._is("("):
-            told = f"{quoted(name.text)} is no function, and MAL has no arrays"
-            near = nearest(name.text, FUNCTIONS, max(1, len(name.text) // 3))
-            raise Mistaken(
-                mistake("arrays-dropped", told, name.span, meant=SimilarName(near) if near else None)
-            )
-        return Variable(name)
-
-    def _call(self) -> Call:
-        function = self._take().text
-        if function == "TIME":
-            return Call(function, None)
-        self._need("(")
-        argument: Expression | Token = self._axis() if function in _OF_AXES else self._expression()
-        self._need(")")
-        return Call(function, argument)
 
 
 _FORMS: Final[dict[str, Callable[[_Parser, str], Statement]]] = {
