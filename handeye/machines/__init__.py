@@ -1,7 +1,8 @@
-"""Machines by name: arms with axes, as values that tell what they are and how they are put on a bench.
+"""Finds machines by name: arms with axes, as values with their specification and the function that puts them on a
+bench.
 
-A machine is a value of the type `ArmMachine`, which a system may use as it is. Those that others are to find by name
-stand here, or in `Entry.machines` of a system.
+A machine is a value of type `ArmMachine`, which a system can use directly. Machines that others can find by name
+are listed here, or in `Entry.machines` of a system.
 """
 
 from typing import Final
@@ -15,7 +16,7 @@ _OWN: Final = {"purbrick": "handeye.machines.purbrick:PURBRICK"}
 
 
 def find_machine(name: str) -> ArmMachine:
-    """The machine of a name; raises NoSuchName if there is none."""
+    """The machine with a name; raises NoSuchName if there is none."""
     places = {key: place for entry in entries().values() for key, place in entry.machines.items()} | _OWN
     if name not in places:
         raise NoSuchName(f"there is no machine {quoted(name)}; there are {', '.join(places)}")

@@ -1,4 +1,6 @@
-"""An arm with axes and a hand as a value: what its manual says, and how it is put on a bench."""
+"""An arm with axes and a hand, as a value: the specification in its manual, and the function that puts it on a
+bench.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,7 @@ if TYPE_CHECKING:  # machines stand on a bench of the cell; their limits are rea
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HandlingLimits:
-    """Limits of speed with a held object, and of force at the finger. Tuples have a number for each axis."""
+    """Limits of speed with a held object, and of force at the finger. Tuples have one number per axis."""
 
     acceleration: tuple[float, ...]  # m/s2 and rad/s2
     guarded_speed: tuple[float, ...]  # m/s and rad/s of a guarded move
@@ -37,7 +39,7 @@ class HandlingLimits:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmMachine:
-    """An arm with axes, a hand, and a finger that feels force."""
+    """An arm with axes, a hand, and a finger that senses force."""
 
     name: str
     scene_file: str  # below the folder of scenes, or an absolute path
@@ -50,17 +52,19 @@ class ArmMachine:
 
     @property
     def specs(self) -> tuple[AxisSpec, ...]:
-        """Its axes, with the hand as the last one."""
+        """Specifications of the axes, with the hand as the last axis."""
         return (*self.axes, self.hand)
 
     def scene(self) -> mujoco.MjSpec:
-        """The scene with the arm, and nothing for it to work on."""
+        """The scene with only the arm."""
         import mujoco  # here: names and limits of machines are read without a simulator
 
         return mujoco.MjSpec.from_file(str(scenes() / self.scene_file))
 
     def on_bench(self, bench: Bench, bent: Callable[[Array], Array] = np.zeros_like) -> BenchAxes:
-        """The arm in the scene of a bench; its axes (not the hand) are off what potentiometers show by `bent` of it."""
+        """Put the arm in the scene of a bench; `bent` gives the difference between true and indicated positions of
+        the axes (not of the hand) from the potentiometer readings.
+        """
         from handeye.cell.bench_axes import BenchAxes, sensor
 
         def bent_axes(q: Array) -> Array:

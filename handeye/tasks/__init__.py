@@ -1,7 +1,7 @@
-"""Tasks by name, whatever kind of system performs them; the only place that knows which tasks exist.
+"""Finds tasks by name, for all systems; no other module has the list of tasks.
 
-A task comes with handeye, by the entry-point group `handeye.tasks` of an installed package, by `--task MODULE:NAME`, or
-from a Python program that calls `register`. Its module is imported when it is first asked for.
+A task is one of handeye's own, or comes from the entry-point group `handeye.tasks` of an installed package, from
+`--task MODULE:NAME`, or from a Python program that calls `register`. Its module is imported on first use.
 """
 
 import os
@@ -22,7 +22,9 @@ from handeye.tasks.interface import AnyTask, Task
 DEFAULT: Final = "water_pump"  # the task that is meant where none is named
 GROUP: Final = "handeye.tasks"  # entry points of this group name tasks of other packages
 ELSEWHERE: Final = "HANDEYE_TASKS"
-"""Environment variable: more tasks as MODULE:NAME, separated by spaces. `--task` adds its own, for child processes."""
+"""Environment variable with further tasks as MODULE:NAME, separated by spaces. `--task` adds its task there, for
+child processes.
+"""
 _BUILT_IN: Final = {
     "water_pump": "handeye.tasks.water_pump.task:WATER_PUMP",
     "insertion": "handeye.tasks.insertion.task:INSERTION",
@@ -32,16 +34,16 @@ _HINT: Final = (
     "`handeye.tasks.register` in Python)"
 )
 Kind = Literal["ours", "registered", "others"]
-"""The source of a task: handeye, this program or `--task`, entry points."""
+"""The origin of a task: handeye, this process (`register` or `--task`), or entry points of other packages."""
 _REGISTERED: Final[dict[str, AnyTask]] = {}
 _WORDS: Final[dict[str, str]] = {}  # what `--task` said of those that it has made known, by their names
 
 
 def register(task: AnyTask) -> None:
-    """Make a task known by its name, and its arm by its own.
+    """Register a task under its name, and its arm under the arm's name.
 
-    Raises InvalidInput if it is no task, has no name, its arm cannot stand where it is parked, or the name, or that of
-    its arm, is taken.
+    Raises InvalidInput if the object is no task or has no name, if the arm cannot be at its parked configuration,
+    or if the name of the task or of the arm is taken.
     """
     if not isinstance(task, AnyTask):
         raise BadArgument(f"a task is an instance of a class derived from handeye.Task, not {task!r}")
@@ -62,7 +64,9 @@ def register(task: AnyTask) -> None:
 
 
 def named(words: str) -> AnyTask:
-    """The task that `--task` names: one that is known, or MODULE:NAME, found on the path or in the current folder."""
+    """The task for the words of `--task`: a known task, or MODULE:NAME, searched on the Python path and in the
+    current folder.
+    """
     if ":" not in words:
         return any_task(words)
     found = _loaded(words)
@@ -74,12 +78,14 @@ def named(words: str) -> AnyTask:
 
 
 def option(name: str) -> tuple[str, ...]:
-    """The words by which a command knows the task of a plan or run; none where its name is enough."""
+    """The command-line option with which a command finds the task of a plan or run; empty if the task's name is
+    enough.
+    """
     return ("--task", _WORDS[name]) if name in _WORDS else ()
 
 
 def any_task(name: str) -> AnyTask:
-    """The task of a name, whatever kind of system does it; raises InvalidInput if there is none."""
+    """The task with a name, for any system; raises InvalidInput if there is none."""
     if not isinstance(name, str):
         raise BadArgument(f"give a task by its name, not by {name!r}")
     found = known_any(name)
@@ -91,12 +97,12 @@ def any_task(name: str) -> AnyTask:
 
 
 def task(name: str = DEFAULT) -> Task:
-    """The task of a name that planned programs do; raises InvalidInput if there is none."""
+    """The task with a name, for planned programs; raises InvalidInput if there is none."""
     return planned(any_task(name))
 
 
 def planned(task: AnyTask) -> Task:
-    """The task itself, if planned programs do it; raises InvalidInput otherwise."""
+    """Return the task if planned programs perform it; raises InvalidInput if they do not."""
     if not isinstance(task, Task):
         system = next((entry.name for entry in entries().values() if task.name in entry.tasks), None)
         if system is not None:
@@ -106,7 +112,9 @@ def planned(task: AnyTask) -> Task:
 
 
 def known_any(name: str) -> AnyTask | None:
-    """The task of a name; None: it may be another program's own; raises InvalidInput if it cannot be imported."""
+    """The task with a name; None if it is unknown here, as a task of another Python program. Raises InvalidInput if
+    the task cannot be imported.
+    """
     if name not in _REGISTERED and (place := _BUILT_IN.get(name) or _ours().get(name)) is not None:
         return _loaded(place)
     if name not in _REGISTERED and name in _entry_points():
@@ -123,13 +131,13 @@ def known_any(name: str) -> AnyTask | None:
 
 
 def known(name: str) -> Task | None:
-    """The task of a name that planned programs do; None: this process knows none."""
+    """The task with a name, for planned programs; None if this process knows none."""
     found = known_any(name)
     return found if isinstance(found, Task) else None
 
 
 def of_plans(kind: Kind) -> Iterator[Task]:
-    """The tasks of a kind that planned programs do; each is imported when it is reached."""
+    """The tasks of one origin that planned programs perform; each is imported when the iteration reaches it."""
     for name in _NAMES[kind]():
         try:
             found = known(name)
@@ -140,7 +148,7 @@ def of_plans(kind: Kind) -> Iterator[Task]:
 
 
 def _ours() -> dict[str, str]:
-    """The import places of handeye's own tasks and those of systems, by name."""
+    """Import places of handeye's own tasks and of those of systems, by name."""
     return _BUILT_IN | {name: place for entry in entries().values() for name, place in entry.tasks.items()}
 
 
@@ -150,7 +158,7 @@ def _entry_points() -> dict[str, str]:
 
 
 def _loaded(words: str) -> AnyTask:
-    """The task MODULE:NAME; its module is imported; raises InvalidInput if there is none, or importing it fails."""
+    """Import the task MODULE:NAME; raises InvalidInput if there is none, or if the import fails."""
     module, _, name = words.partition(":")
     if not all(part.isidentifier() for part in (*module.split("."), name)):
         raise BadArgument(f"name a task as MODULE:NAME, such as my_task:TASK; {quoted(words)} is not")

@@ -1,4 +1,4 @@
-"""The interface of a task of one hole, for trials that measure insertions: a witness sees the truth of each."""
+"""The interface of a task with one hole, for trials of insertion; a witness records the truth of each insertion."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ if TYPE_CHECKING:
     from handeye.cell.truth import Truth
 
 CLEARANCE: Final = 0.114
-"""Diameter of the hole over that of what goes into it, mm: that of Factory's peg (docs/insertion.md)."""
+"""Difference between the diameters of hole and pin, mm: that of Factory's peg (docs/insertion.md)."""
 CHAMFER: Final = 1.0  # width of the chamfer, mm, as at the holes of the pump's base
 SPREAD: Final = 1.0  # sigma of the error of the hole's place along each axis, mm: as in Factory
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionTruth:
-    """The truth of an insertion, which the program never knows."""
+    """The truth of an insertion, which the program cannot know."""
 
     peak: float  # greatest resultant of all contacts between the two in any physics step, N
     first: float | None  # time of the first contact, s on the cell's clock
@@ -30,22 +30,24 @@ class InsertionTruth:
 
 
 class InsertionTask(Task):
-    """A task of one hole; its programs fetch what goes into it in their first stage."""
+    """A task with one hole; its programs fetch the pin in their first stage."""
 
     programs: Mapping[str, str]  # script files among the plans, by the name of their search
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:
-        """Greatest error of a hole's place at which it still catches what goes into it, m; arguments in m."""
+        """Greatest error of a hole's position, m, at which the hole still catches the pin; arguments in m."""
 
     @abstractmethod
     def hole(self, clearance: float, chamfer: float) -> dict[str, float]:
-        """Quantities of a world with this clearance and chamfer (m), the hole where it was taught; SI."""
+        """Quantities of a world with this clearance and chamfer (m), and the hole at its taught position; SI."""
 
     @abstractmethod
     def off(self, truth: Truth, error: tuple[float, float]) -> dict[str, float]:
-        """Quantities of a world whose hole is off by an error (x, y, m) from below what is held over it; SI."""
+        """Quantities of a world in which the hole is displaced by `error` (x, y, m) from the point below the held
+        pin; SI.
+        """
 
     @abstractmethod
     def witnessed(self, cell: SimulatedCell) -> InsertionTruth:
-        """The truth so far, by the witness in a cell of this task."""
+        """The truth so far, as recorded by the witness in a cell of this task."""

@@ -1,4 +1,4 @@
-"""A task: what one kind of work needs besides a plan. Each lives in a folder of its own."""
+"""The interface of a task: cell, worlds, programs, limits and referee of one kind of work. Each task has a folder."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ if TYPE_CHECKING:  # a plan is made and checked without a simulator, and soon
 
 
 class CameraSetup(Record, frozen=True, kw_only=True):
-    """The television camera of a cell as the program knows it before it is calibrated."""
+    """The design of a cell's television camera before calibration, and the looks with which it is calibrated."""
 
     drawing: CameraModel
     looks: tuple[CalibrationLook, ...]  # how the arm shows its lamp to it, in order
 
 
 class HistoricalTiming(Record, frozen=True, kw_only=True):
-    """Times of the same work in the period, s."""
+    """Times of the same work in 1973, s."""
 
     year: int
     program: str  # the program that these are the times of
@@ -54,13 +54,13 @@ class ExportedScene(Record, frozen=True, kw_only=True):
     spec: mujoco.MjSpec
     about: str  # Markdown: its names, and how it differs from the cell
     parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    """Names of bodies that can be exported on their own, by the name of the whole they make."""
+    """Names of the bodies that can be exported separately, by the name of the whole that they form."""
     densities: Mapping[str, float] = field(default_factory=dict)
-    """Densities of solids of one metal throughout, by their names, kg/m3."""
+    """Densities, kg/m3, of solids that consist of one metal, by their names."""
 
 
 class Disturbance(Record, frozen=True, kw_only=True):
-    """A change of the cell between what the arm did and its reversal."""
+    """A change of the cell made after the work of the arm and before its reversal."""
 
     name: str
     meaning: str  # what is changed, in a sentence
@@ -69,27 +69,29 @@ class Disturbance(Record, frozen=True, kw_only=True):
 
 
 class Words(Record, frozen=True, kw_only=True):
-    """Words for the product of a task."""
+    """Words for the product of a task, for sentences."""
 
     product: str  # the product with its article: `the pump`
     done: str  # sentence for a product that is finished and right
     apart: str = "Every part is back where the run found it."
-    """Sentence for a run of which the arm has undone everything."""
+    """Sentence for a run in which the arm has undone all its work."""
 
 
 class AnyTask(ABC):
-    """A task of any kind of system: worlds, and a referee."""
+    """A task for any kind of system: worlds, a scene and a referee."""
 
     name: str
     words: Words
     camera: str = "studio"
-    """The camera of the scene that shows all of it to people: pictures are taken by it where none is named."""
+    """The camera of the scene that shows the whole cell; pictures use it unless another camera is named."""
     photographs: tuple[str, ...] = ()  # cameras of the scene whose view of the end is kept as a photograph
 
     force_axes: str = "world axes"  # the axes along which forces of the hand are given
     measures: Measures = INCHES  # the units in which its runs are shown to people
     holds_from: Mapping[str, int] = MappingProxyType({})
-    """Stages of its own program after which findings must hold before its end, by how their names begin."""
+    """Stages of the task's own program after which findings must already hold, by the beginning of the stage's
+    name.
+    """
 
     def __repr__(self) -> str:
         return f"<Task {self.name}>"
@@ -97,53 +99,57 @@ class AnyTask(ABC):
     @property
     @abstractmethod
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
-        """Names of the arm's joints, and whether each turns or slides."""
+        """Names of the arm's joints, each revolute or prismatic."""
 
     @abstractmethod
     def variation(self) -> Variation:
-        """The quantities in which worlds differ."""
+        """The table of quantities in which worlds differ."""
 
     def faults(self, world: WorldSpec) -> Catalogue:
-        """The faults possible in a world; none by default."""
+        """The faults that are possible in a world; none by default."""
         return Catalogue()
 
     @abstractmethod
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        """The scene of a world for pictures, before anything has happened in it; it is never simulated.
+        """The scene of a world in its initial state, for pictures only; it is never simulated.
 
-        It must have the cameras that the task names, and shapes in the groups that pictures show
-        (`handeye/cell/looks.py`): `shown` checks it.
+        The scene must have the cameras that the task names, and shapes in the geom groups that pictures show
+        (`handeye/cell/looks.py`); `shown` checks this.
 
         Raises:
             InvalidInput: there is no such world.
         """
 
     def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
-        """The scene of a run with a plan, which may say what lies there; arguments and errors are those of `scene`."""
+        """The scene of a run with a plan, which may determine what lies in the cell; arguments and errors are those
+        of `scene`.
+        """
         return self.scene(spec)
 
     def shown(self, spec: WorldSpec, plan: bytes | None = None) -> mujoco.MjModel:
-        """The scene of a world, or of a run with a plan; raises InvalidInput if it lacks what pictures need."""
+        """The scene of a world, or of a run with a plan; raises InvalidInput if the scene lacks a camera, or shows
+        nothing.
+        """
         scene = self.scene(spec) if plan is None else self.recorded_scene(spec, plan)
         _check_scene(self, scene)
         return scene
 
     @abstractmethod
     def judge(self, truth: Truth) -> Findings:
-        """Findings of the referee on the finished work. The cell is not touched."""
+        """Findings of the referee on the finished work; the cell is not changed."""
 
     def judge_apart(self, truth: Truth) -> Findings:
-        """Findings of the referee where the arm has undone all it did; none by default. The cell is not touched."""
+        """Findings of the referee after the arm has undone all its work; empty by default. The cell is not changed."""
         return {}
 
     @property
     def judges_apart(self) -> bool:
-        """True if its referee judges work that the arm has undone."""
+        """True if the task's referee can judge work that the arm has undone."""
         return type(self).judge_apart is not AnyTask.judge_apart
 
 
 def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
-    """Raises Refused if a scene lacks a camera that its task names, or shows nothing."""
+    """Raises Refused if a scene lacks a camera that its task names, or if it shows nothing."""
     from handeye.cell.looks import LATENT, SCENERY, SEEN
 
     cameras = [scene.camera(number).name for number in range(scene.ncam)]
@@ -160,66 +166,68 @@ def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
 
 
 class Task(AnyTask):
-    """Work for an arm that a planned program drives: its cell, its worlds, and its referee."""
+    """Work of an arm that is driven by a planned program: cell, worlds, programs and referee."""
 
     arm: ArmModel
     park: Array
-    """Joint positions when the cell is switched on, rad or m, shape (n,)."""
+    """Joint positions at which the cell is switched on, rad or m, shape (n,)."""
     script: str | None = None
-    """The program that is taken where none is named: a file among the plans, or the path of one elsewhere."""
+    """The task's own program, used unless another is named: a file among the included plans, or the path of a file
+    elsewhere.
+    """
     other_scripts: tuple[str, ...] = ()
-    """Its other programs, likewise. Commands find each by the name of its file without the ending."""
+    """Further programs of the task, given in the same way. Commands find each by its file name without the ending."""
     eye: CameraSetup | None = None
     period: HistoricalTiming | None = None
     contacts: Mapping[str, tuple[str, ...]] = MappingProxyType({})
-    """Positions at which the hand, or what it holds, meets something, by the name of the operation."""
+    """Positions at which the hand, or the object that it holds, makes contact, by the name of the operation."""
 
     @property
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
-        """Names of the arm's joints, and whether each turns or slides."""
+        """Names of the arm's joints, each revolute or prismatic."""
         return {joint.name: joint.kind for joint in self.arm.joints}
 
     @property
     def trials(self) -> Mapping[str, Trial[Any]]:
-        """Trials in many worlds that run no program, by their names; none by default."""
+        """Trials in many worlds that run no program, by name; none by default."""
         return {}
 
     def fixtures(self) -> Mapping[str, Fixture]:
-        """Obstacles that the planner keeps clear of, unless the program is taught others."""
+        """Obstacles that the planner avoids, unless the program has other taught fixtures."""
         return {}
 
     @abstractmethod
     def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:
-        """The cell of a world, switched on.
+        """Build the cell of a world and switch it on.
 
         Args:
-            camera: how pictures are made: `auto`, `gl` or `ray`, or what makes a renderer.
+            camera: the renderer: `auto`, `gl` or `ray`, or a function that makes one.
 
         Raises:
-            InvalidInput: there is no such world, or pictures cannot be made so here.
+            InvalidInput: there is no such world, or this renderer does not work here.
         """
 
     def disturbances(self) -> tuple[Disturbance, ...]:
-        """Changes that can be made before its work is undone; by default none."""
+        """Changes of the cell that can be made before the arm undoes its work; none by default."""
         return ()
 
     def bystanders(self, truth: Truth) -> Mapping[str, Array]:
-        """Places of the parts that the hand does not hold, by their names, m, each of shape (3,)."""
+        """Positions of the parts that the hand does not hold, by name, m, shape (3,) each."""
         return {}
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
-        """The scene of a world in the state of a truth of its cell, for other programs.
+        """The scene of a world, in the true state of its cell, for other programs.
 
         Args:
-            keyframe: name of the last keyframe, which is that state.
+            keyframe: name of the scene's last keyframe, which holds that state.
 
         Raises:
-            InvalidInput: this task exports none.
+            InvalidInput: this task exports no scene.
         """
         raise Refused(f"the task {quoted(self.name)} exports no scene")
 
     def check_arm(self, plan: Plan) -> None:
-        """See that a plan was made for the arm of this task; raises Refused if it was made for another one."""
+        """Check that a plan was made for this task's arm; raises Refused if it was made for another arm."""
         if (plan.arm, plan.arm_digest) != (self.arm.name, digest(self.arm)):
             raise Refused(f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again")
         joints = len(self.arm.joints)

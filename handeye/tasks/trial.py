@@ -9,12 +9,13 @@ from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 
 Known = Literal["lamp", "sightings", "drawn", "true"]
-"""Camera calibration: made with the arm's lamp as in a run, by simulated sightings of a lamp, as drawn, or
-exactly."""
+"""Origin of the camera calibration in a trial: the arm's lamp, as in a run; simulated sightings of a lamp; the
+design; or the true camera.
+"""
 
 
 class Attempt(Record, frozen=True, kw_only=True):
-    """One attempt and its outcome."""
+    """One attempt of a trial, with its outcome."""
 
     seed: int  # seed of the world
     number: int  # index of the attempt in that world, from 0
@@ -33,7 +34,7 @@ class Count:
 
 
 class Trial(ABC, Generic[A]):
-    """Something that can be tried without a program."""
+    """A kind of attempt that can be repeated without a program."""
 
     attempt: type[A]  # the class of its attempts
 
@@ -42,16 +43,18 @@ class Trial(ABC, Generic[A]):
 
     @abstractmethod
     def attempts(self, world: WorldSpec, number: int, *, camera: str, known: Known) -> Iterator[A]:
-        """`number` attempts in a world, its camera calibrated once; pictures made by `auto`, `gl` or `ray`."""
+        """`number` attempts in a world, with the camera calibrated once; pictures are rendered by `auto`, `gl` or
+        `ray`.
+        """
 
     @abstractmethod
     def sentence(self, attempt: A) -> str:
-        """The outcome of an attempt in a sentence."""
+        """The outcome of an attempt as a sentence."""
 
     @abstractmethod
     def count(self, attempts: Sequence[A]) -> Count:
-        """Counts over attempts, of which there is at least one."""
+        """Count attempts, of which there must be at least one."""
 
     def outcome(self, attempt: A) -> Literal["right", "missed", "wrong"]:
-        """The outcome of an attempt: by default right, unless something wrong was taken for right."""
+        """The outcome of an attempt; by default right, unless the attempt took something wrong for right."""
         return "wrong" if self.count([attempt]).wrong else "right"

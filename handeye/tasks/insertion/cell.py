@@ -1,4 +1,6 @@
-"""The insertion bench: an arm, a pin in a holder, a face with one hole, and a witness of the truth for the referee."""
+"""The insertion bench: an arm, a pin in a holder, a face with one hole, and a witness that records the truth for
+the referee.
+"""
 
 import math
 from typing import Final
@@ -21,24 +23,30 @@ from handeye.tasks.stanford_cell.dimensions import PARK, base_top, dimensions, p
 from handeye.tasks.stanford_cell.shapes import Bore, Shaper, add_camera
 
 HOLE: Final = (25 * INCH, 38 * INCH)
-"""Place of the hole as the program was taught it, m: among those of the pump's base."""
+"""Position of the hole as taught to the program, m: the position of a hole in the pump's base."""
 HOLDER: Final = (15 * INCH, 35 * INCH)
-"""Place of the holder in which the pin stands, m: as in the pump's cell."""
+"""Position of the holder with the pin, m: as in the pump's cell."""
 FACE: Final = base_top()  # height of the face around the hole, m
 CORNERS: Final = 48  # corners of a section of the nose, which is .005 mm slimmer between them
 WEDGES: Final = 24
-"""Wedges around the hole, which is .02 mm wider between them. With that nose, the play is .057 to .063 mm of .057."""
+"""Number of wedges around the hole, which is .02 mm wider between two wedges. With the rounded nose, the play is
+.057 to .063 mm instead of .057 mm.
+"""
 PUSH: Final = "push"
-"""Sensor of the force of the plate on the pin, which no device reads: the resultant of all their contacts, N, W."""
+"""Name of the sensor for the resultant force of all contacts between plate and pin, N, in W; no device reads the
+sensor.
+"""
 _NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
-"""The measured quantity: the force, of all contacts (their resultant), one of them."""
+"""The quantity that the sensor measures: the force, of all contacts (their resultant), one of them."""
 _RIM: Final = 0.070  # radius of the face around the hole, m
 _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
-"""Classes of shapes that rub as the world's parts do."""
+"""Classes of shapes whose friction is that of the world's parts."""
 
 
 def build(world: InsertionWorld) -> mujoco.MjModel:
-    """The compiled scene. Its arm is at joint zero, which joint 3 forbids: set a posture before stepping."""
+    """Compile the scene. Its arm is at joint positions of zero, outside the limits of joint 3: set a configuration
+    before stepping.
+    """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
     add_arm(spec, world)  # first: free bodies before it would shift its joints
     shaper = Shaper(spec=spec)
@@ -65,7 +73,9 @@ def _add_room(shaper: Shaper) -> None:
 
 
 def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
-    """A face with the hole: the nose meets wedges around it; the shoulder a flat land, as on the pump's base."""
+    """Add a face with the hole: the pin's nose touches wedges around the hole, and its shoulder touches a flat
+    land, as on the pump's base.
+    """
     d = dimensions()
     at = [HOLE[0] + world.plate[0], HOLE[1] + world.plate[1], 0.0]
     plate = shaper.spec.worldbody.add_body(name="plate", pos=at)
@@ -78,7 +88,9 @@ def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
 
 
 def _add_holder(shaper: Shaper) -> None:
-    """A holder like that of the pump's pins, with the pin in it; the pin's origin is in the plane of its shoulder."""
+    """Add a holder like that of the pump's pins, with the pin in it; the pin's origin is in the plane of its
+    shoulder.
+    """
     d, (x, y) = dimensions(), HOLDER
     radius, chamfer, height = d("pin_holder.hole_radius"), d("pin_holder.chamfer"), d("pin_holder.height")
     hole = Bore(radius=radius, outer=0.0125, height=0.021, above=chamfer)
@@ -91,7 +103,7 @@ def _add_holder(shaper: Shaper) -> None:
 
 
 def in_holder() -> Array:
-    """Place of the pin's origin as it stands in its holder, m, W, shape (3,)."""
+    """Position of the pin's origin when the pin stands in its holder, m, W, shape (3,)."""
     d = dimensions()
     seat = pin_seat(d("pin_holder.chamfer"), d("pin_holder.hole_radius"))
     return np.array([*HOLDER, d("pin_holder.height") + seat])
@@ -113,11 +125,13 @@ def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
 
 
 SEATED: Final = 2e-4
-"""Height of the shoulder over the face up to which a pin is seated, m. Chosen: a hundredth of its way."""
+"""Greatest height of the shoulder over the face at which a pin counts as seated, m. Chosen: a hundredth of its
+descent.
+"""
 
 
 class Witness(PhysicsStepper):
-    """Steps the physics, and looks at pin and plate after each step in which anything touches."""
+    """Steps the physics, and examines pin and plate after each step with a contact."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         super().__init__(model, data)
@@ -143,10 +157,10 @@ class Witness(PhysicsStepper):
 
 
 class InsertionCell(SimulatedCell):
-    """A cell in which a witness sees what pin and plate do to each other."""
+    """A cell with a witness that records the contacts of pin and plate."""
 
     def __init__(self, world: InsertionWorld) -> None:
-        """Switch the cell of a world on."""
+        """Switch on the cell of a world."""
         model = build(world)
         data, noise = mujoco.MjData(model), world.generator("sensors")
         arm = SimulatedArm(model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise)
@@ -161,12 +175,12 @@ def shoulder(data: mujoco.MjData) -> float:
 
 
 def off_holder(data: mujoco.MjData) -> tuple[float, float]:
-    """Distance of the pin from its place in the holder, m, and its lean, rad."""
+    """Distance of the pin from its position in the holder, m, and its tilt, rad."""
     pin = data.body("pin")
     return float(np.linalg.norm(pin.xpos - in_holder())), math.acos(min(1.0, float(pin.xmat[8])))
 
 
 def tip(data: mujoco.MjData) -> Array:
-    """Middle of the nose's end in W, m, shape (3,)."""
+    """Centre of the end of the pin's nose in W, m, shape (3,)."""
     pin = data.body("pin")
     return np.asarray(pin.xpos - dimensions()("pin.nose_length") * pin.xmat.reshape(3, 3)[:, 2])

@@ -1,4 +1,4 @@
-"""Insertion as a task: fetch one pin and put it into one hole."""
+"""Insertion as a task: fetch one pin and insert it into one hole."""
 
 from __future__ import annotations
 
@@ -22,12 +22,14 @@ if TYPE_CHECKING:
 
 
 HOLDER_PLACE: Final = 3.0
-"""mm that a pin put back may stand off its place: the holder's hole and its bevel, as in the pump's cell."""
+"""Greatest distance, mm, of a returned pin from its original position: the clearance of the holder's hole and its
+chamfer, as in the pump's cell.
+"""
 HOLDER_LEAN: Final = 10.0  # deg: it stands in the holder, and does not lean out
 
 
 class Insertion(InsertionTask):
-    """Put one pin into one hole."""
+    """Insert one pin into one hole."""
 
     name = "insertion"
     arm = STANFORD

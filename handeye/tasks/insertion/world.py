@@ -1,4 +1,4 @@
-"""Variation of the insertion bench: the arm and the hand as in every cell of theirs, and one hole."""
+"""The worlds of the insertion bench: arm and hand with the errors of all cells of the Stanford arm, and one hole."""
 
 from dataclasses import dataclass
 from typing import Final, Self
@@ -46,7 +46,7 @@ class InsertionWorld(ArmWorld):
 
     @classmethod
     def draw(cls, spec: WorldSpec) -> Self:
-        """The world of a specification; raises InvalidInput if it cannot be drawn here."""
+        """Draw the world of a specification; raises InvalidInput if that is impossible for this task."""
         world = VARIATION.draw(spec)
         return cls(
             **arm_values(world, _RUBBING),

@@ -1,1 +1,1 @@
-"""The parts that cells with the Stanford arm share: the arm as built, with its errors; dimensions; shapes of metal."""
+"""Parts common to all cells with the Stanford arm: the true arm with its errors; dimensions; shapes of metal parts."""

@@ -1,4 +1,4 @@
-"""Variation of the Stanford arm and its hand: their differences from the controller's model; joints count from 1."""
+"""Quantities in which the Stanford arm and its hand differ from the controller's model; joints are counted from 1."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
@@ -16,14 +16,14 @@ JOINT_UNITS: Final = ("deg", "deg", "in", "deg", "deg", "deg")
 ARM_PERIOD: Final = (60.0, 60.0, 8.0, 60.0, 60.0, 60.0)
 """Periods of the waviness of the potentiometers, in JOINT_UNITS."""
 ARM_CENTRE: Final = (-25.0, 105.0, 31.0, 0.0, 75.0, 20.0)
-"""Mid-work posture, in JOINT_UNITS, at which a wrong scale makes no error."""
+"""Configuration in the middle of the work area, in JOINT_UNITS, at which a scale error has no effect."""
 _TORQUES: Final = ("N m", "N m", "N", "N m", "N m", "N m")
 _RATES: Final = ("rad/s", "rad/s", "m/s", "rad/s", "rad/s", "rad/s")
 
 MOST: Final = {
     "in": 100.0, "deg": 360.0, "%": 1000.0, "oz": 1000.0, "N": 1000.0, "N m": 100.0, "rad/s": 10.0, "m/s": 10.0,
 }  # fmt: skip
-"""Greatest value that a quantity can be set to, by unit: beyond anything meant."""
+"""Greatest value to which a quantity can be set, by unit: beyond any plausible value."""
 _READING: Final = (
     "Offset of the potentiometers from the joints, which displaces the hand by .060 in (median), .112 in (95 %); "
     "layout study, section 4."
@@ -46,7 +46,7 @@ def group(
     least: float = -np.inf,
     greatest: float = np.inf,
 ) -> Iterator[Quantity]:
-    """Quantities with one source; magnitudes are never negative."""
+    """Quantities with a common source; magnitudes are never negative."""
     units = [unit] * len(components) if isinstance(unit, str) else unit
     nominals = np.broadcast_to(nominal, len(components))
     for (name, distribution), its, middle in zip(components.items(), units, nominals, strict=True):
@@ -128,7 +128,7 @@ def arm() -> Iterator[Quantity]:
 
 
 def _friction() -> Iterator[Quantity]:
-    """Coulomb friction of the joints; that of joint 1, which carries no weight, has no check."""
+    """Coulomb friction of the joints; for joint 1, which carries no weight, the paper gives no check."""
     means = STANFORD.compliance.friction
     what = (
         "Coulomb friction of the joints, varied by a quarter. Without this error it is the mean; set to 0, there "
@@ -170,7 +170,7 @@ def hand() -> Iterator[Quantity]:
 
 
 def rubbing(kinds: Sequence[str]) -> Iterator[Quantity]:
-    """Scales of the coefficients of friction of some kinds of shapes, by their names."""
+    """Factors on the coefficients of friction of some kinds of shapes, by name."""
     yield from group(
         "friction", {name: Uniform(15.0) for name in kinds}, "%",
         "Coefficients of friction divided by those of the drawing.", least=-100.0,

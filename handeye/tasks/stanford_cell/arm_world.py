@@ -1,4 +1,4 @@
-"""The arm and the hand of a drawn world, from which a cell is built."""
+"""The arm and the hand of one world, from which a cell is built."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,15 +23,15 @@ class ArmWorld:
     hand: HandErrors
     lamp: tuple[float, float, float]  # error of the lamp's place on the hand, in T, m
     friction: dict[str, float]
-    """Scales of the coefficients of friction, by kinds of shapes; `pad`: those of the fingers."""
+    """Factors on the coefficients of friction, by kind of shape; `pad` is the kind of the fingers."""
 
     def generator(self, stream: str) -> np.random.Generator:
-        """A source of noise of this world; different `stream`s are independent."""
+        """A random number generator for noise in this world; different streams are independent."""
         return self.drawn.generator(stream)
 
 
 def arm_values(world: World, rubbing: Sequence[str]) -> dict[str, Any]:
-    """Values of an `ArmWorld` by its fields; `rubbing`: the kinds of shapes whose friction differs."""
+    """The fields of an `ArmWorld` with their values; `rubbing` are the kinds of shapes whose friction varies."""
     return {
         "drawn": world,
         "arm": _arm(world),
@@ -67,7 +67,7 @@ def _arm_build(world: World) -> ArmBuild:
 
 
 def _joints(world: World, name: str) -> Array:
-    """A quantity of each joint, shape (6,)."""
+    """The values of a quantity for all joints, shape (6,)."""
     return np.array(world.numbered(f"arm.{name}"))
 
 

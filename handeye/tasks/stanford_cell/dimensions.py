@@ -1,4 +1,6 @@
-"""Figures of the work cell, read from `scenes/water_pump/dimensions.toml` into SI, and what follows from them."""
+"""Dimensions of the work cell, read from `scenes/water_pump/dimensions.toml` and converted to SI, and values
+computed from them.
+"""
 
 import math
 import tomllib
@@ -19,7 +21,7 @@ Point = tuple[float, float]
 PARK: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [
     DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE
 ]  # fmt: skip
-"""Joint positions of the parked arm: hand at (20, 28, 8) in, pointing down. Layout study, section 2."""
+"""Joint positions of the parked arm: the hand is at (20, 28, 8) in and points down. Layout study, section 2."""
 
 UNITS: Final = {
     "in": INCH,
@@ -36,7 +38,7 @@ UNITS: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Figure:
-    """One figure with its origin."""
+    """One figure with its unit and source."""
 
     values: tuple[float, ...]  # SI; a single one for a plain number
     unit: str  # the unit it was written in
@@ -45,19 +47,19 @@ class Figure:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Dimensions:
-    """All figures by dotted name, such as `base.plate.length`."""
+    """All figures, by dotted names such as `base.plate.length`."""
 
     figures: dict[str, Figure]
 
     def __call__(self, name: str) -> float:
-        """A single figure in SI; raises InvalidInput if there is no such figure, or it is a list."""
+        """A single figure in SI; raises InvalidInput if there is no such figure, or if it is a list."""
         values = self.all(name)
         if len(values) != 1:
             raise BadFile(f"the dimension `{name}` is a list of {counted(len(values), 'figure')}")
         return values[0]
 
     def all(self, name: str) -> tuple[float, ...]:
-        """All figures of a list, in SI; raises InvalidInput if there is no such figure."""
+        """All figures of a list, in SI; raises InvalidInput if there is no such list."""
         try:
             return self.figures[name].values
         except KeyError:
@@ -65,7 +67,9 @@ class Dimensions:
 
 
 def parse(text: str) -> Dimensions:
-    """Dimensions from TOML text; raises InvalidInput if not TOML, or a figure without value, known unit or source."""
+    """Dimensions from a TOML text; raises InvalidInput if the text is not TOML, or a figure lacks a value, a known
+    unit or a source.
+    """
     try:
         tree = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -106,7 +110,9 @@ def _figure(name: str, entry: dict[str, Any]) -> Figure:
 
 @cache
 def screw_holes(count: int = 6) -> tuple[Point, ...]:
-    """Centres of the screw holes in part coordinates, m: four around large hole 1, two beside 2, perhaps a seventh."""
+    """Centres of the screw holes in part coordinates, m: four around large hole 1, two beside large hole 2 and,
+    with `count` 7, a seventh.
+    """
     d = dimensions()
     r1, r2, x2 = d("base.screw_holes.radius_1"), d("base.screw_holes.radius_2"), d("base.large_hole_2.x")
     first = [(r1 * math.cos(a), r1 * math.sin(a)) for a in d.all("base.screw_holes.directions_1")]
@@ -116,32 +122,34 @@ def screw_holes(count: int = 6) -> tuple[Point, ...]:
 
 
 def base_top() -> float:
-    """Height of the base's machined face over its underside, m."""
+    """Height of the base's machined face above its underside, m."""
     d = dimensions()
     return d("base.plate.thickness") + d("base.casting.height")
 
 
 def pin_seat(chamfer: float, radius: float) -> float:
-    """Height over a hole's mouth (m, negative) where a pin's shoulder rests in its 45 degree chamfer."""
+    """Height above a hole's mouth (m, negative) at which the shoulder of a pin rests in the hole's 45 degree
+    chamfer.
+    """
     return min(0.0, dimensions()("pin.body_radius") - radius - chamfer)
 
 
 def standard() -> Pose:
-    """`X_WP` of the base in its standard position."""
+    """The pose `X_WP` of the base in its standard position."""
     d = dimensions()
     x, y = d.all("standard.place")
     return planar(x, y, 0.0, d("standard.yaw"))
 
 
 def dispenser_places(count: int = 6) -> tuple[Point, ...]:
-    """Places of the screws in the dispenser, table frame, m; a seventh behind the others."""
+    """Positions of the screws in the dispenser, table frame, m; the seventh is behind the others."""
     d = dimensions()
     x, y = d.all("dispenser.place")
     return tuple((x, y + (k - 2.5) * d("dispenser.pitch")) for k in range(count))
 
 
 def web_centre() -> float:
-    """Distance along x from large hole 1 to the middle of the gasket's web, m."""
+    """Distance along x from large hole 1 to the middle of the gasket's web between the two large holes, m."""
     d = dimensions()
     edge_1 = d("base.large_hole_1.diameter") / 2
     edge_2 = d("base.large_hole_2.x") - d("base.large_hole_2.diameter") / 2

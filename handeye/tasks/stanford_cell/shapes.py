@@ -17,10 +17,10 @@ _MARK_HALF_HEIGHT_M = 1e-4  # of the disc that marks a hole
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bore:
-    """A round hole along z, from z = 0 to `height`, in metal that reaches out to `outer`; all in m.
+    """A round hole along z, from z = 0 to `height`, in metal that extends to radius `outer`; all in m.
 
-    Its collision shape is a ring of convex wedges around the inscribed circle of `radius`, so a hole is never
-    narrower than drawn. 45 degree chamfers `above` and `below` are part of the wedge's profile.
+    The collision shape is a ring of convex wedges around the inscribed circle of `radius`, so that the hole is
+    never narrower than specified. The 45 degree chamfers `above` and `below` are part of the wedges' profile.
     """
 
     radius: float
@@ -31,7 +31,7 @@ class Bore:
     sectors: int = 12
 
     def wedge(self) -> Array:
-        """Corners of the sector around the x axis, shape (n, 3)."""
+        """Corners of the wedge around the x axis, shape (n, 3), m."""
         profile = [(self.outer, 0.0), (self.radius + self.below, 0.0), (self.radius, self.below)]
         profile += [(self.radius, self.height - self.above), (self.radius + self.above, self.height)]
         profile += [(self.outer, self.height)]
@@ -41,7 +41,7 @@ class Bore:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shaper:
-    """Adds geoms of the specification's default classes."""
+    """Adds geoms of the default classes of a specification."""
 
     spec: mujoco.MjSpec
 
@@ -90,7 +90,9 @@ class Shaper:
         at: Vector,
         style: Callable[[float], str],
     ) -> list[mujoco.MjsGeom]:
-        """The wedges of a bore with its axis through `at` (m); `style` gives their class by direction."""
+        """Add the wedges of a bore with its axis through `at` (m); `style` gives the class of each wedge by its
+        direction.
+        """
         if self.spec.mesh(mesh) is None:
             self.convex(mesh, bore.wedge())
         wedges = []
@@ -103,23 +105,25 @@ class Shaper:
         return wedges
 
     def lands(self, body: mujoco.MjsBody) -> mujoco.MjsBody:
-        """A body fixed in a part, for the lands that it rests on.
+        """Add a body fixed in a part, for the lands on which the part rests.
 
-        The simulator looks for contacts between bodies first, and the many shapes of two parts that lie on each
-        other are no pairs of anything but their lands: kept apart, they cost nothing.
+        The simulator first searches for contacts between bodies, then between their shapes. Two stacked parts touch
+        only at their lands; with the lands in separate bodies, the many other shapes of the parts cost no time.
         """
         return body.add_body(name=f"{body.name}_lands")
 
     def hole(self, body: mujoco.MjsBody, name: str, mouth: Vector, radius: float) -> None:
-        """Mark a hole: a site on its axis at the upper face (m), whose first size is the hole's radius."""
+        """Mark a hole with a site on its axis at the upper face (m); the first size of the site is the radius of
+        the hole.
+        """
         body.add_site(name=name, type=CYLINDER, pos=mouth, size=[radius, _MARK_HALF_HEIGHT_M, 0.0], group=5)
 
     def look(
         self, body: mujoco.MjsBody, name: str, material: str, surface: tuple[Array, NDArray[np.int32]],
         at: Vector = (0.0, 0.0, 0.0), style: str = "look",
     ) -> mujoco.MjsGeom:  # fmt: skip
-        """A surface without collisions: vertices, shape (n, 3), and triangles, shape (m, 3); style `scenery` is for
-        photographs only.
+        """Add a surface without collisions: vertices, shape (n, 3), and triangles, shape (m, 3). Surfaces of style
+        `scenery` appear only in photographs.
         """
         if self.spec.mesh(name) is None:
             self.spec.add_mesh(
@@ -142,7 +146,7 @@ def _named(geom: mujoco.MjsGeom, name: str, material: str | None) -> mujoco.MjsG
 
 
 def body_inertia(body: mujoco.MjsBody, mass: float, centre: Vector, moments: Vector) -> None:
-    """Give a body its mass (kg), mass centre (m) and principal moments (kg m2) instead of its geoms'."""
+    """Set the mass (kg), mass centre (m) and principal moments (kg m2) of a body, instead of those of its geoms."""
     body.explicitinertial = True
     body.mass = mass
     body.ipos[:] = centre
@@ -156,7 +160,7 @@ def box_moments(mass: float, size: Vector) -> list[float]:
 
 
 def towards(view: Array) -> list[float]:
-    """Quaternion of a frame whose -z axis points along `view`, x level."""
+    """Quaternion of a frame whose -z axis points along `view` and whose x axis is level."""
     z = -view / np.linalg.norm(view)
     x = np.cross((0.0, 0.0, 1.0), z)
     x /= np.linalg.norm(x)
@@ -166,5 +170,5 @@ def towards(view: Array) -> list[float]:
 
 
 def add_camera(spec: mujoco.MjSpec, name: str, eye: Array, at: Array) -> mujoco.MjsCamera:
-    """A camera at `eye` that looks at `at`, upright (m)."""
+    """Add a camera at `eye` that looks at `at`, upright (m)."""
     return spec.worldbody.add_camera(name=name, pos=eye.tolist(), quat=towards(at - eye))

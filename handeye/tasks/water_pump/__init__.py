@@ -1,1 +1,1 @@
-"""The assembly of an automobile water pump: its scene, its errors, its referee."""
+"""The assembly of an automobile water pump: scene, worlds, faults, referee."""

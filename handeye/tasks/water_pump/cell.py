@@ -1,4 +1,4 @@
-"""The work cell of the water pump: its scene, its devices, its threads and its clamping, put together."""
+"""Builds the work cell of the water pump from its scene, devices, threads and clamping."""
 
 import mujoco
 
@@ -23,10 +23,11 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: bool = True) -> SimulatedCell:
-    """The cell of a world; without `rest` no part sleeps or is welded where clamped: the same, slower.
+    """Build the cell of a world; without `rest`, no part sleeps and no clamped parts are welded, which gives the
+    same physics more slowly.
 
-    `camera` says how to make pictures: `auto`, `gl` or `ray`, or what makes their renderer. Raises InvalidInput if
-    pictures cannot be made so here.
+    `camera` is the renderer: `auto`, `gl` or `ray`, or a function that makes one. Raises InvalidInput if this
+    renderer does not work here.
     """
     model = build(world)
     data = mujoco.MjData(model)

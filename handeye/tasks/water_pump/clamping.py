@@ -1,15 +1,15 @@
-"""Parts at rest cost nothing, and parts clamped together move as one.
+"""Saves computing time: parts at rest sleep, and parts clamped together move as one.
 
-*Sleep.* MuJoCo puts an island of trees to sleep once all of it has stood still, and wakes it at the first
-contact with something awake, so the working phase cannot tell. By default it never lets a tree with a motor
-sleep, which would keep the driver awake, and the base too, since the driver's motor can turn the thread
-carriers in it. Here they may sleep: the motor turns a carrier only while the bit is on its head, and that
-contact wakes the base; a driver whose motor is switched on is woken by hand.
+*Sleep.* MuJoCo puts a group of bodies to sleep once all of them are at rest, and wakes the group at the first
+contact with an awake body, so the working phase cannot notice it. By default, MuJoCo never lets bodies with a motor
+sleep. This would keep the driver awake, and also the base, because the driver's motor can turn the thread carriers
+in the base. Here they may sleep: the motor turns a carrier only while the bit is on the carrier's screw head, and
+that contact wakes the base; a driver whose motor is switched on is woken explicitly.
 
-*Clamping.* Two seated screws press gasket and top on the base, and friction holds them there. From then on welds do,
-and the contacts between them, most of the cost of the stack, are left out. Where a hand, a shank or anything else
-pushes on a layer by more than that friction, or pulls by more than the clamp, and with fewer than two screws, the
-contacts are back.
+*Clamping.* Two seated screws press gasket and top on the base, and friction holds them there. From then on welds
+hold the layers, and the contacts between the layers, which take most of the computing time of the stack, are
+switched off. The contacts are switched on again if a hand, a shank or any other body pushes on a layer by more than
+the friction, or pulls by more than the clamp, and with fewer than two screws.
 """
 
 from typing import Final
@@ -40,7 +40,7 @@ class ClampingState(Record, frozen=True, kw_only=True):
 
 
 class Clamping(Mechanism[ClampingState]):
-    """Sleep and clamping for one cell."""
+    """Sleep and clamping in one cell."""
 
     name = "clamping"
     kind = ClampingState
@@ -49,7 +49,7 @@ class Clamping(Mechanism[ClampingState]):
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, threads: Threads, *, allowed: bool
     ) -> None:
-        """With `allowed` false everything stays awake and apart: the same physics, slower."""
+        """With `allowed` False, everything stays awake and separate: the same physics, more slowly."""
         self._model, self._data, self._threads, self._allowed = model, data, threads, allowed
         self._base = model.body("base").id
         self._layers = [model.body(name).id for name in _LAYERS]
@@ -71,7 +71,7 @@ class Clamping(Mechanism[ClampingState]):
             model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
 
     def before(self, seconds: float) -> None:
-        """Join or part the layers as the screws press now."""
+        """Weld the layers together or separate them, according to the present clamp of the screws."""
         clamps = [hole.clamp for hole in self._threads.holes]
         clamped = (
             self._allowed
@@ -91,7 +91,7 @@ class Clamping(Mechanism[ClampingState]):
         self._clamped = state.clamped
 
     def _slips(self, clamp: float) -> bool:
-        """True if something pushes on a layer by more than friction holds under a clamp (N), or lifts it off."""
+        """True if a force on a layer exceeds the friction under a clamp (N), or lifts the layer."""
         first, second = self._data.contact.geom.T
         if not (
             (self._layered[first] & self._foreign[second]) | (self._layered[second] & self._foreign[first])
@@ -104,7 +104,7 @@ class Clamping(Mechanism[ClampingState]):
         return False
 
     def _pushed(self, layer: NDArray[np.bool_]) -> Array:
-        """Force in W of all that touches a layer and is no part of the stack, N, shape (3,)."""
+        """Force in W of all bodies outside the stack that touch a layer, N, shape (3,)."""
         model, data, total, found = self._model, self._data, np.zeros(3), np.zeros(6)
         first, second = data.contact.geom.T
         for into, sign in ((second, 1.0), (first, -1.0)):  # a contact's force is that on its second geom
@@ -127,11 +127,11 @@ class Clamping(Mechanism[ClampingState]):
         model.geom_conaffinity[self._lands] = 0
 
     def release(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Give the layers their contacts back, in this model or a copy of it."""
+        """Restore the contacts of the layers, in this model or in a copy of it."""
         data.eq_active[self._welds] = 0
         model.geom_contype[self._lands], model.geom_conaffinity[self._lands] = self._bits
 
 
 def lands_of(drawn: mujoco.MjModel) -> NDArray[np.intp]:
-    """The lands of gasket and top in a scene in which nothing is clamped."""
+    """The lands of gasket and top, in a scene in which nothing is clamped."""
     return np.flatnonzero(np.isin(drawn.geom_contype, _LANDS))

@@ -1,8 +1,8 @@
 """The pump's cell for other programs: parts with readable names, screws in place, no mechanisms.
 
-In the cell a screw in its thread is a carrier, and the screw itself lies on a tray below the floor
-(`cell/threads.py`). Here it is the screw that is in its hole: it is where the carrier is, welded to the
-base. Carriers, tray, and what couples the driver's motor to a carrier are left out.
+In the simulated cell, a carrier represents a screw in its thread, and the screw itself lies on a tray below the
+floor (`cell/threads.py`). In the export, the screw is in its hole, at the pose of the carrier, welded to the base.
+Carriers, the tray, and the coupling between the driver's motor and a carrier are left out.
 """
 
 from typing import Final
@@ -21,7 +21,7 @@ from handeye.tasks.water_pump.scene.textures import add_textures
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 RENAMED: Final = {"pin0": "pin1", "pin1": "pin2"}
-"""Exported names of bodies, and of their joints, by their names in the scene."""
+"""Exported names of bodies and of their joints, by their names in the scene."""
 _METAL: Final = {
     "base.casting.density": ("casting", "floor_2"),
     "base.plate.density": ("base_plate",),
@@ -41,7 +41,7 @@ _MECHANISMS: Final = {
 
 
 def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
-    """The scene of a world as a truth of its cell has it; arguments are those of `Task.exported`."""
+    """The scene of a world in the true state of its cell; arguments are those of `Task.exported`."""
     model, data = truth.copy()
     spec = specification(world)
     model.eq_data[:] = spec.compile().eq_data  # of bonds that are left out
@@ -67,7 +67,9 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
 
 
 def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
-    """Densities of the solids of one metal, kg/m3; `cast` scales those of base and top in this world."""
+    """Densities, kg/m3, of the solids that consist of one metal; `cast` is the factor on those of base and top in
+    this world.
+    """
     steel = spec.find_default("shank")
     assert steel is not None
     table = {
@@ -79,7 +81,7 @@ def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
 
 
 def _weld(spec: mujoco.MjSpec, screw: str, X_BS: Pose) -> None:
-    """Hold a screw in its hole, where its thread and the wedges around the hole overlap."""
+    """Weld a screw in its hole, where thread and wedges of the hole overlap."""
     weld = spec.add_equality(
         name=f"{screw}_in_thread", type=mujoco.mjtEq.mjEQ_WELD, objtype=mujoco.mjtObj.mjOBJ_BODY,
         name1="base", name2=screw, solref=[0.004, 1.0], solimp=[0.99, 0.999, 0.0001, 0.5, 2.0],

@@ -1,4 +1,4 @@
-"""The water pump as a task: the one place that says where everything of it is found."""
+"""The water pump as a task: connects scene, worlds, faults, programs and referee."""
 
 from __future__ import annotations
 

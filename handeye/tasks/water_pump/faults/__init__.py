@@ -1,1 +1,1 @@
-"""Faults of the pump's cell: before a run, during it, and between the work and its undoing."""
+"""Faults of the pump's cell: before a run, during a run, and between the work and its reversal."""

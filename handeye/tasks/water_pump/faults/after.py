@@ -1,7 +1,8 @@
-"""Faults after a run: disturbances of a finished pump, behind the arm's back, before the arm undoes what it did.
+"""Faults after a run: changes of a finished pump, made unknown to the arm before the arm undoes its work.
 
-The hand that does it is not simulated. What is taken away lies on the tray under the floor from then on, where nothing
-meets it; what is moved is elsewhere, at rest; what is glued is welded. A hand that tightens a screw is a torque.
+The person's hand that makes a change is not simulated. A removed part lies on the tray below the floor, where
+nothing touches it; a moved part is elsewhere, at rest; glued parts are welded. A hand that tightens a screw is
+simulated as a torque.
 """
 
 from collections.abc import Callable, Mapping
@@ -108,7 +109,7 @@ _OF_A_STACK: Final[Mapping[str, tuple[str, Make]]] = {
 
 
 def disturbances() -> tuple[Disturbance, ...]:
-    """The disturbances of a whole pump, then those of one whose top has just been put on."""
+    """The changes to a whole pump, then those to a pump on which the top has just been put."""
     return tuple(
         Disturbance(name=name, meaning=meaning, make=make, after=after)
         for after, those in ((None, _OF_A_PUMP), (TOP_ON_STAGE, _OF_A_STACK))
@@ -120,7 +121,7 @@ def disturbances() -> tuple[Disturbance, ...]:
 
 
 def bystanders(truth: Truth) -> dict[str, Array]:
-    """Places of the parts on table or belt that no finger touches, m; screws left out."""
+    """Positions of the parts on table or belt that no finger touches, m; without the screws."""
     model, data = truth.model, truth.data
     bodies = model.geom_bodyid[data.contact.geom]
     holding = np.isin(bodies, [model.body(name).id for name in _FINGERS])

@@ -1,6 +1,7 @@
-"""Faults that are there before a run: parts of the pump and its cell that are missing, of another size, or misplaced.
+"""Faults that are present before a run: parts of the pump and its cell that are missing, of a wrong size, or
+misplaced.
 
-A wrong part is wrong in the scene, before anything happens; the devices that meet it work.
+The scene itself has the wrong part from the beginning; all devices work correctly.
 """
 
 from __future__ import annotations
@@ -36,14 +37,16 @@ GONE: Final = {
     "base": (-0.15, 0.15), "gasket": (-0.15, -0.15), "top": (0.15, -0.2), "driver": (0.2, 0.2), "pin0": (0.0, 0.1),
     "pin1": (0.05, 0.1), **{f"screw{k}": (0.05 * k - 0.1, 0.05) for k in range(7)},
 }  # fmt: skip
-"""Places (m) for what is missing: on the tray under the floor, where nothing can meet it."""
+"""Positions (m) for missing parts, on the tray below the floor, where nothing can touch them."""
 OVER_TRAY_M: Final = 0.12  # what hangs below a part's origin
 
 _SMOOTH: Final = "bit.smooth"
 _CARD_HALF_M: Final = 0.08
 _FOREMOST: Final = 3  # priority in a contact, over all shapes of the scene
 METAL: Final = ((0.004, 1.0), (0.999, 0.9999, 0.0001, 0.5, 2.0))
-"""Stiffness of what ends a hole. Measured: a thread drives its screw straight through MuJoCo's own limit of a joint."""
+"""Stiffness of the end of a blocked hole. Measured: with MuJoCo's own joint limit, a thread drives its screw
+straight through.
+"""
 _AWAY: Final = Size(unit="mm", usual=6.0, limits=(-50.0, 50.0))
 
 
@@ -52,14 +55,14 @@ PartFault = PumpFault[Change]
 
 @cache
 def part_faults(screws: int) -> tuple[PartFault, ...]:
-    """All faults of parts of a pump with this number of screws, in the order they are listed."""
+    """All faults of parts of a pump with this number of screws, in the order in which they are listed."""
     return (
         *_base(), *_gasket(), *_top(), *_pins(), *_screws(screws), *_holes(screws), *_screwdriver_and_light()
     )  # fmt: skip
 
 
 def break_parts(spec: mujoco.MjSpec, faults: Sequence[Fault], screws: int) -> None:
-    """Make parts of a scene wrong; faults of devices change nothing in it."""
+    """Apply the faults of parts to a scene; faults of devices change nothing in a scene."""
     for fault, change in broken(part_faults(screws), faults):
         change(spec, fault.value or 0.0)
 
@@ -252,19 +255,23 @@ def _screwdriver_and_light() -> Iterator[PartFault]:
 
 
 def bad_threads(faults: Sequence[Fault], how: Literal["scarred", "crosses"]) -> frozenset[int]:
-    """Indices of the tapped holes in which a screw was crossed before, or every screw crosses."""
+    """Indices of the tapped holes in which a screw was cross-threaded before (`scarred`), or in which every screw
+    cross-threads (`crosses`).
+    """
     return _numbered(faults, "thread", how)
 
 
 def slipping_screws(faults: Sequence[Fault], count: int) -> frozenset[int]:
-    """Indices of screws that the bit slips on and no thread takes: those without a slot, all if the bit is smooth."""
+    """Indices of screws on which the bit slips and which no thread takes: screws without a slot, or all screws if
+    the bit is smooth.
+    """
     if any(fault.name == _SMOOTH for fault in faults):
         return frozenset(range(count))
     return _numbered(faults, "screw", "slotless")
 
 
 def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
-    """Indices, from 0, in the faults called THING.NUMBER.WHAT."""
+    """Indices, from 0, in the names of faults of the form THING.NUMBER.WHAT."""
     names = (fault.name.split(".") for fault in faults)
     return frozenset(
         int(name[1]) - 1 for name in names if len(name) == 3 and (name[0], name[2]) == (thing, what)
@@ -275,7 +282,7 @@ def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
 
 
 def _as_drawn(spec: mujoco.MjSpec, _: float) -> None:
-    """Change nothing: threads are no shapes, see `bad_threads`."""
+    """Change nothing, because threads are no shapes; see `bad_threads`."""
 
 
 def _missing(part: str, spec: mujoco.MjSpec, _: float) -> None:
@@ -296,7 +303,7 @@ def _reverse(spec: mujoco.MjSpec, part: str, middle: Point) -> None:
 
 
 def _turn(spec: mujoco.MjSpec, part: str, middle: Point, yaw: float) -> None:
-    """Turn a part about the vertical to a direction (rad) on a point of its own, m; it leans as it leant."""
+    """Turn a part about the vertical through one of its points (m) to the direction `yaw` (rad); its tilt is kept."""
     body = spec.body(part)
     angle = yaw - _yaw(spec, part)
     w, *vector = body.quat
@@ -313,7 +320,7 @@ def _yaw(spec: mujoco.MjSpec, part: str) -> float:
 
 
 def _thicken(spec: mujoco.MjSpec, factor: float) -> None:
-    """Scale the gasket's thickness."""
+    """Multiply the gasket's thickness by a factor."""
     gasket = spec.body("gasket")
     for mesh in {geom.meshname for geom in gasket.geoms if geom.meshname}:
         spec.mesh(mesh).scale[2] *= factor
@@ -329,18 +336,18 @@ def _thicken(spec: mujoco.MjSpec, factor: float) -> None:
 
 
 def _slippery(shape: str, spec: mujoco.MjSpec, _: float) -> None:
-    """Let nothing rub on a shape: its friction counts in every contact, and not the greater one of the two."""
+    """Remove the friction of a shape in all its contacts; normally the greater friction of two shapes counts."""
     geom = spec.geom(shape)
     geom.friction[:], geom.priority = 0.0, _FOREMOST
 
 
 def _strip(hole: int, spec: mujoco.MjSpec, _: float) -> None:
-    """Let a screw slide and turn in a hole as it will."""
+    """Strip the thread of a hole, so that a screw slides and turns freely in it."""
     spec.equality(f"thread{hole}").active = False
 
 
 def _chip(spec: mujoco.MjSpec, high: float) -> None:
-    """Lay a chip under the end of the top that is farther from its hub, and lift the top to over it."""
+    """Put a chip under the end of the top that is farther from its hub, and lift the top onto the chip."""
     d = dimensions()
     (x, y), stand = d.all("top_stand.grasp"), d("top_stand.height")
     chip = spec.body("top_stand").add_geom(
@@ -351,7 +358,7 @@ def _chip(spec: mujoco.MjSpec, high: float) -> None:
 
 
 def _shade(spec: mujoco.MjSpec, _: float) -> None:
-    """Hang a card half way between the light and the base; light comes past one of its edges to the base's middle."""
+    """Hang a card half way between the lamp and the base, so that its shadow covers the base up to the middle."""
     light, base = next(each for each in spec.lights if each.name == "key").pos, spec.body("base").pos
     card = spec.worldbody.add_geom(
         name="card", type=spec.geom("hub").type, contype=0, conaffinity=0, group=2, rgba=[0.2, 0.2, 0.2, 1.0]
@@ -375,7 +382,7 @@ def _thick_point(screw: str, spec: mujoco.MjSpec, more: float) -> None:
 
 
 def _block(hole: int, plug_name: str, spec: mujoco.MjSpec, depth: float) -> None:
-    """Fill the hole with metal up to a depth below its mouth, and let no screw in its thread go deeper."""
+    """Fill a hole with metal up to a depth below its mouth, so that no screw in its thread can go deeper."""
     x, y, mouth = spec.site(f"base_hole{hole}").pos
     floor = base_top() - dimensions()("base.screw_holes.depth")
     plug = spec.body("base").add_geom(

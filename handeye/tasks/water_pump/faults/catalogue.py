@@ -1,4 +1,4 @@
-"""The catalogue of the pump's faults, and those tried by default."""
+"""The catalogue of the pump's faults, and the faults that are tried by default."""
 
 from typing import Final
 
@@ -43,5 +43,5 @@ MATRIX: Final = tuple(f"{broken}.{how}" for broken, hows in _TRIED.items() for h
 
 
 def catalogue(world: WorldSpec) -> Catalogue:
-    """The faults of a world: devices, parts, mishaps."""
+    """The faults that are possible in a world: of devices, of parts, and mishaps."""
     return Catalogue(*device_faults(), *part_faults(screws(world)), *mishap_faults(), matrix=MATRIX)

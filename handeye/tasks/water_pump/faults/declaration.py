@@ -1,4 +1,4 @@
-"""The declaration of a fault of the pump's cell: its name, size, time and expected detection, and what it breaks."""
+"""The declaration of a fault of the pump's cell: name, size, time, expected detection, and effect."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ B = TypeVar("B")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PumpFault(FaultKind, Generic[B]):
-    """A fault of the catalogue together with what it breaks: a change of the scene, lines of devices, or a mishap."""
+    """A fault of the catalogue with its effect: a change of the scene, defects of device lines, or a mishap."""
 
     breaks: B
 
@@ -25,13 +25,13 @@ def declared(
     *,
     stage: int | None = None,
 ) -> PumpFault[B]:
-    """A fault that begins during a run; by default with a stage, or from the start."""
+    """Declare a fault that begins during a run: by default with `stage`, or from the start if there is none."""
     return PumpFault(
         name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
     )
 
 
 def broken(those: Iterable[PumpFault[B]], faults: Sequence[Fault]) -> list[tuple[Fault, B]]:
-    """The `faults` of a run that are declared here, each with what it breaks."""
+    """The faults of a run that are declared among `those`, each with its effect."""
     known = {fault.name: fault.breaks for fault in those}
     return [(fault, known[fault.name]) for fault in faults if fault.name in known]

@@ -1,4 +1,6 @@
-"""Faults of devices, from the start of a run or from a stage on: the lines each breaks, and what they then carry."""
+"""Faults of devices, from the start of a run or from a stage on: the signal lines concerned, and the defect of
+each.
+"""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
@@ -69,18 +71,18 @@ _WITHIN_WEIGHTS: Final = (
 _GAIN: Final = Size(unit="", usual=1.3, limits=(0.0, 3.0))
 
 Lines = Sequence[tuple[str, Callable[[float], Effect]]]
-"""The lines that a fault breaks, and what it does to each, by its value."""
+"""The signal lines that a fault affects, each with a function from the size of the fault to the effect."""
 DeviceFault = PumpFault[Lines]
 
 
 @cache
 def device_faults() -> tuple[DeviceFault, ...]:
-    """All faults of devices, in the order they are listed."""
+    """All faults of devices, in the order in which they are listed."""
     return (*_switches(), *_hand(), *_force(), *_joints(), *_screwdriver(), *_sight())
 
 
 def defects(faults: Sequence[Fault]) -> tuple[Defect, ...]:
-    """Defects of the cell's lines; faults that are not of devices have none."""
+    """Defects of the cell's lines for the given faults; only faults of devices have defects."""
     return tuple(
         Defect(line=line, effect=effect(fault.value or 0.0), stage=fault.stage)
         for fault, lines in broken(device_faults(), faults)

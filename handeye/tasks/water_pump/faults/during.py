@@ -1,8 +1,9 @@
-"""Faults that begin during a run: mishaps, by a person's hand or by chance.
+"""Faults that begin during a run: mishaps, caused by a person's hand or by chance.
 
-Each begins with a stage and lasts a stated time. What is taken away or lost lies from that moment on the tray under
-the floor, where nothing meets it: the hand that takes it is not simulated. A push is a force; so is the hand that moves
-the base, a spring to a point that goes at a constant speed, and friction drags along what stands on the base.
+Each mishap begins with a stage and lasts a stated time. A part that is taken away or lost lies on the tray below
+the floor from then on, where nothing touches it; the hand that takes it is not simulated. A push is a force. The
+hand that moves the base is a spring to a point that moves at constant speed, and friction carries along the parts
+on the base.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -26,12 +27,14 @@ from handeye.tasks.water_pump.faults.mishap import Mishap, MishapFault, MishapSt
 PUSH_S: Final = 2.0
 MOVE_S: Final = 1.0
 HAND: Final = (4000.0, 60.0, 150.0)
-"""Spring (N/m), damper (N s/m), greatest force (N) of the hand that moves the base; measured: it ends 2 mm short."""
+"""Spring (N/m), damper (N s/m) and greatest force (N) of the hand that moves the base; measured: the base ends 2 mm
+short.
+"""
 LIFTED_M: Final = 0.02  # a part that has come up by this is held by the hand, and not by what it stood in
 
 
 class MishapsState(Record, frozen=True, kw_only=True):
-    """States of all mishaps, in their order."""
+    """States of all mishaps, in the order of the mishaps."""
 
     mishaps: tuple[MishapState, ...]
 
@@ -69,7 +72,7 @@ def _moved(axis: int, way_m: float) -> Mishap:
 
 
 def _take_away(scene: Scene, _: MishapState) -> bool:
-    """The base is taken away, with all that stands on it."""
+    """The base is taken away, with all parts on it."""
     way = scene.to_tray("base")
     for part in scene.stack():
         scene.shift(part, way)
@@ -93,7 +96,7 @@ def _put_out(scene: Scene, _: MishapState) -> bool:
 
 @cache
 def mishap_faults() -> tuple[MishapFault, ...]:
-    """All mishaps, in the order they are listed."""
+    """All mishaps, in the order in which they are listed."""
     return (*_light_and_pushes(), *_base(), *_losses(), *faults_of_finished_work())
 
 

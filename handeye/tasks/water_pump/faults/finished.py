@@ -1,4 +1,6 @@
-"""Mishaps to what is finished: screws that work loose, parts and tools taken away, a rotor that jams or stops."""
+"""Mishaps to finished work: screws that come loose, parts and tools that are taken away, a rotor that jams or meets
+a stop.
+"""
 
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -21,7 +23,7 @@ _FREE_RAD: Final = 1e3  # beyond any turn of the rotor
 
 
 def _loose(screw: int, turns: float | None, scene: Scene, _: MishapState) -> bool:
-    """A screw works loose, or falls out, as soon as it is in its thread and the bit has left it."""
+    """A screw comes loose, or falls out, as soon as it is in its thread and the bit has left it."""
     assert scene.threads is not None
     if not scene.threads.loosen(screw, turns):
         return False
@@ -41,7 +43,7 @@ def _take(part: str, scene: Scene, _: MishapState) -> bool:
 
 
 def _take_layer(part: str, scene: Scene, _: MishapState) -> bool:
-    """Take gasket or top away, if neither a screw nor a top that lies on it holds it."""
+    """Gasket or top is taken away, if no screw and no top on it holds it."""
     assert scene.threads is not None
     over = scene.place("top") - scene.place("gasket")
     covered = part == "gasket" and np.hypot(*over[:2]) < ON_BASE_M and over[2] > 0
@@ -51,7 +53,7 @@ def _take_layer(part: str, scene: Scene, _: MishapState) -> bool:
 
 
 def _rotor(scene: Scene) -> tuple[int, int]:
-    """The rotor's joint and degree of freedom, awake."""
+    """The rotor's joint and degree of freedom; its body is woken."""
     joint = int(scene.model.joint("rotor").id)
     dof = int(scene.model.jnt_dofadr[joint])
     wake(scene.data, dof)
@@ -65,7 +67,7 @@ def _jam(scene: Scene, _: MishapState) -> bool:
 
 
 def _stop(angle: float) -> Mishap:
-    """The rotor meets a stop at an angle (rad) from where it is, to one side."""
+    """The rotor meets a stop at an angle (rad) from its present position, on one side."""
 
     def act(scene: Scene, _: MishapState) -> bool:
         joint = _rotor(scene)[0]
@@ -99,7 +101,7 @@ def _loosened_by(screw: int) -> Callable[[float], Mishap]:
 
 
 def faults_of_finished_work() -> Iterator[MishapFault]:
-    """All of them, in the order they are listed."""
+    """All mishaps to finished work, in the order in which they are listed."""
     yield from _screws()
     yield from _rotors()
     yield from _taken()

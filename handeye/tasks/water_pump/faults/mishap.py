@@ -1,4 +1,4 @@
-"""A mishap: what happens once to the parts of a pump's cell, and the scene in which it does."""
+"""A mishap, an event that happens once to the parts of a pump's cell, and the scene in which it happens."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class MishapState(Record, frozen=True, kw_only=True):
 
     seconds: float | None = None  # since it began; None: it has not
     place: tuple[float, float, float] | None = None
-    """m: where its part was then, if it is one that happens to a part."""
+    """Position of the part, m, when the mishap began; None if the mishap concerns no part."""
     over: bool = False  # it has happened
 
 
@@ -41,18 +41,18 @@ class Scene:
         return slice(start, start + 6)
 
     def place(self, part: str) -> Array:
-        """Place of a free part, m: a view of the simulator's own array."""
+        """Position of a free part, m, as a view of the simulator's own array."""
         start = int(self.model.jnt_qposadr[self.model.body_jntadr[self.model.body(part).id]])
         return np.asarray(self.data.qpos[start : start + 3])
 
     def shift(self, part: str, way: Array) -> None:
-        """Put a free part elsewhere, at rest."""
+        """Move a free part by `way` (m), at rest."""
         self.place(part)[:] += way
         self.data.qvel[self.dofs(part)] = 0.0
         wake(self.data, self.dofs(part).start)
 
     def stack(self) -> list[str]:
-        """The base, and the parts that stand on it."""
+        """The base and the parts on it."""
         (x, y, z), parts = self.place("base"), ["base"]
         for part in _STACK:
             aside, high = self.place(part)[:2] - (x, y), self.place(part)[2] - z
@@ -61,18 +61,18 @@ class Scene:
         return parts
 
     def take(self, part: str) -> None:
-        """Take a part away: it lies on the tray from then on."""
+        """Take a part away: from then on it lies on the tray."""
         self.shift(part, self.to_tray(part))
 
     def to_tray(self, part: str) -> Array:
-        """The way of a part to its place on the tray, m, shape (3,)."""
+        """Displacement of a part to its place on the tray, m, shape (3,)."""
         (x, y), tray = GONE[part], self.model.geom("tray").id
         return np.array([x, y, self.data.geom_xpos[tray][2] + OVER_TRAY_M]) - self.place(part)
 
 
 @dataclass(frozen=True, slots=True)
 class Mishap:
-    """An event that happens once: `act` acts for one physics tick, and is true when it is over."""
+    """An event that happens once: `act` acts for one physics tick, and returns True when the event is over."""
 
     act: Callable[[Scene, MishapState], bool]
     watched: str | None = None  # the part whose place at the beginning it needs, if any

@@ -1,8 +1,9 @@
-"""Expected detection: calls of the operator that name a fault rightly, and expectations that several faults share.
+"""Expected detection: the calls of the operator that name a fault correctly, and expectations that several faults
+share.
 
-What is expected of each fault stands in its declaration. The right name of a fault is that of the part or sense that is
-wrong, so that a person knows where to look. Where the arm cannot tell causes apart, it is a class of them, and says so:
-a screw that stops high may be crossed, or its hole may be blocked.
+The expected detection of a fault is part of its declaration. A correct call names the faulty part or sense, so that
+a person knows where to look. If the arm cannot distinguish several causes, the call names all of them: a screw that
+stops high may be cross-threaded, or its hole may be blocked.
 """
 
 from typing import Final
@@ -28,11 +29,13 @@ DRIVE_FIRST: Final = "drive the first two screws"
 DRIVE_LAST: Final = "drive the last four screws"
 
 ASTRAY: Final = "{what}: THE BASE IS LOST, OR A JOINT READS WRONG"
-"""Of no table and no block: a joint that was off from the beginning. Both its senses agree, the camera is calibrated
-with it, and only what stands in the cell shows it."""
+"""Calls for a joint that was off from the beginning. The joint's two sensors agree, and the camera is calibrated
+with the joint, so only the parts in the cell reveal the error, but not the table and the blocks.
+"""
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
-"""All calls of a place that is not where it should be, or where it was felt before, and of a hole or pin that is not
-found: the place, or the gear or potentiometer of a joint."""
+"""Calls for a place that is not where it should be or was found before, and for a hole or pin that is not found:
+either the place, or the gear or potentiometer of a joint, is wrong.
+"""
 UNSEEN: Final = "THE BASE IS NOT SEEN ON THE BELT: ITS {what}"
 NOT_WHERE_SEEN: Final = (
     "THE BASE IS NOT WHERE IT WAS SEEN: IT OR THE CAMERA HAS MOVED, OR A JOINT READS WRONG"
@@ -54,7 +57,9 @@ NOT_IN_HOLDER: Final = (
 NO_BASE: Final = "NO BASE STANDS UNDER PIN {number}"
 PUMP_ASTRAY: Final = "THE PUMP IS NOT WHERE IT WAS PUT: {how}"
 OR_PUMP: Final = "{what}, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
-"""All calls of a part of the pump that is not felt where it was: the part, the pump, or the arm."""
+"""Calls for a part of the pump that touch does not find where it was: the part, the pump, or a joint of the arm is
+wrong.
+"""
 SCREW_IN_NO_HOLE: Final = (
     "SCREW {number} FINDS NO HOLE AT {hole}: POINT OR HOLE IS WRONG, OR A JOINT READS WRONG"
 )
@@ -67,8 +72,8 @@ ONCE: Final = {
     NOTHING_HELD: (NOT_WHERE_SEEN, NOT_LIFTED, NO_DRIVER, NO_TOP),
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
-"""Errors with which a program that tries every step once, like that of 1973, reports what the careful one names: one
-name.
+"""Errors with which a program that tries every step once, like that of 1973, reports a fault that the careful
+program names by a call; error and call count as one name.
 """
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN"
@@ -86,7 +91,7 @@ POOR_LIGHT: Final = ExpectedDetection(
 
 
 def names(expected: ExpectedDetection) -> set[int | str]:
-    """The names of a fault: its calls, and those errors that tell nothing else."""
+    """The names of a fault: its calls, and those errors for which there is no call."""
     told = {number for number in expected.errors if not {*ONCE.get(number, ())} & {*expected.calls}}
     return {*expected.calls, *told}
 
@@ -136,10 +141,12 @@ def missing_pin(number: int) -> str:
 
 
 def screw_of(hole: int) -> int:
-    """The screw that the program drives into a tapped hole; it leaves hole 7 of a later make empty."""
+    """The screw that the program drives into a tapped hole; the program leaves hole 7 of a later make empty."""
     return SCREWED.index(hole) + 1 if hole in SCREWED else hole
 
 
 def if_used(number: int, expected: ExpectedDetection) -> ExpectedDetection:
-    """Unknown for screw and hole 7 of a later make, which the program does not use: the referee says so."""
+    """The expectation; unknown for screw and hole 7 of a later make, which the program does not use. The referee
+    reports such faults.
+    """
     return expected if number <= len(SCREWED) else UNKNOWN

@@ -1,4 +1,6 @@
-"""Findings on the cell around a pump, whole or apart: all of it at rest, and every part there once, as drawn."""
+"""Findings on the cell around a pump, assembled or taken apart: everything is at rest, and every part exists once,
+unaltered.
+"""
 
 import copy
 from collections.abc import Sequence
@@ -29,7 +31,7 @@ Mask = NDArray[np.bool_]
 
 
 def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
-    """Findings on places and speeds in the cell, from one look."""
+    """Findings on positions and speeds in the cell, from one measurement."""
     model = measured.model
     parts = [*PARTS, *PINS, "driver", *loose_screws(holes)]
     lowest = min(measured.pose(name)[2, 3] for name in parts)
@@ -57,7 +59,7 @@ def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
 
 
 def resting(left: SettledState, settled: SettledState, holes: tuple[Thread, ...]) -> Findings:
-    """Whether everything stays where it was left."""
+    """Findings on whether everything stays where it was left."""
     away = np.linalg.norm(settled.data.xpos - left.data.xpos, axis=1)
     away[[left.model.body(f"screw{hole.screw}").id for hole in holes if hole.screw is not None]] = 0.0
     subject = "farthest motion of a part until the cell has settled"
@@ -65,7 +67,7 @@ def resting(left: SettledState, settled: SettledState, holes: tuple[Thread, ...]
 
 
 def made(left: SettledState, truth: Truth) -> Findings:
-    """Findings on what does not change as a cell settles: how parts are made, and what acts on them."""
+    """Findings on properties that do not change while a cell settles: the parts themselves, and the forces on them."""
     forces = np.abs(left.data.xfrc_applied).max(), np.abs(left.data.qfrc_applied).max()
     differing, driven = _altered(truth), commanded(truth)
     return {
@@ -90,7 +92,9 @@ def loose_screws(holes: tuple[Thread, ...]) -> list[str]:
 
 
 def _altered(truth: Truth) -> dict[str, list[str]]:
-    """What is not as drawn, and in what; how the arm rubs and drives is set as it works."""
+    """Parts that differ from the design, with the kinds of differences; friction and drives of the arm are left
+    out, because they change during work.
+    """
     model = truth.model
     found = altered(model, _as_it_is_to_be(truth), np.ones(model.nbody, bool))
     return {
@@ -101,7 +105,9 @@ def _altered(truth: Truth) -> dict[str, list[str]]:
 
 
 def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
-    """The scene as drawn, with what its devices rightly change in it, and with what other findings judge as it is."""
+    """The scene of the design, with the permitted changes by devices, and with the properties that other findings
+    judge.
+    """
     model, scene, holes = truth.model, copy.deepcopy(truth.drawn), holes_of(truth)
     (threads,) = (part for part in truth.mechanisms if isinstance(part, Threads))
     threads.write(holes, scene)
@@ -128,7 +134,7 @@ def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
 
 
 def _bonds(left: SettledState, truth: Truth) -> int:
-    """How many of the scene's bonds are open, closed or strained and should not be."""
+    """Number of equality constraints in the scene that are wrongly open, closed or strained."""
     right, active = truth.drawn.eq_active0 != 0, truth.data.eq_active != 0
     welds = [truth.drawn.equality(name).id for name in WELDS]
     right[welds] = _clamped(truth)
@@ -137,7 +143,7 @@ def _bonds(left: SettledState, truth: Truth) -> int:
 
 
 def _strained(left: SettledState, weld: int) -> bool:
-    """A weld holds its layer elsewhere than it lies."""
+    """True if a weld holds its layer away from where the layer lies."""
     model, figures, R = left.model, left.model.eq_data[weld], np.zeros(9)
     X_BP = left.relative(model.body(model.eq_obj2id[weld]).name, model.body(model.eq_obj1id[weld]).name)
     mujoco.mju_quat2Mat(R, figures[6:10])
@@ -147,7 +153,7 @@ def _strained(left: SettledState, weld: int) -> bool:
 
 
 def _not_finite(truth: Truth) -> int:
-    """How many numbers of the cell's state are not finite; a mechanism in a state that cannot be counts as one."""
+    """Number of values in the cell's state that are not finite; a mechanism in an impossible state counts as one."""
     model, kind = truth.model, mujoco.mjtState.mjSTATE_INTEGRATION
     physics = np.empty(mujoco.mj_stateSize(model, kind))
     mujoco.mj_getState(model, truth.data, physics, kind)
@@ -172,7 +178,7 @@ def _clamped(truth: Truth) -> bool:
 
 
 def _parts(measured: SettledState) -> Mask:
-    """Which bodies are not the arm's, shape (nbody,)."""
+    """Mask of the bodies that do not belong to the arm, shape (nbody,)."""
     model = measured.model
     return np.array([not model.body(body).name.startswith(ARM) for body in range(model.nbody)])
 
@@ -182,7 +188,7 @@ def _upright(measured: SettledState, bodies: Sequence[str], limit_deg: float, su
 
 
 def _speed(measured: SettledState, bodies: NDArray[np.intp], kind: str) -> Finding:
-    """Greatest speed of some bodies."""
+    """Finding on the greatest speed of some bodies."""
     speeds = np.zeros(measured.model.nbody)
     speeds[bodies] = [1e3 * measured.speed(int(body)) for body in bodies]
     return _greatest(measured, speeds, limits.STILL, "mm/s", f"speed of the fastest {kind}")
@@ -191,14 +197,16 @@ def _speed(measured: SettledState, bodies: NDArray[np.intp], kind: str) -> Findi
 def _greatest(
     measured: SettledState, values: NDArray[np.float64], limit: float, unit: str, subject: str
 ) -> Finding:
-    """The greatest of values of the bodies; one beyond the limit is named."""
+    """Finding on the greatest value among the bodies; a body whose value exceeds the limit is named."""
     body = int(np.argmax(values))
     name = measured.model.body(body).name.removeprefix(ARM)
     return at_most(values[body], limit, unit, subject if values[body] <= limit else f"{subject}: {name}")
 
 
 def _hand(measured: SettledState, parts: Sequence[str]) -> Finding:
-    """Distance of the hand from the nearest of some parts and what is fixed to them; at most twice its limit."""
+    """Finding on the distance of the hand from the nearest of some parts and the shapes fixed to them; at most
+    twice the limit.
+    """
     model = measured.model
     solid = (model.geom_contype | model.geom_conaffinity) != 0
     tree, arm = model.body_rootid[model.geom_bodyid], ~_parts(measured)[model.geom_bodyid]

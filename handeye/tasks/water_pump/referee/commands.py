@@ -1,4 +1,4 @@
-"""Which motors of a cell still have a command, begun or not: later they would move parts that are right now."""
+"""Finds motors of a cell that still have a command, which would later move parts that are right now."""
 
 from typing import Final
 
@@ -14,15 +14,15 @@ _ROUNDING: Final = 1e-9  # m and m/s: what a servo that has arrived adds up to
 
 
 def commanded(truth: Truth) -> list[str]:
-    """What has a command left: arm, hand or screwdriver."""
+    """The devices that still have a command: arm, hand or screwdriver."""
     driven = {"arm": _arm_driven, "hand": _hand_driven, "screwdriver": _driver_driven}
     return [name for name, left in driven.items() if left(truth)]
 
 
 def _arm_driven(truth: Truth) -> bool:
-    """The arm has a torque put out to it beside its brakes, or another than the one with which it holds itself.
+    """True if the arm is commanded a torque while its brakes are set, or a torque that does not hold it still.
 
-    A drive may be weak by a factor, and friction bears what it can: both are left to it.
+    A drive may be weak by a factor, and friction may carry its part; both are allowed for.
     """
     model, arm = truth.model, truth.states[ARM.removesuffix("/")]
     assert isinstance(arm, ArmState)
@@ -37,7 +37,7 @@ def _arm_driven(truth: Truth) -> bool:
 
 
 def _hand_driven(truth: Truth) -> bool:
-    """The fingers are not where their command wants them, nor held up on the way there."""
+    """True if the fingers are neither at their commanded gap nor blocked on the way to it."""
     hand, model = truth.states[f"{ARM}hand"], STANFORD.hand
     assert isinstance(hand, HandState)
     rate = truth.data.ctrl[truth.model.actuator(f"{ARM}grip").id]
@@ -50,7 +50,7 @@ def _hand_driven(truth: Truth) -> bool:
 
 
 def _driver_driven(truth: Truth) -> bool:
-    """The screwdriver is set to a speed, or its motor turns the spindle or a screw."""
+    """True if the screwdriver has a speed command, or its motor turns the spindle or a screw."""
     model, driver = truth.model, truth.states[SimulatedScrewdriver.name]
     assert isinstance(driver, ScrewdriverState)
     spindle, drive = (model.actuator(name).id for name in ("spindle", "drive"))

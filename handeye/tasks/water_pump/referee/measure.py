@@ -1,4 +1,4 @@
-"""Measurements that only a pump needs: its screws in their holes, how easily its rotor turns, and overlapping parts."""
+"""Measurements for a pump: its screws in their holes, the torque of its rotor, and overlapping parts."""
 
 import copy
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ Mask = NDArray[np.bool_]
 
 
 def head_force(measured: SettledState, hole: int) -> float:
-    """Force of the screw head of a hole on what lies beneath, N."""
+    """Force of the screw head at a hole on the part beneath, N."""
     model, data = measured.model, measured.data
     contact, head = data.contact, model.geom(f"head{hole}").id
     tree = model.body_rootid[model.geom_bodyid[contact.geom]]
@@ -40,14 +40,14 @@ def head_force(measured: SettledState, hole: int) -> float:
 
 
 def head_gap(measured: SettledState, hole: int) -> float:
-    """Height of a screw's head over the top's flange, m; negative where it is pressed in."""
+    """Height of a screw's head above the top's flange, m; negative if the head is pressed in."""
     X_WT, size = measured.pose("top"), dimensions()
     middle = measured.data.geom(f"head{hole}").xpos - X_WT[:3, 3]
     return float(X_WT[:3, 2] @ middle) - size("top.flange") - size("screw.head_height") / 2
 
 
 def misfit(measured: SettledState, layer: str, hole: int) -> float:
-    """Distance of a screw's axis from that of its hole in gasket or top, at the worse end of the hole, m."""
+    """Distance between the axes of a screw and of its hole in gasket or top, at the worse end of the hole, m."""
     axis, mouth = measured.data.site(f"thread{hole}"), measured.data.site(f"{layer}_hole{hole}").xpos
     down = -thickness(layer) * measured.pose(layer)[:3, 2]
     ends = np.array([mouth, mouth + down]) - axis.xpos
@@ -61,7 +61,7 @@ def clearance(measured: SettledState, layer: str, hole: int) -> float:
 
 
 def corner_height(measured: SettledState, layer: str, holes: int) -> float:
-    """Deviation of a layer's upper face from its nominal height over the base, at the worst screw hole, m."""
+    """Deviation of a layer's upper face from its nominal height above the base, at the worst screw hole, m."""
     X_BW = inverse(measured.pose("base"))
     corners = np.array([measured.data.site(f"{layer}_hole{k}").xpos for k in range(holes)])
     heights = corners @ X_BW[2, :3] + X_BW[2, 3]
@@ -74,12 +74,12 @@ def thickness(layer: str) -> float:
 
 
 def under(layer: str) -> float:
-    """Nominal height of a layer's underside over the base's, m."""
+    """Nominal height of a layer's underside above the underside of the base, m."""
     return base_top() + (thickness("gasket") if layer == "top" else 0.0)
 
 
 def thread_length(measured: SettledState, hole: int) -> float:
-    """Length of a screw's thread that is in its tapped hole, m."""
+    """Length of a screw's thread inside its tapped hole, m."""
     point = inverse(measured.pose("base")) @ measured.pose(f"carrier{hole}")
     return float(base_top() - point[2, 3] - dimensions()("screw.point_length"))
 
@@ -91,20 +91,24 @@ def thread_offset(measured: SettledState, hole: int) -> float:
 
 
 def screw_lean(measured: SettledState, hole: int) -> float:
-    """Angle between a screw and the base, rad."""
+    """Angle between a screw and the normal of the base, rad."""
     axis = measured.data.site(f"thread{hole}").xmat.reshape(3, 3)
     return tilt(inverse(measured.pose("base")) @ pose(axis, np.zeros(3)))
 
 
 def loosening_torque(measured: SettledState, hole: int) -> float:
-    """Torque that turns a screw back: the friction of its thread, less what its clamp turns by itself, N m."""
+    """Torque that turns a screw back, N m: the friction of its thread, minus the torque of the clamp, which loosens
+    the screw.
+    """
     model = measured.model
     friction = float(model.dof_frictionloss[model.joint(f"thread_turn{hole}").dofadr[0]])
     return friction - dimensions()("screw.pitch") / (2 * pi) * head_force(measured, hole)
 
 
 def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
-    """Greatest deviation of a screw from the drawing in length or radius, loose and as it is in its thread, m."""
+    """Greatest deviation of a screw from the design in length or radius, both as a loose body and as a carrier in
+    its thread, m.
+    """
     model, size = measured.model, dimensions()
     length, tip, head = size("screw.length"), size("screw.point_length"), size("screw.head_height")
     shank, point = (size(f"screw.{name}_radius") for name in ("shank", "point"))
@@ -120,7 +124,9 @@ def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
 
 
 def rotor_deviation(measured: SettledState) -> float:
-    """Distance of the rotor from its bearing on the top, or of the end of its crank pin from its place, m."""
+    """Distance of the rotor from its bearing on the top, or of the end of its crank pin from its nominal position,
+    m.
+    """
     model, size = measured.model, dimensions()
     height = size("top.flange") + size("top.hub_height")
     away = measured.relative("rotor", "top")[:3, 3] - (0.0, 0.0, height)
@@ -135,10 +141,10 @@ def rotor_lean(measured: SettledState) -> float:
 
 
 def rotor_torque(measured: SettledState) -> float:
-    """Greatest torque that it takes to turn the rotor all the way round, either way and back, N m.
+    """Greatest torque needed to turn the rotor all the way round, in both directions, N m.
 
-    Infinite if the limit does not bring it round. Done on a further copy, in which all else stands still and the crank
-    meets whatever is in its way.
+    Infinite if the limit does not turn the rotor all the way. Measured on a separate copy, in which everything else
+    is fixed, and in which the crank touches any obstacle in its way.
     """
     model, data = _alone(measured)
     dof, adr = model.joint("rotor").dofadr[0], model.joint("rotor").qposadr[0]
@@ -161,7 +167,9 @@ def rotor_torque(measured: SettledState) -> float:
 
 
 def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """A copy in which nothing has contacts but the rotor with all that is solid, and none rubs or is bound but it."""
+    """A copy of the cell in which only the rotor has contacts with solid shapes, and in which only the rotor has
+    friction and constraints.
+    """
     model, rotor = copy.deepcopy(measured.model), measured.model.body("rotor").id
     crank = model.geom_bodyid == rotor
     solid = (model.geom_contype | model.geom_conaffinity) != 0
@@ -177,14 +185,14 @@ def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Overlap:
-    """The deepest of some overlaps."""
+    """The depth of an overlap, m, and the names of the two shapes."""
 
     depth: float  # m
     between: str
 
 
 def deepest(measured: SettledState) -> tuple[Overlap, Overlap]:
-    """The deepest overlap of a shank or pin with a bore, and that of all other parts."""
+    """The deepest overlap of a shank or pin with a bore, and the deepest overlap of all other parts."""
     kinds = _Kinds.of(measured)
     pairs, depths = measured.overlaps(kinds.solid)
     either = pairs[:, ::-1]

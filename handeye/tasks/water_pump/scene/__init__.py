@@ -1,4 +1,4 @@
-"""The water-pump work cell as a MuJoCo model, for a given imperfect world."""
+"""The water-pump work cell as a MuJoCo model, built for a world with its errors."""
 
 from typing import Final
 
@@ -21,14 +21,14 @@ _METAL: Final = (
     "solid", "grip", "bore", "tap", "face", "hub", "shank", "shoulder", "threaded", "nose", "head",
     "base_land", "gasket_land", "top_land",
 )  # fmt: skip
-"""Classes of shapes that rub as the world's parts do."""
+"""Classes of shapes whose friction is that of the world's parts."""
 
 
 def specification(world: PumpWorld) -> mujoco.MjSpec:
-    """The scene before compilation, to add to or to save.
+    """The scene before compilation, so that shapes can be added or the scene saved.
 
-    Bodies: base (with carrier0..), gasket, top (with rotor), pin0, pin1, screw0.., driver (with bit), the
-    fixtures, and the arm's under `stanford/`. PumpWorld frame: the table's.
+    Bodies: base (with carrier0..), gasket, top (with rotor), pin0, pin1, screw0.., driver (with bit), the fixtures,
+    and the bodies of the arm under `stanford/`. The world frame is that of the table.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
     add_arm(spec, world)  # first: free bodies before it would shift its joints
@@ -51,12 +51,16 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
 
 
 def build(world: PumpWorld) -> mujoco.MjModel:
-    """The compiled scene. Its arm is at joint zero, which joint 3 forbids: set a posture before stepping."""
+    """Compile the scene. Its arm is at joint positions of zero, outside the limits of joint 3: set a configuration
+    before stepping.
+    """
     return specification(world).compile()
 
 
 def dressed(world: PumpWorld) -> mujoco.MjModel:
-    """The scene as photographs show it, compiled: it has shapes that no working cell needs. It is never simulated."""
+    """Compile the scene for photographs, with shapes that a working cell does not need. This scene is never
+    simulated.
+    """
     spec = specification(world)
     dress(Shaper(spec=spec))
     return spec.compile()

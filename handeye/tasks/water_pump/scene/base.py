@@ -20,7 +20,7 @@ _WEDGES = 24  # around the large holes; 15 degrees each
 
 
 def add_base(shaper: Shaper, world: PumpWorld) -> None:
-    """The base on the belt, a free body; its threads are bodies inside it."""
+    """Add the base on the belt, a free body; its threads are bodies inside it."""
     d = dimensions()
     body = shaper.spec.worldbody.add_body(
         name="base",
@@ -46,7 +46,9 @@ def add_base(shaper: Shaper, world: PumpWorld) -> None:
 
 
 def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequence[Point]) -> None:
-    """Walls of solid metal around the large holes; wedges with a tapped hole in them stop only hand and driver."""
+    """Add walls of solid metal around the large holes; wedges that contain a tapped hole stop only the hand and the
+    driver.
+    """
     floor, top = d("base.plate.thickness"), base_top()
     x2 = d("base.large_hole_2.x")
     bores = (
@@ -68,7 +70,7 @@ def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Seq
 
 
 def _in_wedge(angle: float, x: float, y: float, reach: float) -> bool:
-    """True if a hole at (x, y) from the ring's axis, open to `reach`, cuts into the wedge there."""
+    """True if a hole at (x, y) from the ring's axis, with radius `reach`, cuts into the wedge at `angle`."""
     away = abs(math.remainder(math.atan2(y, x) - angle, 2 * math.pi))
     return away < math.pi / _WEDGES + math.asin(min(1.0, reach / math.hypot(x, y)))
 
@@ -85,7 +87,7 @@ def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
 
 
 def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[np.str_]:
-    """The face is machined; holes are dark inside, as cast and oily; the rest is cast."""
+    """Colours of the surface: the face is machined; holes are dark inside, as cast and oily; the rest is cast."""
     d = dimensions()
     x2 = d("base.large_hole_2.x")
     rims = [(0.0, 0.0, d("base.large_hole_1.diameter") / 2), (x2, 0.0, d("base.large_hole_2.diameter") / 2)]
@@ -99,11 +101,11 @@ def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[n
 
 
 def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number: int, at: Point) -> None:
-    """The bore, and the thread.
+    """Add the bore and the thread.
 
-    A thread is a carrier with the frame of the screw that is in it, origin at the screw's point: its slide is
-    tied to its turn by the pitch. Head and shank meet nothing until the cell engages a screw, but are compiled with
-    the widest contact bits: narrowing them at run time works, widening does not.
+    A thread is a carrier with the frame of the screw in it, origin at the screw's point; its slide is bound to its
+    turn by the pitch. Head and shank touch nothing until the cell engages a screw, but they are compiled with the
+    widest contact bits, because these can be narrowed at run time but not widened.
     """
     top, depth, (x, y) = base_top(), d("base.screw_holes.depth"), at
     tap = Bore(

@@ -13,7 +13,7 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
-    """The gasket on its stand: a rigid sheet that rests on a land at every screw."""
+    """Add the gasket on its stand: a rigid sheet that rests on a land at every screw."""
     d = dimensions()
     (x, y), turn, thick = d.all("gasket_stand.grasp"), d("standard.yaw"), d("gasket.thickness")
     fixture = add_gasket_stand(shaper, world)
@@ -35,7 +35,7 @@ def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
 
 
 def add_top(shaper: Shaper, world: PumpWorld) -> None:
-    """The top on its stand: a flange with clearance holes, a hub with two flats to hold it by, the rotor."""
+    """Add the top on its stand: a flange with clearance holes, a hub with two flats for the fingers, and the rotor."""
     d = dimensions()
     (x, y), turn, flange = d.all("top_stand.grasp"), d("standard.yaw"), d("top.flange")
     fixture = add_top_stand(shaper, world)
@@ -69,7 +69,7 @@ def _add_flange(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequ
 
 
 def _add_rotor(shaper: Shaper, top: mujoco.MjsBody, d: Dimensions) -> None:
-    """The rotor on the hub: shaft, crank arm, crank pin, which starts away from all holes."""
+    """Add the rotor on the hub: shaft, crank arm and crank pin; at the start, the crank pin is away from all holes."""
     body = top.add_body(name="rotor", pos=[0.0, 0.0, d("top.flange") + d("top.hub_height")])
     body_inertia(body, d("rotor.mass"), (0.0, 0.0, 0.01), (5e-5, 5e-5, 5e-5))
     body.add_joint(
@@ -90,7 +90,7 @@ def _add_rotor(shaper: Shaper, top: mujoco.MjsBody, d: Dimensions) -> None:
 
 
 def add_merging(spec: mujoco.MjSpec) -> None:
-    """Welds, open at first, that the cell closes for speed when parts rest on each other."""
+    """Add welds, initially open, that the cell closes for speed when parts rest on each other."""
     for part in ("top", "gasket"):
         weld = spec.add_equality(
             name=f"merge_{part}", type=mujoco.mjtEq.mjEQ_WELD, objtype=mujoco.mjtObj.mjOBJ_BODY,

@@ -1,6 +1,6 @@
-"""Furniture for photographs: tape reels, teletype, clock, boom cables and bevels; no working cell has it.
+"""Adds furniture for photographs: tape reels, teletype, clock, boom cables and bevels; no working cell has it.
 
-It touches nothing, weighs nothing, and lies in a group that the television camera leaves out.
+The furniture touches nothing, has no mass, and lies in a geom group that the television camera does not see.
 """
 
 import math
@@ -43,11 +43,15 @@ def dress(shaper: Shaper) -> None:
 _REEL_RADIUS_M: Final = 0.100
 _TELETYPE_PLACE_M: Final = (-1.70, -0.55)
 _TURN: Final = [math.cos(math.radians(-5)), 0.0, 0.0, math.sin(math.radians(-5))]
-"""Quaternion that turns it to the lamp of photographs: faces nearly in line with the light are full of specks."""
+"""Quaternion that turns the furniture towards the lamp of photographs, because faces nearly parallel to the light
+look speckled.
+"""
 
 
 def add_reels(shaper: Shaper) -> None:
-    """Two tape drives: a pair of reels in the upper panels of two cabinets, one nearly full, and the heads below."""
+    """Add two tape drives: a pair of reels in the upper panels of two cabinets, one nearly full, with the heads
+    below.
+    """
     body = shaper.spec.worldbody
     for drive in (0, 1):
         (left, front, _), (right, _, top) = cabinet(drive)
@@ -60,7 +64,7 @@ def add_reels(shaper: Shaper) -> None:
 
 
 def _add_reel(shaper: Shaper, number: int, at: Vector, tape: float) -> None:
-    """A reel with its axis along y, on a deck at `at`, with tape to a radius (m)."""
+    """Add a reel with its axis along y, on a deck at `at`, with tape up to a radius (m)."""
     body, (x, y, z) = shaper.spec.worldbody, at
     shaper.cylinder(body, "scenery", tape, (x, y, z), (x, y + 0.012, z), "tape", f"tape{number}")
     shaper.cylinder(body, "scenery", 0.024, (x, y, z), (x, y + 0.024, z), "black", f"tape_hub{number}")
@@ -69,7 +73,7 @@ def _add_reel(shaper: Shaper, number: int, at: Vector, tape: float) -> None:
 
 
 def _flange() -> solids.Surface:
-    """The front flange of a reel, with three windows, its axis along y."""
+    """The front flange of a reel, with three windows and its axis along y."""
     disc = solids.disc(_REEL_RADIUS_M)
     for k in range(3):
         angle = 2 * math.pi * k / 3 + 0.5
@@ -78,7 +82,9 @@ def _flange() -> solids.Surface:
 
 
 def add_teletype(shaper: Shaper) -> None:
-    """A teletype on its stand, with keyboard, platen and paper, and a punch for paper tape; it looks along its x."""
+    """Add a teletype on its stand, with keyboard, platen, paper and a paper-tape punch; its front faces along its x
+    axis.
+    """
     place = (*_TELETYPE_PLACE_M, -dimensions()("table.height"))
     body = shaper.spec.worldbody.add_body(name="teletype", pos=place, quat=_TURN)
     shaper.look(body, "teletype_case", "case", _case(), style="scenery")
@@ -95,7 +101,7 @@ def add_teletype(shaper: Shaper) -> None:
 
 
 def _case() -> solids.Surface:
-    """The case of a teletype, its keyboard sloping down along x."""
+    """The case of a teletype; its keyboard slopes down along x."""
     below, keys = [(-0.22, 0.60), (0.30, 0.60), (0.30, 0.655)], [(0.12, 0.70), (0.06, 0.80)]
     return solids.surface(solids.prism([*below, *keys, (-0.16, 0.82), (-0.22, 0.79)], -0.26, 0.20))
 
@@ -113,7 +119,7 @@ def _keys() -> solids.Surface:
 
 _X, _Y, _Z = LEFT + 0.03, 0.30, 0.56  # middle of the clock, m; who looks at it has y on the right and z above
 _UPRIGHT: Final = [0.5, 0.5, 0.5, 0.5]
-"""Quaternion of a frame whose z is away from the wall, and whose y is up."""
+"""Quaternion of a frame whose z axis points away from the wall and whose y axis points up."""
 _HANDS: Final = {
     "hour": (43200.0, 0.085, 0.007),
     "minute": (3600.0, 0.125, 0.005),
@@ -122,7 +128,7 @@ _HANDS: Final = {
 
 
 def add_clock(shaper: Shaper) -> None:
-    """The clock; each of its hands is a body."""
+    """Add the clock; each of its hands is a body."""
     wall = shaper.spec.worldbody
     for name, radius, back, front, material in (
         ("clock_case", 0.165, -0.03, 0.008, "black"),
@@ -151,7 +157,7 @@ _BACK, _FRONT = -1.36, -0.10  # from where to where along the boom they go, m
 
 
 def add_boom_cables(shaper: Shaper) -> None:
-    """Three cables in clips, and the loop in which they leave the motor behind the boom's end."""
+    """Add three cables in clips, and the loop in which they leave the motor behind the end of the boom."""
     boom = shaper.spec.body(f"{ARM}link3")
     for number, y in enumerate((_MIDDLE - 0.006, _MIDDLE, _MIDDLE + 0.006)):
         start, end = (_SIDE, y, _BACK), (_SIDE, y, _FRONT)
@@ -170,7 +176,7 @@ _BEVELLED: Final = ("block", "enamel", "red", "iron")  # materials of blocks, fi
 
 
 def add_bevels(shaper: Shaper) -> None:
-    """Show boxes of a scene with bevelled edges; the television camera still sees the boxes."""
+    """Show boxes of a scene with bevelled edges in photographs; the television camera still sees the boxes."""
     boxes = [geom for geom in shaper.spec.geoms if geom.type == BOX and geom.group == SEEN]
     for box in boxes:
         if box.material in _BEVELLED:
@@ -182,7 +188,7 @@ def add_bevels(shaper: Shaper) -> None:
 
 
 def bevelled(half: Array) -> solids.Surface:
-    """Surface of a box from -`half` to `half` (m) with bevels all around."""
+    """Surface of a box from -`half` to `half` (m), with bevels on all edges."""
     corners = np.array(list(product((-1.0, 1.0), repeat=3)))
     inner = np.where(np.eye(3, dtype=bool), half, half - BEVEL_M)
     return solids.surface(Manifold.hull_points((corners[:, None] * inner).reshape(-1, 3)))

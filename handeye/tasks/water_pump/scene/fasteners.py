@@ -18,7 +18,9 @@ from handeye.tasks.water_pump.world.stations import Station
 
 
 def add_pins(shaper: Shaper, world: PumpWorld) -> None:
-    """The holder, and a free stepped pin in each of its holes; a pin's origin is in its shoulder's plane."""
+    """Add the holder, and a free stepped pin in each of its holes; the origin of a pin is in the plane of its
+    shoulder.
+    """
     d = dimensions()
     x0, y0, x1, y1 = d.all("pin_holder.places")
     radius, chamfer, height = d("pin_holder.hole_radius"), d("pin_holder.chamfer"), d("pin_holder.height")
@@ -48,7 +50,9 @@ def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
 
 
 def add_screws(shaper: Shaper, world: PumpWorld) -> None:
-    """The dispenser, and a free screw for each hole, hanging by its head in it; its origin is at its point."""
+    """Add the dispenser, and a free screw in each of its holes, hanging by its head; the origin of a screw is at
+    its point.
+    """
     d = dimensions()
     height, length, (x, y) = d("dispenser.height"), d("screw.length"), d.all("dispenser.place")
     hole = Bore(radius=d("dispenser.hole_radius"), outer=0.0095, height=0.010, above=0.0015)
@@ -83,14 +87,16 @@ def _add_screw(shaper: Shaper, body: mujoco.MjsBody, number: int) -> None:
 
 @cache
 def _screw_inertia(density: float) -> tuple[float, float, tuple[float, float, float]]:
-    """Mass of a screw with its thread (kg), its centre over the point (m), and principal moments (kg m2)."""
+    """Mass of a screw with its thread (kg), height of its mass centre above the point (m), and principal moments
+    (kg m2).
+    """
     volume, centre, moments = solids.volume_moments(_screw())
     across, _, along = (density * moments).tolist()  # the slot makes the two across differ by half a per cent
     return density * volume, float(centre[2]), (across, across, along)
 
 
 def screw_look(shaper: Shaper, body: mujoco.MjsBody) -> list[mujoco.MjsGeom]:
-    """Adds what a screw looks like: threaded shank, slotted head. Origin at its point."""
+    """Add the visible surface of a screw: threaded shank and slotted head, with the origin at the point."""
     return [shaper.look(body, f"screw_{name}", name, part) for name, part in _screw_surfaces().items()]
 
 
@@ -108,7 +114,7 @@ def _screw_surfaces() -> dict[str, solids.Surface]:
 
 @cache
 def _screw() -> solids.Surface:
-    """Surface of a screw."""
+    """The surface of a screw."""
     d = dimensions()
     length, height, tip = d("screw.length"), d("screw.head_height"), d("screw.point_length")
     crest, head, pitch = d("screw.shank_radius"), d("screw.head_radius"), d("screw.pitch")

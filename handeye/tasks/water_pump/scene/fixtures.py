@@ -1,4 +1,4 @@
-"""Fixtures on the table, each off its nominal place by the world's error: blocks, stands, rack."""
+"""Fixtures on the table, each displaced from its nominal position by the world's error: blocks, stands, rack."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -18,7 +18,7 @@ EXACT: Final = Placing()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fixture:
-    """A fixed body in whose frame a part has its *nominal* table coordinates."""
+    """A fixed body with a frame in which a part has its *nominal* table coordinates."""
 
     body: mujoco.MjsBody
     X_WF: Pose  # nearly the identity: the error of place, about the fixture's middle
@@ -33,7 +33,7 @@ class Fixture:
         turn: float = 0.0,
         error: Placing = EXACT,
     ) -> mujoco.MjsBody:
-        """A free body that starts on this fixture, at a nominal place and yaw `turn` (m, rad) plus an error."""
+        """Add a free body that starts on this fixture, at a nominal position and yaw `turn` (m, rad) plus an error."""
         X = self.X_WF @ error.about(x, y, z) @ planar(x, y, z, turn)
         body = _body(shaper, name, X)
         body.add_freejoint(name=name)
@@ -47,13 +47,13 @@ def _body(shaper: Shaper, name: str, X_WB: Pose) -> mujoco.MjsBody:
 
 
 def add_fixture(shaper: Shaper, world: PumpWorld, station: str, middle: Point) -> Fixture:
-    """An empty fixture; `middle` (m) is what its error turns about."""
+    """Add an empty fixture; `middle` (m) is the point about which its error turns it."""
     X = world.fixtures[station].about(*middle)
     return Fixture(body=_body(shaper, station, X), X_WF=X)
 
 
 def add_blocks(shaper: Shaper, world: PumpWorld) -> None:
-    """The two aligning blocks: the base is pushed against the far one (+y), then the left one (-x)."""
+    """Add the two aligning blocks; the base is pushed against the far block (+y), then against the left one (-x)."""
     d = dimensions()
     far, left, height = d.all("blocks.far"), d.all("blocks.left"), d("blocks.height")
     fixture = add_fixture(shaper, world, Station.BLOCKS, (left[2], far[1]))
@@ -67,7 +67,7 @@ def add_blocks(shaper: Shaper, world: PumpWorld) -> None:
 
 
 def add_gasket_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
-    """Two rails under the gasket's rims, open in the middle for the fingers."""
+    """Add two rails for the rims of the gasket, with an open middle for the fingers."""
     d = dimensions()
     (x, y), height = d.all("gasket_stand.grasp"), d("gasket_stand.height")
     fixture = add_fixture(shaper, world, Station.GASKET_STAND, (x, y))
@@ -83,7 +83,7 @@ def add_gasket_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
 
 
 def add_top_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
-    """A table for the pump's top."""
+    """Add a stand for the pump's top."""
     d = dimensions()
     (x, y), height = d.all("top_stand.grasp"), d("top_stand.height")
     fixture = add_fixture(shaper, world, Station.TOP_STAND, (x, y))
@@ -96,7 +96,7 @@ def add_top_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
 
 
 def add_plain_stations(shaper: Shaper, world: PumpWorld) -> None:
-    """The stations that are no more than boxes."""
+    """Add the stations that consist of boxes only."""
     for name, boxes in plain_stations().items():
         corners = np.array(boxes)
         x, y = (corners[:, :2].min(axis=0) + corners[:, 3:5].max(axis=0)) / 2

@@ -14,14 +14,14 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 LEFT, BACK, RIGHT, FRONT = -2.4, -2.0, 6.0, 6.0
 """Bounds of the room, m; it has walls on the left and at the back."""
 TRAY = -2.0
-"""Height (m) of a tray under the floor, out of every sight, for screws that have become part of a thread."""
+"""Height (m) of a tray below the floor, out of sight, for screws that are represented by a carrier in a thread."""
 
 
 Point3 = tuple[float, float, float]
 
 
 def add_room(shaper: Shaper, world: PumpWorld) -> None:
-    """Everything that stands still, apart from the fixtures."""
+    """Add everything that is fixed, except the fixtures."""
     _add_table(shaper, world)
     _add_belt(shaper, world)
     _add_building(shaper, world.screws)
@@ -54,7 +54,7 @@ def _add_table(shaper: Shaper, world: PumpWorld) -> None:
 
 
 def _add_belt(shaper: Shaper, world: PumpWorld) -> None:
-    """The belt with its end rollers, between side rails that stay below its surface."""
+    """Add the belt with its end rollers, between side rails that stay below its surface."""
     d = dimensions()
     body, depth = shaper.spec.worldbody, d.all("table.size")[1]
     (x0, x1), top = d.all("belt.x"), d("belt.height")
@@ -85,13 +85,13 @@ def _add_building(shaper: Shaper, screws: int) -> None:
 
 
 def cabinet(number: int) -> tuple[Point3, Point3]:
-    """Corners of a cabinet of the computer (m): its front, on the left and below, and on the right and above."""
+    """Corners of a cabinet of the computer (m): front left bottom, and back right top."""
     left, floor = -0.85 + 0.57 * number, -dimensions()("table.height")
     return (left, -1.35, floor + 0.06), (left + 0.55, -1.35, floor + 1.75)
 
 
 def _add_computer(shaper: Shaper) -> None:
-    """Three cabinets against the far wall, with their rows of indicator lamps."""
+    """Add three cabinets at the far wall, with rows of indicator lamps."""
     body, floor = shaper.spec.worldbody, -dimensions()("table.height")
     for k in range(3):
         (left, front, below), (right, _, top) = cabinet(k)
@@ -111,7 +111,7 @@ def _add_computer(shaper: Shaper) -> None:
 
 
 def _add_tripod(shaper: Shaper) -> None:
-    """The television camera's body, behind its mount so that it never stands in its own picture."""
+    """Add the television camera's body, behind its mount, so that it never appears in its own picture."""
     d = dimensions()
     body, floor = shaper.spec.worldbody, -d("table.height")
     x, y, z = d.all("camera.mount")
@@ -130,7 +130,9 @@ def _add_tripod(shaper: Shaper) -> None:
 
 
 def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
-    """One lamp that throws shadows, as far from the work as in the vision study, and the room's own light."""
+    """Add one lamp that casts shadows, as far from the work as in the vision study, and the ambient light of the
+    room.
+    """
     d, light = dimensions(), world.light
     target, distance = np.array(d.all("camera.light_target")), d("camera.light_distance")
     sine, cosine = math.sin(light.zenith), math.cos(light.zenith)
@@ -144,7 +146,9 @@ def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
 
 
 def _add_cameras(spec: mujoco.MjSpec) -> None:
-    """The television camera `tv` looks at the standard position; the cell turns it. The others are for photographs."""
+    """Add the television camera `tv`, which looks at the standard position until the cell turns it, and the cameras
+    for photographs.
+    """
     d = dimensions()
     focal = d.all("camera.focal_length")[0]
     tv = add_camera(spec, "tv", np.array(d.all("camera.mount")), np.array([*d.all("standard.place"), 0.04]))

@@ -1,7 +1,7 @@
-"""Exact solids of the pump's parts, for looks and for clearances: manifold3d, from the dimensions.
+"""Exact solids of the pump's parts, for display and for clearances: made with manifold3d from the dimensions.
 
-A solid is a value. Carving one takes longer than compiling the whole scene: the surface of what has no figure of its
-own in a world is kept for the next one.
+A solid is a value. Making a solid takes longer than compiling the whole scene, so the surfaces of parts without
+figures that vary between worlds are kept for the next world.
 """
 
 import math
@@ -22,12 +22,12 @@ _ROUND = 96
 
 
 def disc(radius: float, x: float = 0.0, y: float = 0.0, segments: int = _ROUND) -> CrossSection:
-    """A round section, m."""
+    """A round cross-section, m."""
     return CrossSection.circle(radius, segments).translate((x, y))
 
 
 def rectangle(x0: float, y0: float, x1: float, y1: float, corner: float = 0.0) -> CrossSection:
-    """A section with rounded corners, m."""
+    """A rectangular cross-section with rounded corners, m."""
     if corner == 0.0:
         return CrossSection.square((x1 - x0, y1 - y0)).translate((x0, y0))
     centres = [(x, y) for x in (x0 + corner, x1 - corner) for y in (y0 + corner, y1 - corner)]
@@ -35,29 +35,29 @@ def rectangle(x0: float, y0: float, x1: float, y1: float, corner: float = 0.0) -
 
 
 def hull(*sections: CrossSection) -> CrossSection:
-    """The convex hull of sections."""
+    """The convex hull of cross-sections."""
     return CrossSection.batch_hull(list(sections))
 
 
 def extruded(section: CrossSection, z0: float, z1: float) -> Manifold:
-    """The solid over a section between two heights, m."""
+    """The solid over a cross-section between two heights, m."""
     return Manifold.extrude(section, z1 - z0).translate((0.0, 0.0, z0))
 
 
 def prism(profile: Sequence[Point], y0: float, y1: float) -> Manifold:
-    """The solid over a profile of (x, z) corners, in order, between two planes along y, m."""
+    """The solid between two planes along y over a profile, given by (x, z) corners in order, m."""
     upright = Manifold.extrude(CrossSection([list(profile)]), y1 - y0).rotate((90.0, 0.0, 0.0))
     return upright.translate((0.0, y1, 0.0))
 
 
 def tube(points: Sequence[tuple[float, float, float]], radius: float) -> Manifold:
-    """A round solid along the way through points, m."""
+    """A round solid along a path through points, m."""
     balls = [Manifold.sphere(radius, 12).translate(point) for point in points]
     return Manifold.batch_boolean([Manifold.batch_hull(list(two)) for two in pairwise(balls)], OpType.Add)
 
 
 def bore(radius: float, z0: float, z1: float, *, above: float = 0.0, below: float = 0.0) -> Manifold:
-    """Solid to subtract for a hole from z0 to z1 with 45 degree chamfers, m."""
+    """A solid to subtract for a hole from z0 to z1 with 45 degree chamfers, m."""
     hole = Manifold.cylinder(z1 - z0 + 2e-4, radius, radius, _ROUND).translate((0.0, 0.0, z0 - 1e-4))
     if above:
         hole += Manifold.cylinder(above, radius, radius + above, _ROUND).translate((0.0, 0.0, z1 - above))
@@ -67,7 +67,7 @@ def bore(radius: float, z0: float, z1: float, *, above: float = 0.0, below: floa
 
 
 def outline() -> CrossSection:
-    """The irregular outline that casting, gasket and top share, in part coordinates."""
+    """The irregular outline common to casting, gasket and top, in part coordinates."""
     d = dimensions()
     chamber, inlet = d("base.casting.chamber_diameter") / 2, d("base.casting.inlet_diameter") / 2
     direction, reach = d("base.casting.ear_direction"), d("base.casting.ear_radius")
@@ -79,7 +79,7 @@ def outline() -> CrossSection:
 
 @cache
 def casting(screws: int) -> Surface:
-    """Surface of the base's casting, over its plate, with `screws` tapped holes."""
+    """Surface of the base's casting, above its plate, with `screws` tapped holes."""
     d = dimensions()
     top, floor = base_top(), d("base.plate.thickness")
     solid = extruded(outline().offset(-0.0012), floor, top) + extruded(outline(), floor, top - 0.0016)
@@ -104,7 +104,9 @@ def plate() -> Surface:
 
 @cache
 def gasket(screws: int) -> Surface:
-    """Surface of the gasket: large holes a little wider than the base's, with flats for the fingers that carry it."""
+    """Surface of the gasket: its large holes are a little wider than the base's, with flats for the fingers that
+    carry the gasket.
+    """
     d = dimensions()
     over, half = d("gasket.hole_oversize") / 2, d("gasket.web") / 2
     first = disc(d("base.large_hole_1.diameter") / 2 + over)
@@ -134,7 +136,7 @@ def drilled(
     edges: tuple[float, float, float, float], height: float, places: tuple[Point, ...],
     radius: float, depth: float, chamfer: float,
 ) -> Surface:  # fmt: skip
-    """Surface of an upright block between edges (x0, y0, x1, y1), with a hole from above at each place, m."""
+    """Surface of an upright block between edges (x0, y0, x1, y1), with a hole from above at each of `places`, m."""
     block = extruded(rectangle(*edges, 0.004), 0.0, height)
     for x, y in places:
         block -= bore(radius, height - depth, height, above=chamfer).translate((x, y, 0.0))
@@ -154,7 +156,7 @@ def surface(solid: Manifold) -> Surface:
 
 
 def volume_moments(closed: Surface) -> tuple[float, Array, Array]:
-    """Volume of a solid (m3), its centre (m), and its moments about axes through that along x, y and z (m5)."""
+    """Volume of a solid (m3), its centre (m), and its moments about axes through the centre along x, y and z (m5)."""
     vertices, triangles = closed
     corners = vertices[triangles]
     volumes = np.linalg.det(corners) / 6
@@ -165,7 +167,9 @@ def volume_moments(closed: Surface) -> tuple[float, Array, Array]:
 
 
 def painted(whole: Surface, colour: Callable[[Array, Array], NDArray[np.str_]]) -> dict[str, Surface]:
-    """A surface, parted by colour: names, shape (m,), from the triangles' middles and unit normals, (m, 3)."""
+    """Divide a surface by colour; `colour` gives names, shape (m,), from the centres and unit normals of the
+    triangles, (m, 3).
+    """
     vertices, triangles = whole
     corners = vertices[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -1,6 +1,7 @@
-"""Grain of wood, cast iron, belt and floor, made by arithmetic: for photographs.
+"""Computed grain of wood, cast iron, belt and floor, for photographs.
 
-The television camera sees the materials' plain intensities, so a texture changes nothing that is measured.
+The television camera sees only the plain intensities of the materials, so a texture does not affect any
+measurement.
 """
 
 from collections.abc import Callable
@@ -17,11 +18,13 @@ _SIZE: Final = 512
 _BENCH: Final = 1024  # px: photographs show more of the bench than of anything else
 _BOARDS: Final = 33
 Grain = Callable[[np.random.Generator], Array]
-"""Draws a square picture of relative intensities, shape (n, n, 3)."""
+"""Computes a square picture of relative intensities, shape (n, n, 3)."""
 
 
 def add_textures(spec: mujoco.MjSpec) -> None:
-    """Give the materials their grain. Each is drawn from a generator of its own, always the same."""
+    """Give the materials their grain. Each grain is computed with a separate random generator, and is always the
+    same.
+    """
     for name, pixels in _pixels().items():
         texture = spec.add_texture(name=name, type=mujoco.mjtTexture.mjTEXTURE_2D)
         texture.height, texture.width, texture.nchannel = pixels.shape
@@ -35,7 +38,7 @@ def add_textures(spec: mujoco.MjSpec) -> None:
 
 @cache
 def _pixels() -> dict[str, NDArray[np.uint8]]:
-    """Pictures of the grains by their names."""
+    """Pictures of the grains, by name."""
     return {
         name: np.clip(255 * grain(np.random.default_rng(number)), 0, 255).astype(np.uint8)
         for number, (name, grain) in enumerate(_GRAINS.items())
@@ -43,7 +46,7 @@ def _pixels() -> dict[str, NDArray[np.uint8]]:
 
 
 def _smooth(rng: np.random.Generator, along_x: float, along_y: float, size: int = _SIZE) -> Array:
-    """Noise blurred around the edges by Gaussians of these sigmas (px), of unit variance."""
+    """Noise blurred with Gaussians of these standard deviations (pixels), wrapped at the edges, with unit variance."""
     noise, frequency = rng.standard_normal((size, size)), np.fft.fftfreq(size)
     window = np.exp(-2 * np.pi**2 * np.add.outer((along_y * frequency) ** 2, (along_x * frequency) ** 2))
     soft = np.asarray(np.fft.ifft2(np.fft.fft2(noise) * window).real, np.float64)
@@ -55,12 +58,12 @@ def _tinted(value: Array, tint: tuple[float, float, float] = (1.0, 1.0, 1.0)) ->
 
 
 def _streaks(rng: np.random.Generator, size: int = _SIZE) -> Array:
-    """Grain of wood along x."""
+    """Wood grain along x."""
     return 0.035 * _smooth(rng, 60, 1.2, size) + 0.02 * np.sin(6 * _smooth(rng, 90, 12, size))
 
 
 def _bench(rng: np.random.Generator) -> Array:
-    """Old maple: narrow boards along x, each with its own tone, and of two pieces that meet somewhere."""
+    """Old maple: narrow boards along x, each with a different tone and made of two pieces that meet somewhere."""
     row = np.arange(_BENCH)
     board = row * _BOARDS // _BENCH
     tones, joints = rng.uniform(-0.08, 0.05, (_BOARDS, 2)), rng.integers(0, _BENCH, _BOARDS)
@@ -71,12 +74,12 @@ def _bench(rng: np.random.Generator) -> Array:
 
 
 def _cast(rng: np.random.Generator) -> Array:
-    """Sand-cast skin."""
+    """Surface of a sand casting."""
     return _tinted(0.88 + 0.07 * _smooth(rng, 1.5, 1.5) + 0.03 * _smooth(rng, 20, 20), (1.0, 0.985, 0.96))
 
 
 def _milled(rng: np.random.Generator) -> Array:
-    """Marks of a face mill that went along y: arcs, a little uneven."""
+    """Marks of a face mill that moved along y: slightly uneven arcs."""
     x = np.arange(_SIZE) - _SIZE / 2
     arc = np.sqrt((0.8 * _SIZE) ** 2 - x**2)
     marks = np.sin(2 * np.pi * _MARKS * np.add.outer(np.arange(_SIZE), -arc) / _SIZE)
@@ -84,14 +87,14 @@ def _milled(rng: np.random.Generator) -> Array:
 
 
 def _woven(rng: np.random.Generator) -> Array:
-    """A belt's weave, a little worn."""
+    """The weave of a slightly worn belt."""
     x = np.arange(_SIZE)
     weave = 0.05 * np.add.outer(np.sin(2 * np.pi * x / 8), np.sin(2 * np.pi * x / 8))
     return _tinted(0.86 + weave + 0.05 * _smooth(rng, 15, 60))
 
 
 def _tiles(rng: np.random.Generator) -> Array:
-    """Linoleum tiles, two by two to a picture, in alternating tones."""
+    """Linoleum tiles, two by two in a picture, in alternating tones."""
     half = _SIZE // 2
     tone = np.kron(np.array([[0.94, 0.80], [0.80, 0.94]]), np.ones((half, half)))
     joint = np.arange(_SIZE) % half < 3
@@ -108,4 +111,4 @@ _LIKE: Final = {"top": "machined", "block": "machined"}  # materials that have t
 _REPEATS: Final = {
     "belt": 1, "cast": 25.0, "floor": 3.3, "machined": 12.0, "table": 1, "wood": 1, "top": 12.0, "block": 12.0,
 }  # fmt: skip
-"""Repeats of a grain a metre; 1: once over the whole surface."""
+"""Repetitions of a grain per metre; 1: once over the whole surface."""

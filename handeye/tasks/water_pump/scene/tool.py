@@ -1,4 +1,4 @@
-"""The powered screwdriver in its rack, with its magnetic socket."""
+"""The powered screwdriver in its rack, with its magnetic bit."""
 
 from math import cos, pi, sin, sqrt
 from typing import Final
@@ -13,13 +13,15 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.stations import Station
 
 _POLES: Final = 6
-"""Poles of the bit's magnet, on a circle that halves the area of a head: a head that hangs by its edge is pulled by its
-whole face, and drawn straight, since an adhesion acts where geoms are near."""
+"""Number of poles of the bit's magnet. They lie on a circle that halves the area of a screw head, so that a head
+that hangs by its edge is pulled by its whole face and straightened; MuJoCo's adhesion acts only where geoms are
+near.
+"""
 _POLE: Final = 5e-4  # m, radius: they lie within the bit, a twentieth of a millimetre behind its face
 
 
 def add_driver(shaper: Shaper, world: PumpWorld) -> None:
-    """The rack, and the screwdriver hanging in it: a square grip block with a spindle below."""
+    """Add the rack with the screwdriver hanging in it: a square grip block with a spindle below."""
     d = dimensions()
     x, y = d.all("rack.place")
     fixture = add_fixture(shaper, world, Station.RACK, (x, y))
@@ -38,7 +40,7 @@ def add_driver(shaper: Shaper, world: PumpWorld) -> None:
 
 
 def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
-    """The bit: a flat face that drives, in a ring that keeps the head from sliding off."""
+    """Add the bit: a flat driving face, in a ring that keeps the screw head from sliding off."""
     d = dimensions()
     length = d("driver.bit")
     body = driver.add_body(name="bit", pos=[0.0, 0.0, -d("driver.height") / 2 - length])
@@ -61,9 +63,11 @@ def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
 
 
 def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
-    """Four posts that the corners of the grip block stand on, the spindle between, in a square guide with a lead-in.
+    """Add the rack: four posts for the corners of the grip block, and a square guide with a lead-in, with the
+    spindle between the posts.
 
-    The socket comes down between the posts before the guide has the block: it has more room than the guide's lead.
+    The socket comes down between the posts before the block reaches the guide, so its clearance is greater than the
+    lead-in of the guide.
     """
     d = dimensions()
     (x, y), height = d.all("rack.place"), d("rack.height")
@@ -80,11 +84,11 @@ def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
 
 
 def _add_drives(spec: mujoco.MjSpec) -> None:
-    """Spindle motor, thread drive and magnet.
+    """Add the spindle motor, the thread drive and the magnet.
 
-    `drive` turns a thread's carrier and reacts on the driver: the moments of a joint equality would cancel
-    inside the driver, and the arm would feel nothing. The cell points it at the carrier of the engaged screw
-    and sets its gains.
+    `drive` turns a thread's carrier and reacts on the driver; the moments of a joint equality would cancel inside
+    the driver, and the arm would feel nothing. The cell connects `drive` to the carrier of the engaged screw and
+    sets its gains.
     """
     d = dimensions()
     spin = spec.add_actuator(name="spindle", trntype=mujoco.mjtTrn.mjTRN_JOINT, target="spindle")

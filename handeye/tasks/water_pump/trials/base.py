@@ -1,4 +1,4 @@
-"""Trial of the eye: the pump base on the belt."""
+"""Trial of vision: locate the pump base on the belt."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -29,7 +29,7 @@ WRONG_BEYOND_PX: Final = 5.0  # a hole found farther off is something else, what
 
 
 class BaseAttempt(Attempt, frozen=True, kw_only=True):
-    """The base looked for once."""
+    """One attempt to locate the base."""
 
     error: Vector3 | None  # error of x, y (m) and yaw (rad) as found; None: not found
     wrong: bool = False  # something else was taken for it
@@ -37,12 +37,12 @@ class BaseAttempt(Attempt, frozen=True, kw_only=True):
 
     @property
     def within(self) -> bool:
-        """True if it was found as exactly as the paper says."""
+        """True if the base was located as accurately as the paper states."""
         return self.error is not None and all(abs(e) <= w for e, w in zip(self.error, WITHIN, strict=False))
 
 
 class BaseTrial(Trial[BaseAttempt]):
-    """Find the base: first where a world has it, then at fresh poses on the belt."""
+    """Locate the base: first at the pose in the world, then at random poses on the belt."""
 
     attempt = BaseAttempt
 

@@ -1,4 +1,4 @@
-"""Trial of the eye: is the gasket on properly?"""
+"""Trial of vision: inspect whether the gasket lies properly."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -31,21 +31,21 @@ SHIFTED: Final = "shifted .3"
 ABSENT: Final = "absent"
 DOUBLED: Final = "doubled"
 REJECTED: Final = (SHIFTED, ABSENT)
-"""Cases that the eye has to reject. Two gaskets on each other look like one: the hand finds them, by their height."""
+"""Cases that vision must reject. Two gaskets on each other look like one; the hand detects them by their height."""
 SHIFT: Final = 0.3 * INCH
 BASE_OFF_IN: Final = 0.03  # to either side, and .3 deg: play that the blocks leave
 GASKET_OFF_IN: Final = 0.02  # likewise, the pins
 
 
 class GasketAttempt(Attempt, frozen=True, kw_only=True):
-    """A gasket of every case inspected once."""
+    """One inspection of the gasket in each case."""
 
     accepted: dict[str, bool]  # verdict of the eye by case; empty if the camera could not be calibrated
     failure: str | None = None
 
 
 class GasketTrial(Trial[GasketAttempt]):
-    """Inspect the gasket where it belongs, shifted, not there, and doubled."""
+    """Inspect the gasket in place, shifted, absent, and doubled."""
 
     attempt = GasketAttempt
 
@@ -90,7 +90,7 @@ class GasketTrial(Trial[GasketAttempt]):
 def _inspected(
     still: StillPump, base: Place, part: Part, view: View, rng: np.random.Generator
 ) -> dict[str, bool]:
-    """The eye's verdict on the gasket of each case, all compared with one picture before."""
+    """The verdict of vision on the gasket in each case, compared with one picture from before."""
     before = still.camera.digitise()
     stand = still.pose("gasket")
     X_WP = planar(*base) @ planar(0.0, 0.0, base_top(), 0.0)
@@ -115,7 +115,7 @@ def _shifted(X_WP: Pose, rng: np.random.Generator) -> Pose:
 
 
 def _doubled(X_WP: Pose, rng: np.random.Generator) -> Pose:
-    """The upper one: the lower is hidden beneath it."""
+    """The pose of the upper of two gaskets; the lower one is hidden beneath it."""
     return translated(_right(X_WP, rng), (0.0, 0.0, dimensions()("gasket.thickness")))
 
 
@@ -128,7 +128,7 @@ _CASES: Final[dict[str, Callable[[Pose, np.random.Generator], Pose | None]]] = {
 
 
 def _jittered(place: Place, rng: np.random.Generator, amount: float) -> Place:
-    """Off by at most `amount` inches in x and y, and .3 degrees."""
+    """A place changed by at most `amount` inches in x and y, and by up to .3 degrees."""
     x, y, z, turn = place
     dx, dy = rng.uniform(-amount, amount, 2) * INCH
     return x + float(dx), y + float(dy), z, turn + float(rng.uniform(-0.3, 0.3)) * DEGREE

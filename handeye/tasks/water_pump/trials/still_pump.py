@@ -1,4 +1,6 @@
-"""The pump's cell before it has moved, with parts placed at will, the eye in it, and what a program knows of that."""
+"""The pump's cell in its initial state, with parts placed at given poses, its camera, and the program's knowledge
+of both.
+"""
 
 import math
 from collections.abc import Iterator
@@ -38,7 +40,7 @@ Place = tuple[float, float, float, float]  # x, y, z (m) and yaw (rad) in W
 
 
 class StillPump:
-    """The cell of a world before it has moved, its arm parked."""
+    """The cell of a world in its initial state, with the arm parked."""
 
     def __init__(self, world: PumpWorld, *, renderer: str = "auto") -> None:
         self.world, model = world, build(world)
@@ -51,19 +53,19 @@ class StillPump:
         self.true_camera = true_camera(world.camera, DRAWING)
 
     def put(self, part: str, X_WP: Pose) -> None:
-        """Put a free body at a pose, whatever is there."""
+        """Put a free body at a pose, even if another body is there."""
         quat: Array = np.zeros(4)
         mujoco.mju_mat2Quat(quat, X_WP[:3, :3].ravel())
         self._data.joint(part).qpos = [*X_WP[:3, 3], *quat]
         mujoco.mj_forward(self._model, self._data)
 
     def pose(self, part: str) -> Pose:
-        """`X_WP` of a body."""
+        """The pose `X_WP` of a body."""
         return body_pose(self._data, part)
 
 
 def pump_base(at: Place | None = None) -> Part:
-    """The pump base as a program describes it, by the dimensions of the scene; on the belt by default."""
+    """The pump base as a program describes it, from the dimensions of the scene; on the belt by default."""
     d = dimensions()
     first = Hole(x=0.0, y=0.0, diameter=d("base.large_hole_1.diameter"))
     second = Hole(x=d("base.large_hole_2.x"), y=0.0, diameter=d("base.large_hole_2.diameter"))
@@ -83,7 +85,7 @@ def pump_base(at: Place | None = None) -> Part:
 
 
 def put_base(still: StillPump, place: Place, *, pins: bool) -> None:
-    """Put the base somewhere, with the aligning pins in it or where they are."""
+    """Put the base at a place, with the aligning pins in it or left where they are."""
     X_WP = planar(*place)
     still.put("base", X_WP)
     d = dimensions()
@@ -94,7 +96,7 @@ def put_base(still: StillPump, place: Place, *, pins: bool) -> None:
 
 
 def look(camera: TvCamera, known: CameraModel, lens: float, point: tuple[float, float, float]) -> View:
-    """Turn the lens, aim and focus as the executor does; what the program then believes to see."""
+    """Turn the lens, aim and focus as the executor does; returns the view as the program believes it to be."""
     camera.lens(lens)
     camera.aim(*known.aim(point, lens))
     camera.focus(math.dist(point, known.mount))
@@ -104,7 +106,7 @@ def look(camera: TvCamera, known: CameraModel, lens: float, point: tuple[float, 
 def locate(
     camera: TvCamera, known: CameraModel, part: Part
 ) -> tuple[SpecificLocation | Failure, list[tuple[Picture, View, GeneralLocation | None]]]:
-    """Both stages, with the pictures they used."""
+    """Locate the part in both stages; also returns the pictures used."""
     x, y, z, _ = part.at
     view = look(camera, known, WIDE, (x, y, z))
     picture = camera.digitise()
@@ -120,7 +122,7 @@ def locate(
 
 
 def base_poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
-    """Poses of the base: x, y (m) and yaw (rad); the world's own first."""
+    """Poses of the base, x, y (m) and yaw (rad); the pose in the world comes first."""
     yield world.base.x, world.base.y, world.base.yaw
     rng, ranges = world.generator("trial.base"), np.array([BELT_X, BELT_Y, BELT_LINE])
     for _ in range(number - 1):
@@ -131,7 +133,9 @@ def base_poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
 def known_camera(
     still: StillPump, known: Known, renderer: str, about: tuple[float, float, float]
 ) -> CameraModel:
-    """The camera as the program knows it; simulated sightings are about a point, W, m. Raises CalibrationFailed."""
+    """The camera model that the program knows; simulated sightings are about the point `about`, W, m. Raises
+    CalibrationFailed.
+    """
     match known:
         case "lamp":
             return by_lamp(still, renderer).model
@@ -144,10 +148,11 @@ def known_camera(
 
 
 def by_lamp(still: StillPump, renderer: str) -> Calibration:
-    """Calibrate as runs do: in the cell of the world the arm measures itself, then carries its lamp through the view.
+    """Calibrate as in a run: in the cell of the world, the arm measures itself and then carries its lamp through
+    the camera's view.
 
-    The camera of the still scene continues in that state: with its lens, its aim, and the noise to come. Raises
-    CalibrationFailed if the lamp was seen too few times.
+    The camera of the still cell continues in the state after the calibration, with its lens, aim and noise
+    generator. Raises CalibrationFailed if the lamp was seen too few times.
     """
     cell = build_cell(still.world, camera=renderer)
     drive = DriveState.holding(cell.devices.sense(), STANFORD)
@@ -161,9 +166,10 @@ def by_lamp(still: StillPump, renderer: str) -> Calibration:
 
 
 def by_sightings(still: StillPump, about: tuple[float, float, float]) -> Calibration:
-    """Calibrate as by a lamp shown at random places about a point, without rendering any: cheap, and too good.
+    """Calibrate with simulated sightings of a lamp at random points about a point, without rendering: fast, but too
+    accurate.
 
-    It knows nothing of the joints' own errors, of the lamp's place and of the raster.
+    The errors of the joints, of the lamp's position and of the raster are not simulated.
     """
     rng = still.world.generator("trial.calibration")
     sightings = []

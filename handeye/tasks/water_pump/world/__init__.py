@@ -1,1 +1,1 @@
-"""The worlds of the pump: its figures as drawn, the errors that vary, and what one drawn world is."""
+"""The worlds of the pump: nominal figures, the errors that vary, and the values of one world."""

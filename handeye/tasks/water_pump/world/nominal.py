@@ -1,4 +1,6 @@
-"""The pump's cell as drawn: where its camera stands, and how the arm shows its lamp to it."""
+"""The pump's cell as designed: the position of its camera, and the looks with which the arm shows its lamp to the
+camera.
+"""
 
 from collections.abc import Iterator
 from typing import Final
@@ -13,9 +15,9 @@ DRAWING: Final = CameraModel(
     mount=(34 * INCH, 68 * INCH, 54 * INCH),
     lenses=tuple(LensModel(focal_length=focal, forward=2 * INCH, up=1 * INCH) for focal in LENSES),
 )
-"""The camera as drawn: on a tripod 14 in beyond the far edge of the table, opposite the arm.
+"""The camera as designed: on a tripod 14 in beyond the far edge of the table, opposite the arm.
 
-Chosen so that no part of the arm hides the base; the offset of the lenses is a placeholder.
+The position is chosen so that no part of the arm hides the base; the offset of the lenses is a placeholder.
 """
 _HAND_ANGLE: Final = 135 * DEGREE
 
@@ -27,11 +29,11 @@ _TRIANGLE: Final = (0, 2, 4)  # places of a grid of six: two rows of three
 def _looks(
     chosen: tuple[int, ...], lens: float, x: float, y: float, dx: float, dy: float, heights: tuple[float, ...]
 ) -> Iterator[CalibrationLook]:
-    """A look at each of some places of a grid about (x, y), with the lamp shown left and right, high and low; inches.
+    """Looks at some places of a grid about (x, y), with the lamp shown left and right, high and low; inches.
 
-    The camera is aimed again for each look, because each reading of its pan and tilt has a different error; two places
-    of one look tell how the camera is rolled. The heights are mixed, because places of one height would not tell
-    height from depth.
+    The camera is aimed again for each look, because each reading of its pan and tilt has a different error; two
+    lamp places in one look determine the roll of the camera. The heights are mixed, because lamp places of one
+    height would not distinguish height from depth.
     """
     for k in chosen:
         cx, cy = x + dx * (k % 3 - 1), y + dy * (k // 3 - 0.5)
@@ -54,8 +56,8 @@ LOOKS: Final = (
     *_looks(_ALL, CLOSE_UP, 42.5, 29.0, 3.5, 4.0, (8.0, 12.0, 7.5, 10.0)),
     *_looks(_TRIANGLE, CLOSE_UP, 28.0, 35.0, 3.0, 4.0, (6.0, 9.0, 7.5)),
 )
-"""Both lenses over the belt, and the close-up lens from there to the standard position too: half the looks do
-there, as the others have told most.
+"""Looks of both lenses over the belt, and of the close-up lens also between belt and standard position; there half
+the number suffices, because the other looks give most of the information.
 
-The fingers reach 3.5 in below the lamp, and have to stay clear of a base 2.75 in high on the belt.
+The fingers reach 3.5 in below the lamp, and must stay clear of the base on the belt, which is 2.75 in high.
 """

@@ -1,4 +1,4 @@
-"""The world of the pump by its devices and parts, from which the simulated cell is built."""
+"""The values of a pump world by device and part, from which the simulated cell is built."""
 
 from dataclasses import dataclass, fields, replace
 from typing import Self
@@ -24,7 +24,7 @@ from handeye.tasks.water_pump.world.variation import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Light:
-    """The key light and what the room adds."""
+    """The key light, and the ambient light of the room."""
 
     zenith: float  # rad from the vertical
     azimuth: float  # rad from table x: where the light comes from
@@ -34,7 +34,7 @@ class Light:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Placing:
-    """An error of place, m, and of turn, rad: about z, then about the y and x that have turned with it."""
+    """A placement error: displacement, m, and turn, rad, about z and then about the turned y and x axes."""
 
     x: float = 0.0
     y: float = 0.0
@@ -44,7 +44,9 @@ class Placing:
     roll: float = 0.0
 
     def about(self, x: float, y: float, z: float = 0.0) -> Pose:
-        """Displacement of what is fixed to a part with this placement error, which turns about a point, m."""
+        """The displacement, as a pose, of everything fixed to a part that has this placement error and is turned by
+        it about (x, y, z), m.
+        """
         R = rotation_z(self.yaw) @ rotation(np.array([0.0, self.pitch, 0.0])) @ rotation_x(self.roll)
         p, error = np.array([x, y, z]), np.array([self.x, self.y, self.z])
         return pose(R, p + error - R @ p)
@@ -52,22 +54,24 @@ class Placing:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PumpWorld(ArmWorld):
-    """One drawn world."""
+    """One drawn world of the pump."""
 
     base: Placing
-    """The pump base on the belt: its reference point and the direction of its line of centres, in W."""
+    """The pump base on the belt, in W: its reference point, and the direction of the line between its hole centres.
+
+    """
     camera: CameraErrors
     light: Light
     fixtures: dict[str, Placing]  # error of each fixture
     parts: dict[str, Placing]  # error of each part's place on its fixture, by its body; pins have none
     holes: dict[str, tuple[Point, ...]]
-    """Error of each screw hole of a part, m, by the names in DRILLED; the base's are the tapped ones."""
+    """Error of each screw hole of a part, m, by the names in DRILLED; for the base, of the tapped holes."""
     part_mass: float  # scale of the masses of base and top
     thread_phase: tuple[float, ...]  # angle at which each thread starts, rad
 
     @classmethod
     def of(cls, world: World) -> Self:
-        """The values of a drawn world, sorted by device and part."""
+        """Sort the values of a drawn world by device and part."""
         numbers = range(1, round(world[SCREWS]) + 1)
         return cls(
             **arm_values(world, RUBBING),
@@ -86,17 +90,19 @@ class PumpWorld(ArmWorld):
 
     @classmethod
     def draw(cls, spec: WorldSpec) -> Self:
-        """The world of a specification; raises InvalidInput if it cannot be drawn here."""
+        """Draw the world of a specification; raises InvalidInput if that is impossible for this task."""
         return cls.of(variation().draw(spec))
 
     @classmethod
     def sample(cls, seed: int) -> Self:
-        """The world of a seed, with errors as large as they usually are."""
+        """The world of a seed, with errors of nominal level."""
         return cls.draw(WorldSpec(seed=seed))
 
     @classmethod
     def nominal(cls, screws: int = 6) -> Self:
-        """The world as the plan and the controller think it is: no error, noise or step, no friction in the joints."""
+        """The world as plan and controller assume it: no errors, no noise, no converter steps, no friction in the
+        joints.
+        """
         table = variation()
         everything = tuple(sorted({name.split(".")[0] for name in table.quantities}))
         smooth = {quantity.name: 0.0 for quantity in table.select("arm.friction")}
@@ -109,13 +115,13 @@ class PumpWorld(ArmWorld):
         return len(self.holes["base"])
 
     def drilled(self, part: str) -> tuple[Point, ...]:
-        """True places of a part's screw holes, in the part's frame, m."""
+        """True positions of a part's screw holes, in the part's frame, m."""
         drawn = screw_holes(self.screws)
         return tuple((x + dx, y + dy) for (x, y), (dx, dy) in zip(drawn, self.holes[part], strict=True))
 
 
 def _placing(world: World, name: str) -> Placing:
-    """The placement error of a name; zero where it has no quantity."""
+    """The placement error with a name; zero in components that have no quantity."""
     ways = (field.name for field in fields(Placing))
     return Placing(**{way: world.values.get(f"{name}.{way}", 0.0) for way in ways})
 
@@ -132,7 +138,7 @@ def _parts(world: World) -> dict[str, Placing]:
 
 
 def _in_play(world: World, name: str, play: float) -> Placing:
-    """The placement error of a name whose x and y are shares of a play, m."""
+    """The placement error with a name, whose x and y are given as fractions of a play (m)."""
     share = _placing(world, name)
     return replace(share, x=share.x * play, y=share.y * play)
 

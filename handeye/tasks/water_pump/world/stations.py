@@ -1,7 +1,7 @@
-"""Stations of the pump's table: fixtures that parts and tools wait on, or are pushed against.
+"""Stations of the pump's table: fixtures in which parts and tools wait, or against which they are pushed.
 
-A station whose shape is boxes is one entry of `scenes/water_pump/dimensions.toml`, `[stations.NAME]`: the scene draws
-it, worlds place it with an error of its own, and the planner keeps every motion clear of it.
+A station that consists of boxes is one entry `[stations.NAME]` of `scenes/water_pump/dimensions.toml`: the scene
+shows it, worlds displace it by a separate error, and the planner keeps every motion clear of it.
 """
 
 from enum import StrEnum
@@ -13,7 +13,7 @@ from handeye.tasks.stanford_cell.dimensions import dimensions
 
 
 class Station(StrEnum):
-    """Names of the stations with a shape of their own: of their bodies, and of the errors with which they stand."""
+    """Names of the stations with a special shape; their bodies and their errors have these names."""
 
     BLOCKS = "blocks"
     PIN_HOLDER = "pin_holder"
@@ -24,8 +24,9 @@ class Station(StrEnum):
 
 
 def plain_stations() -> dict[str, tuple[Box, ...]]:
-    """The boxes of the stations that are no more than boxes, by name; table frame, m. Raises InvalidInput if the
-    figures of one are not those of boxes."""
+    """The boxes of the stations that consist of boxes only, by name; table frame, m. Raises InvalidInput if the
+    figures of a station are not those of boxes.
+    """
     found = {}
     for figure in dimensions().figures:
         group, _, rest = figure.partition(".")
@@ -53,6 +54,6 @@ def stations() -> tuple[str, ...]:
 
 
 def planned_fixtures() -> dict[str, Fixture]:
-    """The plain stations as the planner keeps clear of them, by names as in a taught file."""
+    """The stations that consist of boxes, as obstacles for the planner, by their names in taught files."""
     origin = (0.0, 0.0, 0.0, 0.0)
     return {name.upper(): Fixture(at=origin, boxes=boxes) for name, boxes in plain_stations().items()}

@@ -1,6 +1,6 @@
-"""Variation of the pump's world: everything that is not quite as the plan thinks.
+"""The quantities in which worlds of the pump differ from the plan.
 
-Search, sight and touch exist to beat these errors. Joints, holes and screws are counted from 1.
+Search, vision and touch exist to overcome these errors. Joints, holes and screws are counted from 1.
 """
 
 from collections.abc import Iterator
@@ -17,23 +17,25 @@ from handeye.tasks.water_pump.world.stations import stations
 BELT_X: Final = (41.5, 47.5)
 BELT_Y: Final = (23.0, 33.0)
 BELT_LINE: Final = (60.0, 120.0)
-"""Ranges of the base on the belt: reference point (in), direction of its line of centres (deg)."""
+"""Ranges of the base on the belt: reference point (in), and direction of the line between its hole centres (deg)."""
 RUBBING: Final = ("pad", "table", "part", "thread")
 DRILLED: Final = ("base", "gasket", "top")  # the parts with screw holes, each drilled with errors of its own
 STOOD: Final = ("gasket", "top")
-"""The parts that a person puts on a stand, which holds them by nothing but friction."""
+"""The parts that a person puts on a stand, where only friction holds them."""
 SCREWS: Final = "pump.screws"
 MAKES: Final = (6, 7)
-"""Numbers of screws, and of tapped holes, of the pumps that there are."""
+"""Possible numbers of screws, and of tapped holes, of a pump."""
 USUAL: Final = 6
 
 _VISION: Final = "Vision study, section 3."
 IN_PLAY: Final = 70.0
-"""Percent of its play that a part can be off along an axis: it stays clear of the corners of its seat."""
+"""Greatest displacement of a part along an axis, in percent of its play, so that the part stays clear of the
+corners of its seat.
+"""
 
 
 def screws(world: WorldSpec) -> int:
-    """Screws and tapped holes of the pump of a world."""
+    """Number of screws and tapped holes of the pump in a world."""
     return round(variation().value(SCREWS, world))
 
 
@@ -61,7 +63,7 @@ def _make() -> Iterator[Quantity]:
 
 
 def _of(number: int, quantities: Iterator[Quantity]) -> Iterator[Quantity]:
-    """Quantities of the screw or hole of a number, which pumps of fewer screws lack."""
+    """Quantities of the screw or hole with a number; pumps with fewer screws do not have them."""
     where = (SCREWS, float(number)) if number > USUAL else None
     return (replace(quantity, where=where) for quantity in quantities)
 
