@@ -186,8 +186,8 @@ def poses(
         bad += each.missed + each.wrong
         off = f"hand off by {each.off:.1e} m and {each.turned:.1e} rad at most"
         say(
-            f"{each.what:31} {'written' if each.written else 'exact':7} {each.poses:6} poses, {each.missed} not found, "
-            f"{each.wrong} wrong, {off}"
+            f"{each.what:31} {'written' if each.written else 'exact':7} {each.poses:6} poses, {each.missed} not "
+            f"found, {each.wrong} wrong, {off}"
         )
     return 1 if bad else 0
 
@@ -304,7 +304,7 @@ def breaking(
             help="Interrupt the arm while it takes the pump apart: kill it ten times, or press Ctrl-C.",
         ),
     ] = False,
-    jobs: Annotated[WholeNumber, Parameter(help="Number of processes at a time.")] = 2,
+    jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
 ) -> int:
     """Interrupt runs, resume them, and check that the result is the same.
 

@@ -139,7 +139,7 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
         (("trials", "assembly", "--seeds", "0-5,3"), "--seeds names 3 twice"),
         (
             ("trials", "assembly", "--seeds", f"0-999999,{2**53 - 1}"),
-            "the number of trials can be 1,000,000 at most",
+            "the number of trials must be at most 1,000,000",
         ),
         *(
             ((*words, "--seed", str(2**53 - 1), "--n", "2"), f"{SEED}; 9007199254740992 is not")
@@ -162,24 +162,24 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
         (("trials", "assembly", "--n", "0"), "the number of trials must be at least 1, not 0"),
         (
             ("trials", "assembly", "--cpu-limit", "0"),
-            "a limit of time is a number of seconds above 0; 0 is not",
+            "a time limit must be more than 0 s, not 0",
         ),
         (
             ("trials", "assembly", "--cpu-limit", "inf"),
-            "a limit of time is a number of seconds above 0; inf is",
+            "a time limit must be more than 0 s, not inf",
         ),
         (
             ("trials", "assembly", "--simulated-limit", "1e999"),
-            "a limit of time is a number of seconds above 0",
+            "a time limit must be more than 0 s",
         ),
-        (("trials", "assembly", "--n", "9" * 20), "the number of trials can be 1,000,000 at most"),
+        (("trials", "assembly", "--n", "9" * 20), "the number of trials must be at most 1,000,000"),
         (
             ("trials", "assembly", "--seeds", f"0-{2**53 - 1}"),
-            "the number of trials can be 1,000,000 at most",
+            "the number of trials must be at most 1,000,000",
         ),
-        (("trials", "base", "--n", "9" * 20), "the number of worlds can be 1,000,000 at most"),
-        (("trials", "pallet", "--n", "9" * 20), "the number of trials can be 1,000,000 at most"),
-        (("bench", "insertion", "--n", "9" * 20), "the number of trials can be 1,000,000 at most"),
+        (("trials", "base", "--n", "9" * 20), "the number of worlds must be at most 1,000,000"),
+        (("trials", "pallet", "--n", "9" * 20), "the number of trials must be at most 1,000,000"),
+        (("bench", "insertion", "--n", "9" * 20), "the number of trials must be at most 1,000,000"),
         (("faults", "--list", "--only", "rotr"), "there is no fault `rotr`; there are `finger_switch`"),
         (("faults", "--list", "--stage", "pins"), "--list runs nothing: leave out --stage and --out"),
         (("faults", "--list", "--out", "it"), "--list runs nothing: leave out --stage and --out"),
@@ -199,7 +199,9 @@ def test_a_script_without_its_ending_is_told_from_a_plan(
 ) -> None:
     planned("OPEN 1")
     Path("job.txt").write_text("OPEN 1", encoding="utf-8")
-    sentence = "handeye: job.txt is not a plan; is it a script? `handeye plan job.txt` makes a plan of it\n"
+    sentence = (
+        "handeye: job.txt is not a plan; if it is a script, `handeye plan job.txt` makes a plan from it\n"
+    )
     assert command(*words, "job.txt") == (2, "", sentence)
 
 

@@ -110,7 +110,8 @@ def test_it_is_not_kept_in_the_folder_of_the_run(command: Command, taken: Path, 
     code, _, err = command("dismantle", str(taken), "--out", out, "--overwrite")
     assert (code, err) == (
         2,
-        f"handeye: --out {out}: {taken} must not change; keep its dismantling in another folder\n",
+        f"handeye: --out {out} is in the folder of the run {taken}, which must not change; choose another "
+        "folder\n",
     )
     assert files(taken) == before
 
@@ -122,7 +123,7 @@ def test_what_a_killed_run_did_since_its_last_checkpoint_is_undone_too(command: 
     events = Path("killed/events.jsonl")
     events.write_bytes(events.read_bytes()[:-5])
     code, out, err = command("dismantle", "killed", "--json")
-    assert "repeating 1 step that no checkpoint of killed holds" in err
+    assert "repeating 1 step that came after the last checkpoint in killed" in err
     assert (code, json.loads(out)["apart"]) == (0, True)
     undone = [stage["status"] for stage in json.loads(out)["stages"]]
     assert undone == ["undone", "undone"]
@@ -146,7 +147,9 @@ def test_an_event_list_that_is_not_of_the_run_is_left_out(command: Command, take
     events.write_text(events.read_text("utf-8").replace('"gap":0.0', '"gap":0.9'), encoding="utf-8")
     code, _, err = command("dismantle", "other")
     assert code == 0
-    assert "left out: other/events.jsonl, which belongs to another run than the checkpoints of other" in err
+    assert (
+        "left out: other/events.jsonl, which belongs to a different run from the checkpoints in other" in err
+    )
 
 
 def test_it_is_resumed_where_it_was_broken_off(command: Command, taken: Path) -> None:

@@ -53,7 +53,7 @@ def test_a_path_is_one_that_can_be_opened(command: Command) -> None:
 
 
 @pytest.mark.parametrize(
-    ("topic", "hint"), [("serch", "did you mean search?"), ("../README", "`handeye docs` lists them")]
+    ("topic", "hint"), [("serch", "did you mean search?"), ("../README", "`handeye docs` lists the pages")]
 )
 def test_a_topic_without_a_page_gets_a_sentence(command: Command, topic: str, hint: str) -> None:
     assert command("docs", topic) == (2, "", f"handeye: there is no page `{topic}`; {hint}\n")

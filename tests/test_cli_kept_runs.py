@@ -94,7 +94,7 @@ def test_without_a_run_commands_say_how_to_make_one(command: Command, words: tup
 
 def test_a_run_is_kept_or_not(command: Command) -> None:
     said = command("run", "insertion", "--no-keep", "--out", "it")
-    assert said == (2, "", "handeye: --no-keep and --out do not go together\n")
+    assert said == (2, "", "handeye: --no-keep cannot be given with --out\n")
 
 
 @pytest.mark.slow
@@ -105,10 +105,10 @@ def test_a_run_is_kept_and_the_newest_is_what_commands_take(command: Command, pl
     assert (code, f"kept in {run} (" in err) == (0, True)
     assert json.loads(out) == json.loads((run / "result.json").read_bytes())
     assert command("run", plan, "--camera", "ray", "--no-keep")[0] == 0
-    assert command("show", "--json")[1:] == (out, f"taking the newest run, {run}\n")
+    assert command("show", "--json")[1:] == (out, f"using the newest run, {run}\n")
     _, out, err = command("run", plan, "--camera", "ray", "--out", "named")
     assert err.endswith("see it:     handeye report named\nall tables: handeye show named\n")
-    assert command("show", "--json")[2] == f"taking the newest run, {run}\n"
+    assert command("show", "--json")[2] == f"using the newest run, {run}\n"
     for name in ("events.jsonl", "plan.json", "trace.mcap"):  # to keep a run changes none of its bytes
         assert Path("named", name).read_bytes() == (run / name).read_bytes()
 
@@ -125,7 +125,7 @@ def test_a_disk_that_is_full_costs_a_sentence_and_not_the_run(
     monkeypatch.setattr(RunFolder, method, full)
     code, out, err = command("run", plan, "--camera", "ray")
     assert (code, out.splitlines()[0]) == (0, "The program finished.")
-    assert err.count("the run is kept no further: no space left\n") == 1
+    assert err.count("the rest of the run is not kept: no space left\n") == 1
     assert "kept in" not in err
 
 

@@ -105,7 +105,7 @@ def test_a_plan_that_replaces_another_says_so(command: Command, planned: Planned
     told.append(command("plan", "job.al")[1])
     assert told == [
         "job.plan.json: 1 step, 0 motions, 1 stage\n",
-        "job.plan.json: 1 step, 0 motions, 1 stage, replacing another plan\n",
+        "job.plan.json: 1 step, 0 motions, 1 stage, replacing an earlier plan\n",
     ]
 
 
@@ -142,7 +142,7 @@ def test_an_option_means_the_same_wherever_it_is() -> None:
         if "--jobs" in named:
             assert "--n" in named, words
         for name, told in {
-            "--jobs": "Number of processes at a time.",
+            "--jobs": "Number of processes that work at the same time.",
             "--size": "Width and height in pixels.",
         }.items():
             assert named.get(name, told) == told, words

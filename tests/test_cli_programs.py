@@ -15,7 +15,7 @@ def test_a_program_is_checked_by_its_name(command: Command, name: str) -> None:
     file = plans() / f"{name}.al"
     task = name.removesuffix("_1973")
     assert (code, out) == (0, f"{file}: no errors\n")
-    assert err.startswith(f"{name}: taking the program of the task {task}, {file}\n")
+    assert err.startswith(f"{name}: using the program of the task {task}, {file}\n")
 
 
 @pytest.mark.slow
@@ -29,14 +29,14 @@ def test_the_plan_of_a_program_is_left_here(command: Command) -> None:
     assert (code, out) == (0, "insertion.plan.json: 20 steps, 8 motions, 2 stages\n")
     assert json.loads(Path("insertion.plan.json").read_text(encoding="utf-8"))["task"] == "insertion"
     code, listed, err = command("stages", "insertion")
-    assert (code, "lines 8 to 13" in listed, "taking the program" in err) == (0, True, True)
+    assert (code, "lines 8 to 13" in listed, "using the program" in err) == (0, True, True)
 
 
 def test_a_file_of_the_name_wins_and_a_folder_does_not(command: Command) -> None:
     command("plan", "insertion", "-o", "insertion.plan.json")
     Path("insertion.plan.json").rename("insertion")
     code, _, err = command("stages", "insertion")
-    assert (code, err) == (0, "insertion: taking this file, not the program of that name\n")
+    assert (code, err) == (0, "insertion: using this file, not the program of the same name\n")
     Path("insertion").unlink()
     Path("insertion").mkdir()
     assert command("stages", "insertion")[0] == 0
@@ -53,7 +53,7 @@ def test_a_file_of_the_name_wins_and_a_folder_does_not(command: Command) -> None
         ("trig palletise --task bucket", "`trig palletise` has no option `--task` (see"),
         (
             "check insertion --task water_pump",
-            "the program `insertion` is of the task `insertion`, not of `water_pump`; leave out --task",
+            "the program `insertion` belongs to the task `insertion`, not to `water_pump`; leave out --task",
         ),
         (
             "world --task clock:TASK",
@@ -123,4 +123,4 @@ def test_a_script_of_the_name_wins_too_and_is_told(command: Command) -> None:
     Path("insertion").write_text("OPEN 1\n", encoding="utf-8")
     code, out, err = command("check", "insertion")
     assert (code, out) == (0, "insertion: no errors\n")
-    assert err.startswith("insertion: taking this file, not the program of that name\n")
+    assert err.startswith("insertion: using this file, not the program of the same name\n")

@@ -142,7 +142,10 @@ def test_a_trace_that_was_cut_short_is_shown_as_far_as_it_goes(command: Command,
 
 def test_a_report_of_an_assembly_needs_a_folder(command: Command) -> None:
     code, _, err = command("assemble", "--report", "--no-keep")
-    sentence = "handeye: --report leaves a page in the folder of the run; --no-keep leaves none\n"
+    sentence = (
+        "handeye: --report writes a page into the folder of the run, but --no-keep keeps no folder; "
+        "leave out one of them\n"
+    )
     assert (code, err) == (2, sentence)
 
 
@@ -161,7 +164,7 @@ def test_a_run_is_what_it_is_whatever_comes_of_its_report(
     monkeypatch.setattr(WaterPump, "photographs", ())
     monkeypatch.setattr(job, "REPORT", "report.txt")
     assert job.work(job.Job(start=begin("OPEN 1"), out=tmp_path, report=True)) == 0
-    assert "there is no report: " in capsys.readouterr().err
+    assert "no report is written: " in capsys.readouterr().err
 
 
 def test_a_report_is_known_by_how_it_begins(command: Command, kept: Path) -> None:
@@ -195,7 +198,7 @@ def test_the_demo_takes_less_than_an_eighth_of_a_megabyte_for_a_minute_of_its_ru
 
 
 def test_the_demonstration_brings_its_own_run(command: Command) -> None:
-    assert refused(command, "kept", "--demo") == "--demo brings its own run; give a run or --demo"
+    assert refused(command, "kept", "--demo") == "--demo brings its own run; give either a run or --demo"
 
 
 def test_a_picture_that_a_run_has_left_and_nobody_can_read_is_missing(

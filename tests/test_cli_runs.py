@@ -114,7 +114,10 @@ def test_from_and_to_bound_a_run(command: Command, planned: Planned) -> None:
         (("--until", "99"), "99"),
         (("--break", "NOWHERE"), "NOWHERE"),
         (("--stage", ""), "there is no stage"),
-        (("--from", "3", "--to", "1"), "the run would begin with “feel”, which is after “to and fro”"),
+        (
+            ("--from", "3", "--to", "1"),
+            "the run would begin with “feel”, which comes after its last stage, “to and fro”",
+        ),
         (("--break", "error:99"), "99"),
         (("--on-stop", "sleep"), "sleep"),
         (("--on-stop", "retry:x"), "retry:x"),
@@ -208,7 +211,10 @@ def test_the_checkpoints_of_a_run_stand_for_it(command: Command, planned: Planne
 def test_a_stage_that_has_ended_is_no_place_to_stop_any_more(command: Command, planned: Planned) -> None:
     assert command("run", planned(SCRIPT), "--to", "2", "--out", "it")[0] == 0
     code, _, err = command("resume", "it", "--to", "1")
-    assert (code, "the run would begin with “feel”, which is after “to and fro”" in err) == (2, True)
+    assert (
+        code,
+        "the run would begin with “feel”, which comes after its last stage, “to and fro”" in err,
+    ) == (2, True)
 
 
 @pytest.mark.parametrize(
@@ -220,7 +226,10 @@ def test_a_run_without_a_folder_leaves_no_file_and_says_how_it_would(
     plan = planned(SCRIPT)
     before = sorted(Path().iterdir())
     code, _, err = command("run", plan, *words, typed=typed)
-    assert (code, err.splitlines()[-1]) == (0, "not kept; with --out FOLDER it could be resumed")
+    assert (code, err.splitlines()[-1]) == (
+        0,
+        "the run is not kept and cannot be resumed; --out FOLDER would keep it",
+    )
     assert sorted(Path().iterdir()) == before
 
 
@@ -610,9 +619,11 @@ def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
     ("found", "code", "said"),
     [
         (Repetition(), 0, "it repeats: the same"),
-        (Repetition(rounded="A"), 0, "it repeats except for rounding, on another kind of processor: the same"),
+        (Repetition(rounded="A"), 0, "it repeats except for rounding, on another kind of processor: the "
+            "same"),
         (Repetition(parts="B"), 1, "it does not repeat, on another kind of processor: B"),
-        (Repetition(parts="B", rounded="A"), 1, "numbers differ only by rounding, as between kinds of processors: A"),
+        (Repetition(parts="B", rounded="A"), 1, "numbers differ only by rounding, as between kinds of "
+            "processors: A"),
     ],
 )  # fmt: skip
 def test_verify_has_three_answers_and_names_the_processors(

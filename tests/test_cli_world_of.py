@@ -88,7 +88,7 @@ def test_a_world_of_another_version_is_refused(command: Command, recorded: str) 
 def test_a_world_with_code_of_somebody_elses_is_refused(command: Command, recorded: str) -> None:
     other = begins_otherwise(replaced={"camera": "fog.Foggy"})
     assert refused(command, recorded, "--world-of", other) == (
-        "other.jsonl used code of its caller for camera, which is not available here"
+        "the run in other.jsonl used its caller's own camera, which this command does not have"
     )
 
 
@@ -97,12 +97,13 @@ def test_a_fault_that_cannot_set_in_is_told(
 ) -> None:
     short = planned("OPEN 1\n")
     assert refused(command, short, "--world-of", "run") == (
-        "the fault lamp.dead from stage 2 on in the world of run cannot begin: the plan has only 1 stage"
+        "the fault lamp.dead from stage 2 on of run begins at a later stage than this plan has: it has 1 "
+        "stage"
     )
 
 
 def test_an_event_list_without_a_beginning_tells_no_world(command: Command, recorded: str) -> None:
     Path("empty.jsonl").touch()
     assert refused(command, recorded, "--world-of", "empty.jsonl") == (
-        "empty.jsonl does not hold the start of a run, where its world is recorded"
+        "empty.jsonl does not contain the start of the run, which records its world"
     )

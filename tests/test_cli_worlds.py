@@ -138,18 +138,18 @@ def test_without_a_group_nothing_else_changes(command: Command) -> None:
         (("--set", "part_mass"), "`part_mass` is not a setting; write NAME=VALUE"),
         (("--set", "part_mass=5kg"), "part_mass is not measured in `kg`; known: `%`"),
         (("--set", "camera.place.x=3inn"), "camera.place.x is not measured in `inn`; did you mean `in`?"),
-        (("--set", "part_mass=-95"), "part_mass cannot be `-95`; it can be -90 to 1000 %"),
-        (("--set", "arm.pot_noise.1=-1"), "arm.pot_noise.1 cannot be `-1`; it can be 0 to 360 deg"),
-        (("--set", "light.zenith=120"), "light.zenith cannot be `120`; it can be 0 to 89 deg"),
-        (("--set", "pump.screws=8"), "pump.screws cannot be set to 8: it can be 6 or 7"),
-        (("--set", "pump.screws=6.5"), "pump.screws cannot be set to 6.5: it can be 6 or 7"),
+        (("--set", "part_mass=-95"), "part_mass cannot be `-95`; it must be between -90 and 1000 %"),
+        (("--set", "arm.pot_noise.1=-1"), "arm.pot_noise.1 cannot be `-1`; it must be between 0 and 360 deg"),
+        (("--set", "light.zenith=120"), "light.zenith cannot be `120`; it must be between 0 and 89 deg"),
+        (("--set", "pump.screws=8"), "pump.screws must be 6 or 7, not 8"),
+        (("--set", "pump.screws=6.5"), "pump.screws must be 6 or 7, not 6.5"),
         (
             ("--set", "holes.base.7.x=.1"),
-            "the world has no quantity `holes.base.7.x`; with pump.screws set to 7 it has",
+            "the world has the quantity `holes.base.7.x` only if pump.screws is set to 7",
         ),
         (
             ("--without", "thread_phase.7"),
-            "the world has no quantity `thread_phase.7`; with pump.screws set to 7 it has",
+            "the world has the quantity `thread_phase.7` only if pump.screws is set to 7",
         ),
         (("--set", "base.x=far"), "base.x cannot be `far`, which is not a number"),
         (
@@ -187,7 +187,10 @@ def test_an_unknown_level_is_refused(command: Command) -> None:
     [
         ("unsourced", "`unsourced` is not a factor; write NAME=FACTOR"),
         ("unsourced=2x", "`unsourced=2x` is not a factor; write NAME=FACTOR"),
-        ("unsourced=5", "`unsourced` cannot be scaled by 5.0; at the level nominal, factors are 0 to 4"),
+        (
+            "unsourced=5",
+            "`unsourced` cannot be scaled by 5.0; at the level nominal, a factor must be between 0 and 4",
+        ),
         ("base=2", "the world has no error in `base` to scale"),
         ("camrea=2", "the world has no quantity `camrea`; did you mean `camera`?"),
     ],
@@ -290,7 +293,10 @@ def test_a_fault_sets_in_with_a_stage_by_a_piece_of_its_name_or_not_at_all(comma
     assert (code, err.count("\n")) == (2, 1)
     assert "`aligning`" in err
     code, _, err = command("do", "PARK", "--fault", "lamp.dead@2")
-    assert (code, err) == (2, "handeye: here, a fault is present from the start; leave out `@2`\n")
+    assert (code, err) == (
+        2,
+        "handeye: this command has no stages, so a fault is present from the start; leave out `@2`\n",
+    )
 
 
 @pytest.mark.parametrize("columns", ["80", "120"])

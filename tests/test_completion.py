@@ -61,7 +61,10 @@ def test_bash_completes_a_command(command: Command, home: Path) -> None:
     assert (done.stdout, done.stderr) == ("assemble\n", "")
 
 
-@pytest.mark.parametrize(("named", "found"), [("/bin/tcsh", "SHELL names `tcsh`"), ("", "SHELL names none")])
+@pytest.mark.parametrize(
+    ("named", "found"),
+    [("/bin/tcsh", "the variable SHELL names `tcsh`"), ("", "the variable SHELL names none of them")],
+)
 def test_for_an_unknown_shell_nothing_is_written(
     command: Command, home: Path, monkeypatch: pytest.MonkeyPatch, named: str, found: str
 ) -> None:
@@ -69,6 +72,6 @@ def test_for_an_unknown_shell_nothing_is_written(
     assert command("--install-completion") == (
         2,
         "",
-        f"handeye: completion is available for bash, zsh and fish, and {found}: choose one with --shell\n",
+        f"handeye: completion is available for bash, zsh and fish, but {found}: choose one with --shell\n",
     )
     assert [*home.iterdir()] == []

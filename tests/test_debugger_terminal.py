@@ -84,7 +84,7 @@ def test_no_bar_stands_between_the_answers(stepping: Terminal) -> None:
 
 def test_what_is_typed_while_the_run_goes_is_heard_then_and_not_later(stepping: Terminal) -> None:
     refused, paused = stepping.say("stage\nback"), stepping.say("back 2\nstep")
-    assert "`back` was ignored: during the run" in refused
+    assert "`back` was ignored: while the run moves" in refused
     assert "2 steps done" in refused
     assert "2 steps undone" in paused
     stepping.until(PROMPT)

@@ -138,7 +138,7 @@ def number(
     name: str, unit: OperandUnit, low: float = -MAX_NUMBER, *, optional: bool = False, ours: bool = False
 ) -> Operand:
     """An operand that is a number in a unit, perhaps with a minimum."""
-    why = f"it must be at least {low:g} {unit.name}" if low > -MAX_NUMBER else ANY
+    why = f"the number must be at least {low:g} {unit.name}" if low > -MAX_NUMBER else ANY
     return Operand(name=name, takes=(Number,), units=(unit,), low=low, why=why, optional=optional, ours=ours)
 
 
@@ -180,7 +180,10 @@ MOMENT: Final = Operand(
 )
 ERROR: Final = count("error", 1, 63, "errors have numbers from 1 to 63")
 LENS: Final = Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES_MM)
-_STEP_WHY = f"a step is {MIN_POSITIVE:g} to {MAX_STEP_IN:g} in: a search takes several steps to each side"
+_STEP_WHY = (
+    f"a step must be between {MIN_POSITIVE:g} and {MAX_STEP_IN:g} in: a search takes several steps to each"
+    " side"
+)
 SEARCH_STEP: Final = replace(number("step", IN, MIN_POSITIVE), high=MAX_STEP_IN, why=_STEP_WHY)
 STEPS: Final = count("number", 1, 20, "a search extends 1 to 20 steps to each side", word="STEPS")
 TIMES: Final = count("number", 1, 100, "a stage is undone 1 to 100 times", word="TIMES")

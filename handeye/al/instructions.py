@@ -50,7 +50,7 @@ _AXES = vector(x=ONE, y=ONE, z=ONE)
 _PICTURE = name_of("picture", Refers.PICTURE)
 _PART = name_of("part", Refers.PART)
 _VALUE = count("value", 0, MAX_COUNT, f"a counter can be set to 0 to {MAX_COUNT}")
-_ZERO_WHY = "what it meant in 1977 is lost; only 0, which changes nothing, is certain"
+_ZERO_WHY = "the meaning of other numbers in 1977 is lost; only 0, which changes nothing, is certain"
 _ZERO = Operand(name="0", takes=(Number,), units=(ONE,), low=0.0, high=0.0, why=_ZERO_WHY, optional=True)
 _FORCE = Operand(name="force", takes=(Vector, Name), units=(OZ,) * 3, nil=True, refers=Refers.VECTOR)
 _STOP_FORCE = replace(

@@ -187,7 +187,7 @@ class _Lowerer:
     def step(self, item: ExpandedStatement, role: Role) -> None:
         statement = item.statement
         if role is not MOTION and self.pending:
-            self.no_motion(Label(span=statement.span, text="this is not a motion it can modify"))
+            self.no_motion(Label(span=statement.span, text="this is not a motion that it can modify"))
         if role is SKIP or role is JUMP:
             self.branches.append(len(self.drafts))
         modifiers = self.modifiers(statement) if self.pending else ()
@@ -338,7 +338,7 @@ class _Lowerer:
         return self.at(end)
 
     def skips_modifier(self, skip: Name, modifier: Name) -> None:
-        skipped = Label(span=modifier.span, text="only this would be skipped")
+        skipped = Label(span=modifier.span, text="the skip would skip only this")
         message = f"`{skip.text}` would skip `{modifier.text}`, but not the motion it modifies"
         help = "jump over both with the opposite test and `JUMP`"
         self.problem("skip-over-modifier", message, skip, skipped, help=help)

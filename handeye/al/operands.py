@@ -264,7 +264,7 @@ class _Reader(msgspec.Struct, gc=False):
             raise Mistake("wrong-operand", message, value.span)
         low = self.values[-1] if operand.name == "maximum" else None
         if isinstance(low, Number) and low.value > value.value:
-            message = f"the maximum {value.value:g} is less than the minimum {low.value:g}"
+            message = f"the maximum, {value.value:g}, is less than the minimum, {low.value:g}"
             raise Mistake("number-out-of-range", message, value.span)
 
     def check_nils(self) -> None:
@@ -292,7 +292,7 @@ class _Reader(msgspec.Struct, gc=False):
         message = f"`{self.definition.op}` takes no {'more ' if count else ''}operands"
         early = next((token for token in self.tokens[: self.at] if self.is_too_early(token)), None)
         if early is not None:
-            message = f"`{early.text}` is too early"
+            message = f"`{early.text}` comes too early"
             raise Mistake("wrong-operand", message, early.span, help=self.usage())
         second = next((token.text for token in self.tokens if token.text.upper() in INSTRUCTIONS), None)
         help = self.usage() if second is None else _begins_a_line(second)

@@ -131,7 +131,9 @@ class _Parser:
 
     def define(self, tokens: tuple[Token, ...]) -> None:
         if self.opened is not None:
-            self.unterminated(f"line {quoted(' '.join(t.text for t in tokens[:2]))} comes before its end")
+            self.unterminated(
+                f"{quoted(' '.join(t.text for t in tokens[:2]))} comes before the end of the macro"
+            )
             self.close()
         if len(tokens) < 2 or tokens[1].kind is not NAME:
             at = tokens[1].span if len(tokens) > 1 else Span(start=tokens[0].end, end=tokens[0].end)

@@ -34,8 +34,8 @@ from handeye.program.diagnosis.reach import (
 from handeye.program.program import Program, SourcePlace, Step
 
 RIDDLE: Final = (
-    "in the 1973 print, the second stop of the pin insertion can be read as 60 or 600 oz; it must be 60, because at "
-    "600 the search would never end"
+    "in the print of 1973, the second stop of the pin insertion can be read as 60 or as 600 oz; it must be 60 oz, "
+    "because at 600 oz the search would never end"
 )  # reference D1
 _TOLERANCE: Final = 0.004
 _EIGHTHS: Final = 8
@@ -92,7 +92,7 @@ class _Phrases:
                 return self.joint_limit(found, reason, self.word(found.step), place)
             case InLine():
                 message = f"the hand could not keep its angles {place}"
-                help = "tilt the hand a little, or go there with a `MOVE`"
+                help = "tilt the hand a little, or use a `MOVE`, which is free to turn the hand on its way"
             case TooFast(joint=joint):
                 message = f"{named(self.arm, joint)} would have to move too fast {place}"
                 help = "move more slowly, or start from another place"
@@ -147,7 +147,7 @@ class _Phrases:
             into = f"would go {depth} into {quoted(found.fixture)}"
         place, help = (
             self.along(found.step, found.along),
-            "go around it, or higher, with a position on the way",
+            "add a position on the way that leads around it or higher",
         )
         if self.goal(found.step) is None:
             place = f"at the end of this `{self.word(found.step)}`" if found.at_end else place
@@ -191,9 +191,9 @@ class _Phrases:
             f"{stop} is hard to distinguish from joint friction here",
             self.modifier_span(found.step, "STOP"),
             notes=(
-                f"in free air the arm can feel {felt:.2g} {unit} {there}: friction that it cannot measure",
+                f"joint friction that the arm cannot measure feels like up to {felt:.2g} {unit} {there} in free air",
             ),
-            help=f"use at least {math.ceil(felt)} {unit}",
+            help=f"write at least {math.ceil(felt)} {unit}",
         )
 
     def at_position(

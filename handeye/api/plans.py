@@ -208,7 +208,9 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
         if isinstance(script, str) and not file.exists() and (program := program_named(script)) is not None:
             file, work = program[0], work or program[1]
         elif isinstance(script, str) and not file.exists():
-            raise BadFile(f"{script}: there is no such file; a script given as text must contain a line end")
+            raise BadFile(
+                f"{script}: there is no such file; a script given as text must contain a line break"
+            )
         made = plan_script(file, known, work)
     found = tuple(Diagnostic.of(each, made.source) for each in made.diagnostics)
     if made.plan is None or has_errors(made.diagnostics):

@@ -304,7 +304,7 @@ class Run:
             InvalidInput: the run has no folder, or is not closed.
         """
         if self.out is None:
-            raise Refused("the run has no folder and therefore no trace; begin it with out=...")
+            raise Refused("the run has no folder, and so no trace; begin it with out=...")
         if self._closed is None:
             raise Refused("the trace is complete when the run is closed: leave its `with`, or close() it")
         return read_trace_as(Trace, self.out / TRACE)

@@ -53,7 +53,7 @@ class RunRequest:
         if self.world is None:
             return None if self.seed is None else WorldSpec(seed=checked_seed(self.seed))
         if self.seed is not None:
-            raise BadArgument("give a seed or a world, not both: a world has its seed")
+            raise BadArgument("give a seed or a world, not both: a world already has a seed")
         if isinstance(self.world, World):
             return self.world.spec
         if isinstance(self.world, WorldSpec):
@@ -144,11 +144,11 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
     require(begun.system, "python", str(path))
     if wanted.of_task not in (None, begun.task):
         told = f"{quoted(begun.task)}, not of {quoted(str(wanted.of_task))}"
-        raise Refused(f"the run in {path} is of the task {told}")
+        raise Refused(f"the run in {path} belongs to the task {told}")
     if wanted.spec is not None and wanted.spec != begun.world:
-        raise Refused(f"the run in {path} is in the world of {begun.world}, not that of {wanted.spec}")
+        raise Refused(f"the run in {path} uses the world of {begun.world}, not that of {wanted.spec}")
     if wanted.camera is not None and wanted.camera != begun.camera:
-        raise Refused(f"the run in {path} has the camera `{begun.camera}`, not `{wanted.camera}`")
+        raise Refused(f"the run in {path} uses the camera `{begun.camera}`, not `{wanted.camera}`")
 
 
 def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:

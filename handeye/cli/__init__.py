@@ -71,7 +71,9 @@ def _carried_out() -> int:
         return INTERRUPTED
     except UnicodeEncodeError as error:  # Python keeps byte 0xff of a name as U+DCFF, which nothing can write
         byte = ord(error.object[error.start]) & 0xFF
-        return _complained(f"a name with the byte {byte:#04x} in it is not UTF-8 text; choose another name")
+        return _complained(
+            f"the name contains the byte {byte:#04x}, which is not UTF-8 text; choose another name"
+        )
     except OSError as error:  # a path that is too long, a folder that may not be looked into
         if error.filename is None:
             raise

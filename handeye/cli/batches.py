@@ -65,8 +65,8 @@ def assembly_trials(
     on_stop: Annotated[
         str,
         Parameter(
-            help="How to answer when the program calls the operator: `abort`, `retry:N`, `unwind` or `unwind:STAGE`, "
-            "as in `assemble`."
+            help="How to answer when the program calls the operator: `abort`, `retry:N`, `unwind` or "
+            "`unwind:STAGE`, as in `assemble`."
         ),
     ] = "abort",
     simulated_limit: Annotated[
@@ -75,8 +75,8 @@ def assembly_trials(
     cpu_limit: Annotated[
         float,
         Parameter(
-            help="CPU seconds after which a trial ends unfinished. Time in which the computer sleeps or does other "
-            "work does not count."
+            help="CPU seconds after which a trial ends unfinished. Time in which the computer sleeps or does "
+            "other work does not count."
         ),
     ] = 1800.0,
     options: SweepOptions = ANY,
@@ -84,10 +84,10 @@ def assembly_trials(
     """Assemble in many worlds: success rate with its confidence interval, and what failed where.
 
     The figures are the same for any number of workers. A trial whose process is killed is repeated once; an exception
-    counts as a failure. Trials that this computer interrupted are repeated when the batch continues. With --out, the
-    folder also gets a page with the figures: figures.html.
+    counts as a failure. Trials that ended because this computer failed are repeated when the batch continues. With
+    --out, the folder also receives figures.html, a page with the figures.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some world the program reported success and the referee
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some world the program reported success but the referee
     disagreed; 2: bad input; 130: interrupted.
     """
     from handeye.trials.plans.trial import ASSEMBLY, Trial
@@ -102,7 +102,7 @@ def assembly_trials(
     positive(options.jobs, "worker")
     for limit in (simulated_limit, cpu_limit):
         if not 0 < limit < inf:
-            raise BadArgument(f"a limit of time is a number of seconds above 0; {limit:g} is not")
+            raise BadArgument(f"a time limit must be more than 0 s, not {limit:g}")
     record = plan_or_own(plan, errors.task)
     errors, spared = errors.of(record.task).apart(record.program.calls)
     world = broken(errors.spec(chosen[0]), fault, errors.work, record.program)
@@ -126,7 +126,7 @@ def assembly_trials(
         else f"{counted(len(chosen), 'world')} by name, from {world} on"
     )
     lacking = f", without {', '.join(spared)}" if spared else ""
-    answered = "" if on_stop == "abort" else f", with {on_stop} where the operator is called"
+    answered = "" if on_stop == "abort" else f", with {on_stop} when the program calls the operator"
     command = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
     return carry_out_sweep(
         ASSEMBLY,
@@ -164,7 +164,7 @@ def dismantling_trials(
     fault: Faults = None,
     plan: PlanOption = None,
     to: Annotated[
-        str | None, Parameter(help="Build up to the end of this stage, and take that apart.")
+        str | None, Parameter(help="Assemble up to the end of this stage, and take apart what was assembled.")
     ] = None,
     camera: Camera = "auto",
     options: SweepOptions = ANY,
@@ -191,7 +191,7 @@ def dismantling_trials(
     world = broken(errors.spec(seed), fault, errors.work, record.program)
     stage = "" if to is None else record.program.stages[stage_number(to, record.program)]
     trial = DismantlingTrial(plan=record, world=world, camera=camera_here(camera), without=spared, to=stage)
-    built = f"up to {stage}" if stage else "wholly"
+    built = f"up to {stage}" if stage else "completely"
     made = ([] if plan is None else ["--plan", str(plan)]) + (["--to", stage] if stage else [])
     return carry_out_sweep(
         DISMANTLING,
@@ -199,7 +199,7 @@ def dismantling_trials(
         cases(world.seed, range(n)),
         trial.head(DISMANTLING),
         options,
-        title=f"{record.program.name} assembled {built} and undone, in worlds from {world} on",
+        title=f"{record.program.name} assembled {built} and taken apart, in worlds from {world} on",
         plan=record,
         again=_again(trial, ["trials", "dismantling", "--n", "1"], made + _task_words(record.task, plan)),
         engine=processes(options.jobs, trial.cpu_limit_s),
@@ -209,14 +209,16 @@ def dismantling_trials(
 def compare_trials(
     first: Annotated[Path, Parameter(help="Folder of the first batch.")],
     /,
-    *others: Annotated[Path, Parameter(help="Folders of the batches to compare with it.", json_list=False)],
+    *others: Annotated[
+        Path, Parameter(help="Folders of the batches to compare with the first.", json_list=False)
+    ],
     json: Json = False,
 ) -> int:
-    """Compare batches with a first one, world by world: how a sense, or an error of the world, changes the success
+    """Compare batches with a first one, world by world: how much a sense, or an error of the world, changes the success
     rate.
 
-    All batches must be of one kind. Only trials that both batches have are counted. `p` is from McNemar's exact test:
-    the probability of differences at least this uneven if neither batch is better.
+    All batches must be of the same kind. Only trials that are in both batches are counted. `p` is from McNemar's exact
+    test: the probability of differences at least this uneven if neither batch is better.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch

@@ -21,7 +21,7 @@ MOST_SD: Final = 5.0  # mm: beyond it most holes would be beyond the search
 
 
 def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
-    """Assemble once and print the timing table next to that of 1973.
+    """Assemble once and print the times of the stages next to those of 1973.
 
     Exit code 0: the program finished; 1: it stopped and called the operator.
     """
@@ -57,34 +57,34 @@ def insertion(
     clearance: Annotated[
         float | None,
         Parameter(
-            help="Clearance of the hole in diameter, mm: .05 to 1. Default if another condition "
-            "is given: .114."
+            help="Clearance of the hole in diameter, mm: .05 to 1. Default if --chamfer or --sd is given: "
+            ".114."
         ),
     ] = None,
     chamfer: Annotated[
         float | None,
         Parameter(
-            help="Chamfer of the hole, mm: 0 (a sharp edge) to 2. Default if another condition is given: 1."
+            help="Chamfer of the hole, mm: 0 (a sharp edge) to 2. Default if --clearance or --sd is given: 1."
         ),
     ] = None,
     sd: Annotated[
         float | None,
         Parameter(
-            help="Standard deviation of the hole's position error along each axis, mm: 0 to 5. Default if another "
-            "condition is given: 1."
+            help="Standard deviation of the hole's position error along each axis, mm: 0 to 5. Default if "
+            "--clearance or --chamfer is given: 1."
         ),
     ] = None,
     search: Annotated[
         Literal["gentle", "1973"],
-        Parameter(help="The search of the bench's own program, or that of the 1973 listing."),
+        Parameter(help="Search pattern: that of the bench's own program, or that of the 1973 listing."),
     ] = "gentle",
     options: SweepOptions = ANY,
 ) -> int:
     """Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
 
     The arm, hand and servo are those of the pump. The plate has one hole, which is displaced by a normal error along
-    each axis. Worlds differ in the errors of arm and hand, as those of the pump do. A trial begins with the pin held
-    over the hole. Without --clearance, --chamfer and --sd, the command tries a grid around the setting of a published
+    each axis. As with the pump, worlds differ in the errors of arm and hand. A trial begins with the pin held over
+    the hole. Without --clearance, --chamfer and --sd, the command tries a grid around the setting of a published
     benchmark, which takes some minutes.
 
     Peak force is the greatest force between pin and plate in any physics step, from the simulator's ground truth; the
@@ -123,5 +123,5 @@ def _conditions(
         asked.items(), ((0.05, 1.0), (0.0, 2.0), (0.0, MOST_SD)), strict=True
     ):
         if value is not None and not least <= value <= most:
-            raise BadArgument(f"--{name} must be {least:g} to {most:g} mm; {value:g} is not")
+            raise BadArgument(f"--{name} must be between {least:g} and {most:g} mm, not {value:g}")
     return [Condition(search=search, **{name: value for name, value in asked.items() if value is not None})]

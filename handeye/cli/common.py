@@ -24,23 +24,23 @@ _USUAL_WIDTH: Final = 80
 Script = Annotated[
     Path,
     Parameter(
-        help="A script (.al), with its taught file (.toml) next to it; or the name of a program of a task, such as "
-        "`insertion`."
+        help="A script (.al), with its taught file (.toml) next to it; or the name of a program of a task, such "
+        "as `insertion`."
     ),
 ]
 PlanFile = Annotated[
     Path,
     Parameter(
-        help="A plan made by `handeye plan` (.plan.json), a script (.al), or the name of a program of a task, such as "
-        "`insertion`."
+        help="A plan made by `handeye plan` (.plan.json), a script (.al), or the name of a program of a task, "
+        "such as `insertion`."
     ),
 ]
 TaskWords = Annotated[
     str | None,
     Parameter(
         name="--task",
-        help="The task: its name, or MODULE:NAME for your own, in a module on the path or in this folder. Default: "
-        "the task of the plan, program or run, else the water pump.",
+        help="The task: its name, or MODULE:NAME for your own, in a module on the path or in this folder. "
+        "Default: the task of the plan, program or run, else the water pump.",
     ),
 ]
 CameraKind = Literal["auto", "gl", "ray"]
@@ -77,7 +77,7 @@ def positive(count: int, what: str) -> None:
     if count < 1:
         raise BadArgument(f"the number of {many} must be at least 1, not {count}")
     if count > MOST:
-        raise BadArgument(f"the number of {many} can be {MOST:,} at most; {count} is too large")
+        raise BadArgument(f"the number of {many} must be at most {MOST:,}, not {count}")
 
 
 WholeNumber = Annotated[int, Parameter(converter=whole)]
@@ -93,7 +93,7 @@ Size = Annotated[str, Parameter(help="Width and height in pixels.")]
 Camera = Annotated[
     CameraKind,
     Parameter(
-        help="How to render pictures: OpenGL, ray casting, or `auto`, whichever works on this computer."
+        help="How to render pictures: with OpenGL, by ray casting, or `auto`: OpenGL if this computer has it."
     ),
 ]
 Calibrate = Annotated[
@@ -112,13 +112,14 @@ Out = Annotated[
 
 
 Details = Annotated[
-    bool, Parameter(help="End with all tables: stages, times, and each finding of the referee.")
+    bool, Parameter(help="Print all tables at the end: stages, times, and each finding of the referee.")
 ]
 NoKeep = Annotated[
     bool,
     Parameter(
         name="--no-keep",
-        help="Keep no record of the run. By default it goes into a new folder in `runs`, where the newest ten stay.",
+        help="Keep no record of the run. By default it is saved in a new folder in `runs`, which keeps the "
+        "newest ten runs.",
     ),
 ]
 CALLED: Final = os.environ.get("HANDEYE_CALLED", "handeye")
@@ -192,7 +193,7 @@ def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
         put_json([as_json(d, source) for d in diagnostics])
         return
     if len(diagnostics) == LIMIT:
-        note(f"showing the first {LIMIT}")
+        note(f"showing the first {LIMIT} diagnostics")
     for diagnostic in diagnostics:
         notes.print(render_diagnostic(diagnostic, source), markup=False, soft_wrap=True, end="\n\n")
 

@@ -37,7 +37,7 @@ def register(app: App) -> None:
         if chosen in START_UP:
             changed = _start_up_text(chosen) != before
             say(f"{_start_up(chosen)}: {'now loads it' if changed else 'already loads it'}")
-        say(f"Completion works in every {chosen} that you start from now on{CONDITION.get(chosen, '')}.")
+        say(f"Completion works in every new {chosen} session{CONDITION.get(chosen, '')}.")
         return 0
 
     restore_docstring(install_completion)
@@ -48,8 +48,8 @@ def _shell_of_the_user() -> Shell:
     named = Path(os.environ.get("SHELL", "")).name
     if named in SHELLS:
         return SHELLS[named]
-    found = f"SHELL names `{named}`" if named else "SHELL names none"
-    raise BadArgument(f"completion is available for bash, zsh and fish, and {found}: choose one with --shell")
+    found = f"the variable SHELL names `{named}`" if named else "the variable SHELL names none of them"
+    raise BadArgument(f"completion is available for bash, zsh and fish, but {found}: choose one with --shell")
 
 
 def _start_up(shell: Shell) -> Path:

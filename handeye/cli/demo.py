@@ -16,14 +16,14 @@ def demo(
     *,
     output: Annotated[Path, Parameter(name=["--out", "-o"], help="The page to write, .html.")] = Path(PAGE),
     overwrite: Overwrite = False,
-    no_browser: Annotated[bool, Parameter(help="Write the page only.")] = False,
+    no_browser: Annotated[bool, Parameter(help="Write the page without opening it.")] = False,
 ) -> int:
-    """Show a recorded assembly of the pump: replay it in 3D beside its program, with what it saw and felt.
+    """Show a recorded assembly of the pump: a 3D replay beside its program, with the camera pictures and the forces.
 
-    Writes the report of a run that comes with handeye, as `report --demo` does, and prints its path. A browser opens
-    if there is one and standard output is a terminal. Nothing is simulated, and the page needs no network.
+    Writes the report of a run included with handeye, as `report --demo` does, and prints the path of the page. If
+    standard output is a terminal, the page opens in a browser. Nothing is simulated, and the page needs no network.
 
-    Exit code 0: the page is there; 2: bad input.
+    Exit code 0: the page is written; 2: bad input.
     """
     from handeye.cli.reports import page_of
     from handeye.core import resources
@@ -31,7 +31,7 @@ def demo(
     from handeye.report.page.document import REPORT
 
     check_place(output, REPORT)
-    note("Drawing a recorded run; this takes some seconds.")
+    note("Writing the page of a recorded run; this takes some seconds.")
     page = page_of(resources.demo())
     if not (output.exists() and output.read_bytes() == page):
         check_place(output, REPORT, overwrite=overwrite)
@@ -39,7 +39,9 @@ def demo(
     say(str(output), whole=True)
     shown = not no_browser and sys.stdout.isatty() and opened(output)
     note(f"{'Opened' if shown else 'Open'} {output} in a browser.")
-    note(f"Step through a run yourself: {CALLED} view --demo. Carry one out: {CALLED} assemble.")
+    note(
+        f"Step through a short run in the browser: {CALLED} view --demo. Assemble a pump: {CALLED} assemble."
+    )
     return 0
 
 

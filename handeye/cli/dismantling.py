@@ -28,14 +28,15 @@ def dismantle(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Have the arm undo what it did in a run: take the pump apart again.
+    """Have the arm undo the steps of a run: take the pump apart again.
 
-    The arm undoes every step, the last one first: it moves back along its own path, with what the hand holds, under
-    guards. If the hand meets more force than expected, or holds something else than it did then, the arm brakes and
-    the program calls the operator. The folder of the run does not change.
+    The arm undoes every step, from the last to the first: it moves back along its own path, under guards, with what
+    the hand holds. If the hand meets more force than expected, or does not hold what it held at that step, the arm
+    brakes and the program calls the operator. The folder of the run does not change.
 
-    Exit code 0: every part is back where the run found it, or undone as far as asked; 1: a guard stopped the arm; 3:
-    the program reported all undone, and the referee disagrees; 2: bad input; 130: interrupted.
+    Exit code 0: every part is back where it was before the run, or every step is undone as far as asked; 1: a guard
+    stopped the arm; 3: the program reported every step undone, but the referee disagrees; 2: bad input; 130:
+    interrupted.
     """
     from handeye.cli.job import Job, work
     from handeye.debugger.breakpoints import stage_number
@@ -46,7 +47,9 @@ def dismantle(
     path = run_or_newest(run)
     whole = path.parent.parent if path.parent.name == CHECKPOINTS else path
     if out is not None and whole.is_dir() and whole.resolve() in (out.resolve(), *out.resolve().parents):
-        raise CannotWrite(f"--out {out}: {path} must not change; keep its dismantling in another folder")
+        raise CannotWrite(
+            f"--out {out} is in the folder of the run {path}, which must not change; choose another folder"
+        )
     wanted = made_known(task)
     kept = _newest(path)
     check_task(wanted, kept.setup.task, path)
@@ -84,7 +87,7 @@ def _newest(path: Path) -> "Checkpoint":
         return start
     more = done_since(start, events)
     if more is None:
-        note(f"left out: {path / EVENTS}, which belongs to another run than the checkpoints of {path}")
+        note(f"left out: {path / EVENTS}, which belongs to a different run from the checkpoints in {path}")
     elif more:
-        note(f"repeating {counted(more, 'step')} that no checkpoint of {path} holds")
+        note(f"repeating {counted(more, 'step')} that came after the last checkpoint in {path}")
     return caught_up(start, events, str(path))

@@ -18,15 +18,16 @@ _ENTRY: Final = re.compile(r"^- \[.*?\]\((?P<page>[\w/.-]+\.md)\): (?P<sentence>
 
 def docs(
     topic: Annotated[
-        str | None, Parameter(help="A page: `tutorial`, `faults`, `search`; without it, list them.")
+        str | None,
+        Parameter(help="A page, such as `tutorial`, `faults` or `search`. Default: list the pages."),
     ] = None,
     /,
     *,
-    path: Annotated[bool, Parameter(help="Print where the page lies, for an editor or a viewer.")] = False,
+    path: Annotated[bool, Parameter(help="Print the path of the page, for an editor or a viewer.")] = False,
 ) -> int:
     """List the pages of the documentation, or print one.
 
-    A terminal shows it formatted; a pipe or a file gets its Markdown.
+    A terminal shows the page formatted; a pipe or a file receives its Markdown.
 
     ```
     handeye docs
@@ -34,7 +35,7 @@ def docs(
     handeye docs search | less
     ```
 
-    Exit code 0: it is shown; 2: there is no such page.
+    Exit code 0: shown; 2: there is no such page.
     """
     from handeye.core import resources
 
@@ -72,7 +73,7 @@ def page_named(topic: str, folder: Path) -> Path:
     if name in found:
         return found[name]
     near = get_close_matches(name, found, n=1)
-    hint = f"did you mean {near[0]}?" if near else "`handeye docs` lists them"
+    hint = f"did you mean {near[0]}?" if near else "`handeye docs` lists the pages"
     raise NoSuchName(f"there is no page {quoted(topic)}; {hint}")
 
 
@@ -92,7 +93,7 @@ def _list(index: str) -> None:
                 )
             )
         say("")
-    say("Print a page: handeye docs TOPIC. Each instruction of the language has one: handeye docs SEARCH.")
+    say("Print a page: handeye docs TOPIC. Each instruction of the language has a page: handeye docs SEARCH.")
 
 
 def sections(index: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:

@@ -25,10 +25,10 @@ def fmt(
         bool, Parameter(help="Write nothing; the exit code is 1 if a file would change.")
     ] = False,
 ) -> int:
-    """Format scripts in columns, like a listing of the period; comments stay.
+    """Format scripts in columns, like a listing of 1973; comments are kept.
 
-    `-` reads standard input and writes standard output. A script with syntax errors does not change. Exit code 2:
-    there was such a script, or a file cannot be used.
+    `-` reads standard input and writes standard output. A script with syntax errors does not change. Exit code
+    2: a script has syntax errors, or a file cannot be used.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def explain(word: str | None = None, /) -> int:
     Parameters
     ----------
     word
-        Such as label-twice, 23 or CHANGE.
+        The code, number or instruction, such as label-twice, 23 or CHANGE.
     """
     from handeye.editor.explain import explanation, listing
 

@@ -26,7 +26,7 @@ State = Annotated[
     Path | None,
     Parameter(
         name="RUN",
-        help="The folder of a run, or a checkpoint; by default the world of --seed at its start.",
+        help="The folder of a run, or a checkpoint. Default: the world of --seed, before any run.",
     ),
 ]
 
@@ -82,14 +82,15 @@ def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
         return initial_state(world.spec, world.work.name)
     if world.chosen:
         raise BadArgument(
-            f"{run} brings its own world; --seed, --level, --without, --set and --scale cannot be given with it"
+            f"{run} brings its own world; --seed, --level, --without, --set and --scale cannot be given "
+            "with it"
         )
     exhibit, faults = kept_state(run)
     check_task(wanted, exhibit.task, run)
     for fault in faults:
         note(f"left out: {fault}")
     if exhibit.moment == "unfinished":
-        note(f"the run in {run} is not finished")
+        note(f"the run in {run} is not finished; its newest state is exported")
     return exhibit
 
 
@@ -161,7 +162,7 @@ def _cut(recorded: "RecordedRun") -> int:
     name = recorded.trace.name
     if recorded.whole or name.endswith(".part"):  # which is noted, too
         return 0
-    note(f"{name} was cut short; these are its contents")
+    note(f"{name} was cut short; only the part that it holds is written")
     return 1
 
 
@@ -172,7 +173,7 @@ def thin(
     output: Annotated[Path, Parameter(name=["--out", "-o"], help="The thinned trace, .mcap.")],
     overwrite: Overwrite = False,
 ) -> int:
-    """Shrink a trace to about a tenth, for sharing: it keeps the motion that is needed to show the run.
+    """Shrink a trace to about a tenth of its size, for sharing: it keeps the motion that is needed to show the run.
 
     Every command can read it except `verify`, which needs the whole trace.
     """

@@ -24,7 +24,7 @@ def faults(
     *,
     only: Annotated[
         list[str] | None,
-        Parameter(help="A fault or a group of faults; may be repeated.", consume_multiple=False),
+        Parameter(help="Try only this fault or group of faults; may be repeated.", consume_multiple=False),
     ] = None,
     every: Annotated[
         bool, Parameter(name="--all", help="Try all faults, not only those of the matrix.")
@@ -33,7 +33,11 @@ def faults(
         bool, Parameter(name="--list", help="List the faults and the expected outcome of each; run nothing.")
     ] = False,
     stage: Annotated[
-        str | None, Parameter(help="Start the faults that can begin during work at this stage.")
+        str | None,
+        Parameter(
+            help="Stage at which faults begin that can begin during the work. Default: "
+            "the usual stage of each."
+        ),
     ] = None,
     n: Annotated[
         WholeNumber | None,
@@ -46,24 +50,25 @@ def faults(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder for a run without faults in each world, created when missing and kept: a fault that begins at "
-            "a stage starts from there. By default each fault takes a whole run. The outcome is the same."
+            help="Folder for a run without faults in each world, created if missing. A fault that begins at a "
+            "later stage then starts from a checkpoint of that run. By default each fault takes a whole run. The "
+            "outcome is the same."
         ),
     ] = None,
     world: WorldOptions = ANY_WORLD,
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble once with each fault of a matrix, at its usual size, and report which the program noticed.
+    """Assemble once with each fault of a matrix, at its usual size, and report which faults the program noticed.
 
     Good outcomes: the program `recovered`, or it `stopped` in the right stage, with the brakes on, and named the
     fault. Less good: it stopped but named another fault (`misnamed`). Bad outcomes, counted as undetected: the program
-    ought to notice and did not (`unnoticed`), it stopped without brakes (`unbraked`), or it reported success with a
-    wrong pump (`silent`).
+    should have noticed the fault and did not (`unnoticed`), it stopped without setting the brakes (`unbraked`), or it
+    reported success although the pump is wrong (`silent`).
 
     A whole run takes one to three CPU minutes; the time left is shown on standard error. Ctrl-C stops the command and
-    prints the runs that have finished; with --out the same command continues from there, and other faults in the same
-    worlds join them.
+    prints the runs that have finished; with --out the same command continues from there, and a command for other faults
+    in the same worlds adds its runs to the folder.
 
     Exit code 0: every fault was detected; 1: no trial finished; 3: a fault was undetected; 2: bad input; 130:
     interrupted.

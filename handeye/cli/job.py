@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 Then = Literal["dismantle", "assemble"]  # Undo all that was done, or do it again
 
 PANIC: Final = Pause(kind="panic")
-NOT_KEPT: Final = "not kept; with --out FOLDER it could be resumed"
+NOT_KEPT: Final = "the run is not kept and cannot be resumed; --out FOLDER would keep it"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,7 +90,7 @@ class _StageKeeper(Observer):
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise CannotWrite(f"{folder} cannot be made: {error.strerror}") from None
+            raise CannotWrite(f"the folder {folder} cannot be created: {error.strerror}") from None
         self._kept = CheckpointStore(folder)
         self._kept.claim(setup)
 
@@ -169,7 +169,7 @@ class _Work:
         except (InvalidInput, OSError) as fault:
             if self.unnamed is None or self.folder is None:
                 raise
-            note(f"the run is kept no further: {fault}")
+            note(f"the rest of the run is not kept: {fault}")
             self.folder = None
 
     def close(self) -> None:
@@ -287,7 +287,7 @@ class _Work:
         words = [*commands, *runner.kind.topics, *runner.listing.labels, *names]
         lines, live = self._lines(words)
         if self.folder is None and self.job.checkpoints is None:
-            note("nothing is kept without --out FOLDER; `checkpoint FILE` keeps a state")
+            note("without --out FOLDER the run is not kept; `checkpoint FILE` saves its present state")
         most = MAX_STEPS_SHOWN if screen.is_terminal else None
         try:
             write, prompt = put_line if self.job.json else say, sys.stdin.isatty()
@@ -406,9 +406,9 @@ class _Work:
         try:
             write_report(self.folder.path, place, overwrite=True)
         except InvalidInput as fault:
-            note(f"there is no report: {fault}")
+            note(f"no report is written: {fault}")
         else:
-            note(f"its report: {place}")
+            note(f"report: {place}")
 
 
 def work(job: Job) -> int:

@@ -14,7 +14,7 @@ from handeye.tasks import known_any, named, planned, task
 if TYPE_CHECKING:
     from handeye.tasks.interface import Task
 
-_LEAVE_OUT: Final = "leave out --task, or name another"
+_LEAVE_OUT: Final = "leave out --task, or give the right one"
 
 
 def compiled(file: Path, work: "Task | None" = None) -> Plan:
@@ -38,10 +38,10 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
     file, work = program
     if wanted not in (None, work):
         raise BadArgument(
-            f"the program {quoted(given.name)} is of the task {quoted(work.name)}, not of "
+            f"the program {quoted(given.name)} belongs to the task {quoted(work.name)}, not to "
             f"{quoted(wanted.name)}; {_LEAVE_OUT}"
         )
-    note(f"{given}: taking the program of the task {work.name}, {file}")
+    note(f"{given}: using the program of the task {work.name}, {file}")
     return program
 
 
@@ -92,7 +92,7 @@ def _program(given: Path) -> "tuple[Path, Task] | None":
 def _note_file(given: Path) -> None:
     """Note that the file is used, if a program has the same name."""
     if _is_name(given) and given.is_file() and program_named(given.name) is not None:
-        note(f"{given}: taking this file, not the program of that name")
+        note(f"{given}: using this file, not the program of the same name")
 
 
 def _is_name(given: Path) -> bool:
@@ -108,5 +108,5 @@ def check_task(wanted: str | None, found: str, of: Path) -> None:
     """Raises BadArgument if `--task` names another task than that of a run."""
     if wanted not in (None, found):
         raise BadArgument(
-            f"the run in {of} is of the task {quoted(found)}, not of {quoted(wanted)}; leave out --task"
+            f"the run in {of} belongs to the task {quoted(found)}, not to {quoted(wanted)}; leave out --task"
         )

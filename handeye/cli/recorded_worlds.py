@@ -23,16 +23,18 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
     """The setup of a plan in a recorded run's world, faults and camera; raises InvalidInput if it cannot be built."""
     events = _events(path)
     if not events or not isinstance(events[0], RunStarted):
-        raise BadFile(f"{path} does not hold the start of a run, where its world is recorded")
+        raise BadFile(f"{path} does not contain the start of the run, which records its world")
     begun = events[0]
     _check_drawing(path, begun)
     own = [part for part in begun.own_parts if part != "referee"]
     if own:
-        raise Refused(f"{path} used code of its caller for {', '.join(own)}, which is not available here")
+        raise Refused(
+            f"the run in {path} used its caller's own {' and '.join(own)}, which this command does not have"
+        )
     _check_faults(path, begun, plan)
     if begun.task != plan.task:
         raise BadArgument(
-            f"the run in {path} is of the task {quoted(begun.task)}, and the plan for {quoted(plan.task)}"
+            f"the run in {path} belongs to the task {quoted(begun.task)}, but the plan to {quoted(plan.task)}"
         )
     camera = _CAMERAS.get(begun.camera.method, "auto")
     return Setup(plan=plan, world=begun.world, camera=camera, judged=judged)
@@ -52,8 +54,7 @@ def _check_drawing(path: Path, begun: RunStarted) -> None:
     if world.drawing != DRAWING:
         raise Refused(
             f"the world of {path} comes from another version of handeye: seed {world.seed} gives a different world "
-            f"here "
-            f"(drawing {world.drawing} there, {DRAWING} here)"
+            f"here (drawing {world.drawing} there, {DRAWING} here)"
         )
 
 
@@ -63,5 +64,6 @@ def _check_faults(path: Path, begun: RunStarted, plan: Plan) -> None:
     for fault in begun.world.faults:
         if fault.stage is not None and fault.stage > stages:
             raise BadArgument(
-                f"the fault {fault} in the world of {path} cannot begin: the plan has only {counted(stages, 'stage')}"
+                f"the fault {fault} of {path} begins at a later stage than this plan has: it has "
+                f"{counted(stages, 'stage')}"
             )

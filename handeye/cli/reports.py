@@ -58,7 +58,7 @@ def report(
     made_known(task)
     replaced = ""
     if demo and run is not None:
-        raise BadArgument("--demo brings its own run; give a run or --demo")
+        raise BadArgument("--demo brings its own run; give either a run or --demo")
     if demo:
         place = output or Path(DEMO)
         replaced = "; the earlier one is replaced" if place.exists() else ""
@@ -66,7 +66,7 @@ def report(
         note(f"open {place} in a browser")
     elif run is not None and other is not None:
         if output is None:
-            raise BadArgument("a page of two runs belongs in neither folder; choose a file with -o")
+            raise BadArgument("a page of two runs has no default place; choose a file with -o")
         place = output
         write_comparison(run, other, place, overwrite=overwrite)
     else:
@@ -120,7 +120,7 @@ def compare(
     a: Annotated[
         Path | None,
         Parameter(
-            name="A", help="The folder of a run, or its trace.mcap; by default the newest but one in `runs`."
+            name="A", help="The folder of a run, or its trace.mcap; by default the second newest in `runs`."
         ),
     ] = None,
     b: Annotated[
@@ -131,12 +131,15 @@ def compare(
     task: TaskWords = None,
     output: Annotated[
         Path | None,
-        Parameter(name=["--out", "-o"], help="A page with both views under one slider, .html."),
+        Parameter(
+            name=["--out", "-o"],
+            help="Also write a page (.html) that replays both runs with one time slider.",
+        ),
     ] = None,
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Compare two runs, step by step: the first difference, and where each searched, felt and corrected.
+    """Compare two runs, step by step: the first difference, and where each run searched, felt and corrected.
 
     Runs of different plans, scenes or worlds are compared as far as possible. Exit code 0: compared, whatever the
     difference; 2: bad input.
@@ -150,7 +153,7 @@ def compare(
         found = comparison(read_recorded(one), read_recorded(other))
     else:
         found = write_comparison(one, other, output, overwrite=overwrite)
-        note(f"its page: {output}")
+        note(f"page: {output}")
     return answer(as_json(found), comparison_text(found), json=json)
 
 
@@ -180,7 +183,7 @@ def _animations(a: "RecordedRun", b: "RecordedRun") -> "Animations | str":
         except InvalidInput as fault:
             return f"{fault}."
         if shown is None:
-            return f"{run.trace.name} holds no motion."
+            return f"{run.trace.name} contains no motion."
         made.append(shown)
     one, other = made
     return one, other
@@ -210,7 +213,9 @@ def _way_on(folder: Path, result: "Result") -> str:
     if not own:
         return f"resume with: handeye resume {shlex.join([str(folder), *option(result.task)])}"
     call = ", ".join([repr(str(folder)), *(f"{part}=..." for part in parts)])
-    return f"the run has a {' and a '.join(own)} of its own: from Python, handeye.begin({call}) continues it"
+    return (
+        f"the run uses its caller's own {' and '.join(own)}; resume it from Python with handeye.begin({call})"
+    )
 
 
 def shown(folder: Path, *, json: bool, details: bool = True) -> "KeptRun":

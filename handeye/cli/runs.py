@@ -47,16 +47,17 @@ Step = Annotated[bool, Parameter(help="Step through the run with commands, typed
 Live = Annotated[
     bool,
     Parameter(
-        help="With --step and piped commands: print each line as it begins, and accept `pause` and `pace` during the "
-        "run, as on a terminal. Send a command only after the answer to the last one."
+        help="With --step and piped commands: print each line as it begins, and accept `pause` and `pace` during "
+        "the run, as on a terminal. Send a command only after the answer to the last one."
     ),
 ]
 OnStop = Annotated[
     str | None,
     Parameter(
-        help="What to do when the operator is called: `abort`, `retry:N` (repeat each stage, N times at most), "
-        "`unwind:STAGE` (the arm undoes its work back to the beginning of STAGE and tries again, once for each stage "
-        "that fails; `unwind` alone: the stage that failed) or `ask`. Default: `ask` on a terminal, `abort` elsewhere."
+        help="How to answer when the program calls the operator. `abort` ends the run. `retry:N` repeats the "
+        "failed stage, each stage at most N times. `unwind:STAGE` has the arm undo its work back to the beginning "
+        "of STAGE and try again, once for each stage that fails; `unwind` alone goes back to the beginning of the "
+        "failed stage. `ask` asks you. Default: `ask` on a terminal, `abort` elsewhere."
     ),
 ]
 
@@ -80,8 +81,8 @@ def assemble(
         list[Then] | None,
         Parameter(
             consume_multiple=False,
-            help="After a pump that the referee accepts: have the arm take it apart (`dismantle`), then `assemble` "
-            "it again; in turn, may be repeated.",
+            help="Continue after a pump that the referee accepts: `dismantle` has the arm take it apart, and "
+            "`assemble` assembles it again. Repeat the option to alternate.",
         ),
     ] = None,
 ) -> int:
@@ -98,7 +99,10 @@ def assemble(
         raise BadArgument("--then dismantle and --then assemble alternate, beginning with dismantle")
     check_kept(no_keep, out)
     if report and no_keep:
-        raise BadArgument("--report leaves a page in the folder of the run; --no-keep leaves none")
+        raise BadArgument(
+            "--report writes a page into the folder of the run, but --no-keep keeps no "
+            "folder; leave out one of them"
+        )
     started = time.process_time()
     plan = plan_or_own(None, world.task)
     planning = time.process_time() - started
@@ -134,14 +138,16 @@ def run(
     world_of: Annotated[
         Path | None,
         Parameter(
-            help="Use the world, the faults and the renderer of this run, given by its folder or trace."
+            help="Use the world, the faults and the renderer of this recorded run, given by its folder or "
+            "trace."
         ),
     ] = None,
     judge: Annotated[
         bool | None,
         Parameter(
             negative="--no-judge",
-            help="Have the referee judge the result. Default: only if the plan is given by the name of a program.",
+            help="Have the referee judge the result. Default: only if the plan is given by the name of a "
+            "program.",
         ),
     ] = None,
     json: Json = False,
@@ -235,7 +241,7 @@ def resume(
         bool | None,
         Parameter(
             negative="--no-judge",
-            help="Have the referee judge the result. Default: as when the run began.",
+            help="Have the referee judge the result. Default: as chosen when the run began.",
         ),
     ] = None,
     json: Json = False,
@@ -273,7 +279,8 @@ def resume(
     if path.is_dir():
         if out is not None:
             raise BadArgument(
-                f"{path} is the folder of a run and resumes there; --out needs a checkpoint file"
+                f"{path} is the folder of a run, which resumes in the same folder; --out is for checkpoint "
+                "files"
             )
         folder, start, faults = open_again(path)
         for fault in faults:
@@ -313,7 +320,7 @@ def resume(
 def check_kept(no_keep: bool, out: Path | None) -> None:
     """Raises InvalidInput if a run is to be kept and not to be kept."""
     if no_keep and out is not None:
-        raise BadArgument("--no-keep and --out do not go together")
+        raise BadArgument("--no-keep cannot be given with --out")
 
 
 def _check_live(live: bool, step: bool) -> None:
@@ -347,7 +354,7 @@ def _check_order(listing: "Listing", first: str | None, last: str | None) -> Non
     stages = listing.stages
     begin, end = stages[stage_number(first, listing)], stages[stage_number(last, listing)]
     if stages.index(end) < stages.index(begin):
-        raise BadArgument(f"the run would begin with “{begin}”, which is after “{end}”")
+        raise BadArgument(f"the run would begin with “{begin}”, which comes after its last stage, “{end}”")
 
 
 def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
@@ -390,6 +397,7 @@ def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | Non
     if number > 0 and (found is None or found.stage != wanted):
         reached = "the beginning" if found is None else f"“{found.stage}”"
         note(
-            f"no checkpoint of “{wanted}” for this plan and world: running the steps before it, from {reached}"
+            f"no checkpoint of “{wanted}” for this plan and world: running the steps before it, from "
+            f"{reached}"
         )
     return found or start

@@ -154,7 +154,8 @@ def plan(
     ----------
     output
         File for the plan. Default: next to the script, with the ending .plan.json; for a program given by name, in
-        this folder. An earlier plan there is replaced, and the answer says so; elsewhere this takes --overwrite.
+        this folder. An earlier plan at the default place is replaced; to replace another
+        file, give --overwrite.
     """
     script, work = script_at(file, task)
     target = output or beside(file, ".plan.json")
@@ -162,7 +163,7 @@ def plan(
     check_place(target, PLAN, overwrite=overwrite or output is None)
     before = read_whole(target) if target.is_file() else b""
     write_plan(target, made)
-    replaced = ", replacing another plan" if before not in (b"", read_whole(target)) else ""
+    replaced = ", replacing an earlier plan" if before not in (b"", read_whole(target)) else ""
     counts = {"step": made.program.steps, "motion": made.motions, "stage": made.program.stages}
     said = ", ".join(counted(len(items), name) for name, items in counts.items())
     say(f"{target}: {said}{replaced}")

@@ -35,14 +35,14 @@ FirstSeed = Annotated[
 class SweepOptions:
     """Options of every sweep, except number and seed."""
 
-    jobs: Annotated[WholeNumber, Parameter(help="Number of processes at a time.")] = 2
+    jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2
     out: Annotated[
         Path | None,
         Parameter(
             name=["--out", "-o"],
             help="Folder of the batch. Each trial is saved as it ends, so that the same command continues an "
-            "interrupted batch; figures.html is written at the end. Or a file: only the page (.html) or only "
-            "the table of trials (.csv).",
+            "interrupted batch; figures.html is written at the end. If it is a file, only the page (.html) or the "
+            "table of trials (.csv) is written.",
         ),
     ] = None
     tables: Annotated[
@@ -50,7 +50,7 @@ class SweepOptions:
         Parameter(help="With --out: also write the figures as tables, to the folder `tables` in it."),
     ] = None
     overwrite: Annotated[
-        bool, Parameter(help="Replace the file of --out; in its folder, drop the trials that are there.")
+        bool, Parameter(help="Replace the file given by --out; of a folder, discard the trials in it.")
     ] = False
     json: Json = False
 
@@ -132,7 +132,8 @@ def carry_out_sweep(
     except BaseException:
         if folder is not None:
             note(
-                f"{counted(len(folder.rows), 'trial')} kept in {options.out}; the same command continues from there"
+                f"{counted(len(folder.rows), 'trial')} kept in {options.out}; the same command continues "
+                "from there"
             )
         raise
     finally:
@@ -147,7 +148,8 @@ def carry_out_sweep(
         again_later = sum(row.to_be_tried_again for row in ordered)
         if folder is not None and again_later:
             note(
-                f"{counted(again_later, 'trial')} interrupted by this computer; the same command repeats them"
+                f"{counted(again_later, 'trial')} ended by a failure of this computer; the same command "
+                "repeats them"
             )
     return found.exit_code
 
@@ -247,7 +249,7 @@ def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
         positive(number, sweep.noun)
         options.check()
         if sweep.work is None:
-            raise BadArgument(f"trials of the kind {sweep.kind} take options and have a command of their own")
+            raise BadArgument(f"trials of the kind {sweep.kind} need options; use their own command")
         world = WorldSpec(seed=checked_seed(seed))
         title = f"{sweep.kind} in worlds from seed {seed} on"
         return carry_out_sweep(
@@ -255,7 +257,7 @@ def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
             again=lambda row: f"handeye trials {sweep.kind} --n 1 --seed {row.seed}",
         )  # fmt: skip
 
-    told = f"Run {sweep.kind} trials in many worlds and count."
+    told = f"Run {sweep.kind} trials in many worlds, and count the outcomes."
     command.__doc__ = (
         f"{told}\n\nExit code 0: no silent failure; 1: no trial finished; 3: there was a silent failure."
     )

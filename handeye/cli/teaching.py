@@ -63,7 +63,7 @@ class CellOptions:
         if self.first is not None and (self.world.chosen or self.fault):
             raise BadArgument(
                 f"{self.first} brings its own world; --seed, --level, --without, --set, --scale and --fault cannot "
-                f"be given with --from"
+                "be given with --from"
             )
         if self.first is not None:
             return Workplace.at(read_checkpoint(self.first), taught, panic, observers)
@@ -95,7 +95,7 @@ def do(
 ) -> int:
     """Plan instructions and run them at once, one after the other: `handeye do "OPEN 3" PARK`.
 
-    Exit code 0: done; 1: the operator was called; 2: bad input; 130: interrupted.
+    Exit code 0: done; 1: the program called the operator; 2: bad input; 130: interrupted.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def teach(
     camera: Camera = "auto",
     json: Json = False,
 ) -> int:
-    """Move the arm and name positions; new names are added to the taught file, the rest of which stays.
+    """Move the arm and name positions; new names are added to the taught file, and the rest of the file is kept.
 
     Exit code 0: you left; 2: bad input, a piped line was refused, or names were not saved;
     130: interrupted.
@@ -221,7 +221,7 @@ def left_unsaved(teacher: "Teacher") -> bool:
 def _kept(file: Path | None) -> str:
     """Advice when the program called the operator and there is no one to ask."""
     if file is None:
-        return "--keep FILE would save the cell as it is now, and --from FILE would continue from there"
+        return "with --keep FILE, `handeye do` saves the cell at the end, and --from FILE continues from it"
     return f"`handeye do --from {file}` continues from there"
 
 

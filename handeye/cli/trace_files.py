@@ -29,7 +29,7 @@ def run_or_newest(given: Path | None) -> Path:
     from handeye.runs.unnamed_runs import newest_runs
 
     (newest,) = newest_runs(1)
-    note(f"taking the newest run, {newest}")
+    note(f"using the newest run, {newest}")
     return newest
 
 
@@ -41,7 +41,7 @@ def two_runs(a: Path | None, b: Path | None) -> tuple[Path, Path]:
         return a, b
     if a is None:
         newer, older = newest_runs(2)
-        note(f"taking the newest two runs, {older} and {newer}")
+        note(f"using the newest two runs, {older} and {newer}")
         return older, newer
     return a, run_or_newest(None)
 

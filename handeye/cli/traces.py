@@ -100,10 +100,7 @@ def photograph(
 def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
     """Repeat a recorded run and compare the two.
 
-    It repeats what operators and experimenters did, and compares an interrupted run up to its last whole
-    step.
-
-    The operator's and experimenter's actions are repeated as well. An interrupted run is compared up to its last
+        The actions of operators and experimenters are repeated as well. An interrupted run is compared up to its last
     complete step. There are three answers: the run repeats exactly; it repeats except for rounding in the last digits,
     as on another kind of processor or with other versions; or it differs, and the answer says where.
 
@@ -120,19 +117,20 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
     check_task(wanted, trace.head.task, file)
     changed = [name for name, version in versions().items() if trace.head.versions.get(name) != version]
     if changed:
-        sentence = f"it was recorded with other versions of {', '.join(changed)}; the result may differ"
+        sentence = f"the run was recorded with other versions of {', '.join(changed)}; it may not repeat"
         note(sentence)
     recorded = trace.head.processor or ""
     elsewhere = ", on another kind of processor" if recorded and recorded != processor() else ""
     if elsewhere:
-        note(f"it was recorded on {recorded}; this is {processor()}")
+        note(f"the run was recorded on {recorded}; this processor is {processor()}")
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder, notes.status("repeating the run"):
         found = repetition(trace, Path(folder) / "run")
     if found.parts is not None:
         say(f"{file} does not repeat{elsewhere}: {found.parts}")
         if found.rounded is not None:
             say(
-                f"before that, numbers differ only by rounding, as between kinds of processors: {found.rounded}"
+                "before that, numbers differ only by rounding, as between kinds of processors; the first: "
+                f"{found.rounded}"
             )
         return 1
     count = settled(events)
@@ -142,7 +140,7 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
         say(f"{file} repeats: {same}, to the byte")
     else:
         why = elsewhere or (", with other versions" if changed else ", as on another kind of processor")
-        say(f"{file} repeats except for rounding{why}: {same}; first, {found.rounded}")
+        say(f"{file} repeats except for rounding{why}: {same}; the first difference: {found.rounded}")
     if trace.begins > 0:
         note(f"motions before {trace.begins:.2f} s are not in this trace and were not compared")
     return 0

@@ -46,8 +46,9 @@ class AttemptOptions:
     eye: Annotated[
         Known,
         Parameter(
-            help="How the program knows its camera: by calibration with the lamp, by simulated sightings (faster, "
-            "and too good), from its drawing, or exactly."
+            help="How the program knows the pose of its camera: from a calibration with the lamp, from simulated "
+            "sightings of the lamp (faster, and more accurate than real ones), from the drawing of the cell, or "
+            "exactly."
         ),
     ] = "lamp"
     camera: Camera = "auto"
@@ -73,7 +74,7 @@ class AttemptOptions:
             eye_cases(first.seed, count, number),
             head_of(sweep, first, settings=settings, camera=camera),
             options,
-            title=f"{name} in worlds from {first} on, the camera known from {self.eye}",
+            title=f"{name} in worlds from {first} on; camera pose: {self.eye}",
             more={"worlds": number, "eye": self.eye},
         )
 
@@ -125,10 +126,11 @@ def disturbed_trials(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Build a pump, change something unseen by the arm, and have the arm undo it: does a guard stop it before harm?
+    """Build a pump, disturb it unseen by the arm, and have the arm take it apart: does a guard stop the arm before
+    harm?
 
-    In time means: a guard stops the arm, no part that the hand does not hold has moved by more than 2 mm in a step,
-    and the hand has felt no more than 60 N. Each trial builds the pump first, which takes one CPU minute.
+    The stop is in time if, until then, no part outside the hand has moved by more than 2 mm in a step and the hand
+    has felt no more than 60 N. Each trial builds the pump first, which takes one CPU minute.
 
     Exit code 0: every trial was stopped in time; 3: one was not; 2: bad input; 130: interrupted.
     """
@@ -150,7 +152,7 @@ def disturbed_trials(
         cases(spec.seed, range(n), [each.name for each in chosen]),
         head_of(DISTURBED, spec, plan, camera=camera),
         options,
-        title=f"the work of {plan.program.name}, disturbed and undone, in worlds from {spec} on",
+        title=f"{plan.program.name} assembled, disturbed and taken apart, in worlds from {spec} on",
         plan=plan,
     )
 
@@ -172,7 +174,7 @@ def chaos_trials(
     count: Annotated[WholeNumber, Parameter(name="--n", help="Number of schedules to draw.")] = 100,
     seed: FirstSeed = 0,
     worlds: Annotated[
-        WholeNumber, Parameter(help="Number of worlds: of nominal, low and high level in turn.")
+        WholeNumber, Parameter(help="Number of worlds; their levels alternate: nominal, low, high.")
     ] = 3,
     schedule: Annotated[
         list[str] | None,

@@ -23,9 +23,9 @@ def view(
     file: Annotated[
         Path | None,
         Parameter(
-            help="A plan made by `handeye plan` (.plan.json), or the name of a program; or the folder or trace of a "
-            "run, which is shown as its report. By default the newest run in `runs`; where there is none, or a world "
-            "or --out is given, the plan of the pump."
+            help="A plan made by `handeye plan` (.plan.json), or the name of a program; or the folder or trace of "
+            "a run, which is shown as its report. Default: the newest run in `runs`; the plan of the pump if "
+            "there is no run, or if a world or --out is given."
         ),
     ] = None,
     /,
@@ -35,7 +35,9 @@ def view(
     ] = False,
     teach: Annotated[
         Path | None,
-        Parameter(help="Teach positions instead, as `handeye teach` does: a taught file, or its script."),
+        Parameter(
+            help="Teach positions instead, as `handeye teach` does. Give a taught file, or its script."
+        ),
     ] = None,
     port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0: any free port.")] = 0,
     world: WorldOptions = ANY_WORLD,
@@ -47,8 +49,8 @@ def view(
     """Show the live cell in a browser, and step a run or teach positions there; or show a recorded run.
 
     Prints the address to open, which contains a secret and works on this computer only. Several pages can watch, one
-    controls; watching neither changes nor slows the run. Exit codes are those of `run`, with --teach those of `teach`;
-    for a recorded run 0, when Ctrl-C ends it.
+    controls; watching neither changes nor slows the run. Exit codes are those of `run`, and with --teach
+    those of `teach`; for a recorded run the code is 0 when Ctrl-C ends it.
     """
     from handeye.cli.job import Job, work
     from handeye.core import resources
@@ -58,7 +60,7 @@ def view(
     from handeye.view.server import Server
 
     if demo and file is not None:
-        raise BadArgument("--demo brings its own program; give a plan or --demo")
+        raise BadArgument("--demo brings its own program; give either a plan or --demo")
     if teach is not None:
         if demo or file is not None or out is not None or overwrite:
             raise BadArgument("--teach runs no plan and keeps no run; leave out the plan, --demo and --out")

@@ -45,10 +45,10 @@ class ErrorOptions:
     without: Annotated[
         list[str] | None,
         Parameter(
-            help="Errors or groups of them to switch off, separated by commas; `handeye world` lists their names. "
-            "`assemble`, `run` and `trials assembly` also take senses (vision, touch, search, force, centring): "
-            "without one, the program relies on its plan. They also take macros that the program calls, such as "
-            "the checks HEADS and TOOLS of the pump, which are then skipped.",
+            help="Errors, or groups of errors, to switch off, separated by commas; `handeye world` lists their "
+            "names. `assemble`, `run` and `trials assembly` also take senses (vision, touch, search, force, "
+            "centring): without one, the program relies on its plan. They also take macros that the program "
+            "calls, and skip them: such as HEADS and TOOLS, which check screws and tools of the pump.",
             consume_multiple=False,
         ),
     ] = None
@@ -56,16 +56,16 @@ class ErrorOptions:
         list[str] | None,
         Parameter(
             name="--set",
-            help="NAME=VALUE: a value for a quantity, or for each of a group, such as camera.place.x=.3in. May be "
-            "repeated.",
+            help="NAME=VALUE: a value for a quantity, or for each quantity of a group, such as "
+            "camera.place.x=.3in. May be repeated.",
             consume_multiple=False,
         ),
     ] = None
     scale: Annotated[
         list[str] | None,
         Parameter(
-            help="NAME=FACTOR: multiply the errors of a quantity or group by a factor; unsourced=2 doubles all whose "
-            "sizes have no source. May be repeated.",
+            help="NAME=FACTOR: multiply the errors of a quantity or group by a factor; unsourced=2 doubles all "
+            "errors whose sizes have no source. May be repeated.",
             consume_multiple=False,
         ),
     ] = None
@@ -138,8 +138,8 @@ class WorldOptions:
         int | None,
         Parameter(
             converter=whole,
-            help="Seed of the world, a whole number from 0 to 2^53 - 1: it decides where parts lie, and every error. "
-            "Default: 0.",
+            help="Seed of the world, a whole number from 0 to 2^53 - 1: it decides where parts lie, and every "
+            "error. Default: 0.",
         ),
     ] = None
     errors: Annotated[ErrorOptions, Parameter(name="*")] = ErrorOptions()

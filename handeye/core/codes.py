@@ -35,36 +35,38 @@ def _planning(meaning: str, example: str, severity: Severity = "error") -> Code:
 CODES: Final[dict[str, Code]] = {
     "always-undone": _warning("a stage is undone without a test before it", "MOVE P\nUNDO STAGE"),
     "aoj-without-search": _warning("there is no SEARCH before an AOJ on any path to it", "L: MOVE T\nAOJ L"),
-    "axis-count": _error("the count of a FREE or SPIN is not its number of axes", "FREE 2 X\nCHANGE X 1"),
+    "axis-count": _error(
+        "the count of a FREE or SPIN does not match its number of axes", "FREE 2 X\nCHANGE X 1"
+    ),
     "carries-through-fixture": _planning(
-        "what the hand holds would go through a fixture",
+        "the part in the hand would go through a fixture",
         "TRANS OVER [32 46 3 90 90 0]\nOPEN 1\nMOVE P\nCLOSE\nMOVE OVER",
         "warning",
     ),
     "carries-through-table": _planning(
-        "what the hand holds would be below the table top", "OPEN 1\nMOVE P\nCLOSE\nCHANGE [0 0 -1] 1"
+        "the part in the hand would be below the table top", "OPEN 1\nMOVE P\nCLOSE\nCHANGE [0 0 -1] 1"
     ),
     "compared-without-hold": _warning(
         "INSPECT or MATCH compares with a picture that was not taken with HOLD",
         "LOOK BEFORE\nLOOK AFTER\nINSPECT BASE BEFORE AFTER",
     ),
     "count-begun-anew": _warning(
-        "an ASSIGN sets a counter again in every round that counts it down",
+        "an ASSIGN sets its counter again in every round of the loop that counts it down",
         "L: ASSIGN N 2\nMOVE T\nSOJG N L",
     ),
     "empty-program": _error("the program has no instructions", "; nothing"),
     "endless-loop": _warning("a loop moves the arm, and only an untested error ends it", "L: MOVE T\nJUMP L"),
     "error-never-raised": _warning(
-        "a test is for an error that the action before it does not raise", "OPEN 1\nSKIPE 23\nPARK"
+        "a test names an error that the action before it cannot raise", "OPEN 1\nSKIPE 23\nPARK"
     ),
     "extension-used": Code(
         severity="error",
-        meaning="a word or an operand is an addition of handeye, and only the language of the seventies is allowed",
+        meaning="a word or an operand was added by handeye, but only the language of the 1970s is allowed",
         example="LOAD 4",
         phase="strict",
     ),
     "force-beyond-arm": _planning(
-        "a motion should press or turn with more than the arm can exert",
+        "a motion asks for more force or moment than the arm can exert",
         "MOVE T\nFORCE [0 0 -900]\nCHANGE [0 0 -1] 1",
     ),
     "hand-through-fixture": _planning(
@@ -72,7 +74,7 @@ CODES: Final[dict[str, Code]] = {
         "TRANS OVER [32 46 2 90 90 0]\nMOVE OVER\nCHANGE [0 0 -1] 1",
     ),
     "hand-through-table": _planning("part of the hand would be below the table top", "MOVE LOW"),
-    "idle-loop": _warning("a loop has no exit, and nothing moves in it", "PARK\nL: JUMP L"),
+    "idle-loop": _warning("a loop has no exit, and no instruction in it moves the arm", "PARK\nL: JUMP L"),
     "joint-limit": _planning("a joint would move beyond its limit", "MOVE T\nTURN P 330"),
     "joint-too-fast": _planning(
         "a joint would have to move faster than it can", "PARK\nCHANGE [1 0 0] 10 70"
@@ -91,12 +93,12 @@ CODES: Final[dict[str, Code]] = {
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "faint-force": _planning(
-        "a stop waits for less than the force that can be felt in free air",
+        "a STOP has a threshold below the smallest force that the arm can feel in free air",
         "MOVE T\nSTOP [0 0 -5]\nCHANGE Z -1",
         "warning",
     ),
     "faint-moment": _planning(
-        "a stop waits for less than the moment that can be felt in free air",
+        "a STOP has a threshold below the smallest moment that the arm can feel in free air",
         "MOVE T\nSTOP NIL [5 0 0]\nCHANGE Z -1",
         "warning",
     ),
@@ -111,9 +113,9 @@ CODES: Final[dict[str, Code]] = {
     "never-saved": _warning(
         "there is no SAVE of a restored difference on any path to it", "MOVE T\nRESTORE H"
     ),
-    "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
+    "number-out-of-range": _error("a number is too small or too large for its operand", "OPEN 5"),
     "opened-too-little": _warning(
-        "a grasp needs a wider part than the open hand can hold", "OPEN .2\nCLOSE .25"
+        "a grasp has a minimum gap that is wider than the hand has opened", "OPEN .2\nCLOSE .25"
     ),
     "parameter-name-taken": _error(
         "a parameter has the name of an instruction, of another word of the language, of an axis or of a label",
@@ -121,11 +123,11 @@ CODES: Final[dict[str, Code]] = {
     ),
     "parameter-twice": _error("a macro has two parameters of one name", "DEFINE A S S\nMOVE S\n\nA T T"),
     "part-not-described": _error(
-        "the taught file says too little about a part to find it in a picture",
+        "the taught file lacks data that vision needs to find a part",
         "LOOK V\nGENERAL GASKET V",
     ),
     "path-leaves-reach": _planning("a motion leaves the arm's reach on its way", "MOVE T\nCHANGE [0 1 0] 30"),
-    "position-before-here": _error("a position that only a HERE defines is used before it", "MOVE A\nHERE A"),
+    "position-before-here": _error("a position is used before the HERE that defines it", "MOVE A\nHERE A"),
     "position-twice": _error(
         "two positions have the same name", "TRANS A [1 2 3 0 0 0]\nTRANS A [1 2 3 0 0 0]\nPARK"
     ),
@@ -148,7 +150,7 @@ CODES: Final[dict[str, Code]] = {
     "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
     "save-without-move": _warning("there is no MOVE before a SAVE on any path to it", "CLOSE\nSAVE H"),
     "search-begun-anew": _warning(
-        "a SEARCH starts again in every round of its own loop",
+        "a SEARCH is inside its own loop, so that every round starts it again",
         "L: SEARCH .07\nMOVE T\nSTOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
     "search-stands-still": _warning(
@@ -160,10 +162,10 @@ CODES: Final[dict[str, Code]] = {
     ),
     "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),
     "skip-over-modifier": _error(
-        "a skip would skip a modifier and not its motion", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
+        "a skip would skip a modifier but not its motion", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
     ),
     "skips-one-only": _warning(
-        "several indented lines follow a skip, which skips only the first",
+        "several indented lines follow a skip, but it skips only the first",
         "        CLOSE   .1\n        SKIPN   2\n            OPEN    1\n            PARK\n        WHERE",
     ),
     "specific-without-general": _warning(
@@ -171,33 +173,33 @@ CODES: Final[dict[str, Code]] = {
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-away-from-motion": _warning(
-        "a motion moves away from what its STOP should press on", "STOP [0 0 -50]\nCHANGE Z 1"
+        "a motion moves away from the surface that its STOP should meet", "STOP [0 0 -50]\nCHANGE Z 1"
     ),
     "stop-beyond-arm": _planning(
-        "a motion should stop on a force or moment that the arm cannot exert",
+        "a STOP has a threshold above the force or moment that the arm can exert",
         "MOVE T\nSTOP [0 0 -600]\nCHANGE [0 0 -1] 1",
         "warning",
     ),
     "test-of-no-effect": _warning(
-        "a test only skips the next one, so that its error changes nothing",
+        "a test skips only the test after it, so that its error changes nothing",
         "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
     ),
     "test-without-action": _warning("a test does not directly follow an action", "SKIPE 23\nPARK"),
     "too-many-operands": _error("an instruction has more operands than it takes", "OPEN 1 2"),
     "too-much-required": _error(
-        "too many files are required, or too large ones",
+        "too many files are required, or the files are too large",
         "REQUIRE 1.al\nPARK",
         {f"{n}.al": f"REQUIRE {n + 1}.al" for n in range(1, 102)},
     ),
     "torque-without-tool": _warning(
-        "a motion should end on a torque, but no TOOL runs the screwdriver", "TORQUE 42\nCHANGE Z -.5"
+        "a motion waits for a torque, but no TOOL runs the screwdriver", "TORQUE 42\nCHANGE Z -.5"
     ),
     "touch-while-closed": _warning(
-        "a motion should end on a touch, but the fingers are already closed",
+        "a motion waits for a touch, but the fingers are already closed",
         "CLOSE .1\nTOUCH 3\nCHANGE Z -1",
     ),
     "travel-too-long": _warning(
-        "a TRAVEL needs more than the length of the motion before it", "CHANGE Z .6\nTRAVEL .7 .9"
+        "a TRAVEL has a minimum above the length of the motion before it", "CHANGE Z .6\nTRAVEL .7 .9"
     ),
     "travel-without-change": _warning(
         "there is no CHANGE before a TRAVEL on any path to it", "PARK\nTRAVEL .1 .2"
@@ -208,13 +210,13 @@ CODES: Final[dict[str, Code]] = {
     "unknown-axis": _error("an axis is not X, Y or Z", "FREE 1 W\nCHANGE X 1"),
     "unknown-counter": _error("no ASSIGN sets a counter of that name", "L: PARK\nSOJG N L"),
     "unknown-error-number": _warning(
-        "a test is for an error that nothing raises", "PARK\nSKIPE 42\nPARK\nPARK"
+        "a test names an error that no instruction raises", "PARK\nSKIPE 42\nPARK\nPARK"
     ),
     "unknown-instruction": _error("a word is neither an instruction nor a macro", "GRAB 1"),
     "unknown-label": _error("a jump goes to a label that no statement has", "JUMP NOWHERE"),
     "unknown-lens": _error("the turret has no such lens", "LENS 35"),
     "unknown-parameter": _warning(
-        "a text in a macro has a name in braces that is not a parameter",
+        "a text in a macro has a name in braces, but the macro has no such parameter",
         'DEFINE A S\nMOVE S\nWAIT "NOT AT {P}"\n\nA T',
     ),
     "unknown-part": _error("a part is unknown", "TRANS A [0 0 0 0 0 0] OF LID\nPARK"),
@@ -238,9 +240,9 @@ CODES: Final[dict[str, Code]] = {
     "vector-twice": _error(
         "two vectors have the same name, or one has the name of an axis", "VECT Z [0 0 1]\nCHANGE Z 1"
     ),
-    "wait-for-time": _warning("a WAIT seems meant to pass time, but calls the operator", "PARK\nWAIT 2"),
+    "wait-for-time": _warning("a WAIT seems meant as a delay, but it calls the operator", "PARK\nWAIT 2"),
     "wrist-in-line": _planning(
-        "the axes of two joints line up on a straight motion, and there the hand cannot keep its angles",
+        "a straight motion passes a point where the axes of two joints line up and the hand cannot keep its angles",
         "TRANS AHEAD [14 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4",
     ),
     "wrong-operand": _error("an operand has the wrong kind", "OPEN T"),

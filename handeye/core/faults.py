@@ -108,7 +108,7 @@ class FaultKind:
         """Raises BadArgument unless value and stage of a fault are possible."""
         if fault.stage is not None and self.from_start:
             raise BadArgument(
-                f"the fault {quoted(self.name)} cannot begin while the cell works; leave out `@{fault.stage}`"
+                f"the fault {quoted(self.name)} cannot begin during a run, only before it; leave out `@{fault.stage}`"
             )
         if self.size is None and fault.value is not None:
             raise BadArgument(f"the fault {quoted(self.name)} has no value")
@@ -116,8 +116,8 @@ class FaultKind:
             low, high = (limit * self.measure.size for limit in self.limits)
             if fault.value is None or not low <= fault.value <= high:
                 raise BadArgument(
-                    f"the fault {quoted(self.name)} cannot be {fault.value!r}: it can be {low:g} to {high:g} in SI "
-                    "units"
+                    f"the fault {quoted(self.name)} must have a value between {low:g} and {high:g} in SI units, not "
+                    f"{fault.value!r}"
                 )
 
 

@@ -74,13 +74,11 @@ class Quantity:
             if type(value) not in (int, float) or value not in self.distribution.values:
                 known = " or ".join(f"{each:g}" for each in self.distribution.values)
                 told = f"{value:g}" if isinstance(value, float) else repr(value)
-                raise BadArgument(f"{self.name} cannot be set to {told}: it can be {known}")
+                raise BadArgument(f"{self.name} must be {known}, not {told}")
             return
         low, high = (limit * self.measure.size for limit in self.limits)
         if type(value) not in (int, float) or not low <= value <= high:  # not a number is not between two
-            raise BadArgument(
-                f"{self.name} cannot be set to {value!r}: it can be {low:g} to {high:g} in SI units"
-            )
+            raise BadArgument(f"{self.name} must be between {low:g} and {high:g} in SI units, not {value!r}")
 
 
 class Overrides(Record, frozen=True, kw_only=True):
@@ -179,7 +177,7 @@ class Variation:
             assert found[0].where is not None
             choice, wanted = found[0].where
             raise NoSuchName(
-                f"the world has no quantity {quoted(name)}; with {choice} set to {wanted:g} it has"
+                f"the world has the quantity {quoted(name)} only if {choice} is set to {wanted:g}"
             )
         if not found:
             first = dict.fromkeys(known.split(".")[0] for known in self.quantities)
@@ -225,23 +223,25 @@ class Variation:
             raise NoSuchName(f"there is no level {spec.level!r}; there are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:
             raise Refused(
-                f"the world of seed {spec.seed} comes from another version of handeye; this version gives another "
-                f"world for that seed: start the run again"
+                f"the world of seed {spec.seed} comes from another version of handeye; this version draws a "
+                "different world from that seed, so start the run again"
             )
         for name in spec.overrides.without:
             self.select(name, spec.overrides.set)
         for name in spec.overrides.set:
             self.select(name, spec.overrides.set)
             if name not in self.quantities:
-                raise BadArgument(f"{quoted(name)} is a group of quantities and cannot have one value")
+                raise BadArgument(
+                    f"{quoted(name)} is a group of quantities; set each quantity by its own name"
+                )
             self.quantities[name].check(spec.overrides.set[name])
         most = LARGEST_SCALE / SPREADS[spec.level]
         for name, factor in spec.overrides.scale.items():
             self.scalable(name)
             if type(factor) not in (int, float) or not 0 <= factor <= most:  # not a number is not between two
                 raise BadArgument(
-                    f"{quoted(name)} cannot be scaled by {factor!r}; at the level {spec.level}, factors are 0 to "
-                    f"{most:g}"
+                    f"{quoted(name)} cannot be scaled by {factor!r}; at the level {spec.level}, a factor must be "
+                    f"between 0 and {most:g}"
                 )
 
 

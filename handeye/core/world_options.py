@@ -109,8 +109,8 @@ def _unit(quantity: WritableQuantity, word: str) -> Unit:
 def _limits(quantity: WritableQuantity) -> str:
     (low, high), unit = quantity.limits, quantity.unit and f" {quantity.unit}"
     if np.isinf(high):
-        return "" if np.isinf(low) else f"; {low:g}{unit} is the minimum"
-    return f"; it can be {low:g} to {high:g}{unit}"
+        return "" if np.isinf(low) else f"; it must be at least {low:g}{unit}"
+    return f"; it must be between {low:g} and {high:g}{unit}"
 
 
 StageNumber = Callable[[str], int]  # returns the number, from 1, of a stage as written; raises NoSuchName
@@ -152,4 +152,6 @@ def by_number(text: str) -> int:
 
 def from_start_only(text: str) -> int:
     """Refuse a stage, for a task whose faults are always present from the start."""
-    raise BadArgument(f"here, a fault is present from the start; leave out {quoted(f'@{text}')}")
+    raise BadArgument(
+        f"this command has no stages, so a fault is present from the start; leave out {quoted(f'@{text}')}"
+    )

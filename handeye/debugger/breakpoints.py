@@ -31,7 +31,10 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
         raise BadArgument("give an error (error:23), a line, a label, an instruction or a stage")
     if error := _ERROR.fullmatch(text):
         if not listing.errors:
-            raise Refused("steps of this program raise no errors; a stop of the program stops the run")
+            raise Refused(
+                "the steps of this program raise no errors to break on; the run stops whenever the "
+                "program stops"
+            )
         return _on_error(error["number"] or error["any"], listing)
     place = named_place(text, listing)
     if place is not None:
@@ -60,10 +63,10 @@ def step_number(text: str, listing: Listing) -> int:
     found = listing.labels.get(text)
     if found is None:
         known = listing.labels
-        raise BadArgument(f"{quoted(text)} is neither a step's number nor a label{meant(text, known)}")
+        raise BadArgument(f"{quoted(text)} is neither the number of a step nor a label{meant(text, known)}")
     if len(found) > 1:
         where = ", ".join(map(str, found))
-        raise BadArgument(f"several steps have label {quoted(text)}: {where}; give one by its number")
+        raise BadArgument(f"several steps have the label {quoted(text)}: {where}; give the number of one")
     return found[0]
 
 

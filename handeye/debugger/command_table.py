@@ -76,7 +76,7 @@ def _help(session: DebugSession, rest: str) -> CommandResult:
     name = find(rest.partition(" ")[0])[0].name
     told = [f"{each.shown}: {each.help}" for each in commands_of(session.runner) if each.name == name]
     if not told:
-        raise Refused(f"`{name}` does nothing in a run of {session.runner.kind.entry.title}")
+        raise Refused(f"`{name}` is not a command for runs of {session.runner.kind.entry.title}")
     return CommandResult(said="\n".join(told))
 
 
@@ -86,7 +86,7 @@ _TRYING, _CALLED, _LEAVING = "Trying something else", "When the operator is call
 COMMANDS: Final[tuple[StepperCommand, ...]] = (
     Command(
         usage="step [N]", short="s", group=_GOING, act=acts.step, repeats=True,
-        help="do the next step, or the next N",
+        help="do the next step, or the next N steps",
     ),
     Command(
         usage="stage", short="n", group=_GOING, act=acts.stage, repeats=True,
@@ -110,18 +110,18 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="back [N]", short="b", group=_BACK, act=acts.back,
-        help="undo the last step, or the last N: restores arm, parts and program",
+        help="go back one step, or N steps: arm, parts and program return to their earlier state",
     ),
     Command(
         usage="back stage", short="bs", group=_BACK, act=acts.back,
-        help="go back to the beginning of this stage; from there, of the previous one",
+        help="go back to the beginning of this stage, or from there to the beginning of the previous stage",
     ),
     Command(
         usage="undo [N|stage]", group=_BACK, act=acts.undo,
-        help="have the arm undo the last step, the last N or the stage (`back` resets the simulator instead)",
+        help="have the arm undo the last step, the last N steps or the stage (`back` resets the simulator instead)",
     ),
     Command(
-        usage="break PLACE", group=_BREAKS, act=acts.set_break, help="pause there each time"
+        usage="break PLACE", group=_BREAKS, act=acts.set_break, help="pause at a place each time the run reaches it"
     ),
     Command(usage="breaks", group=_BREAKS, act=acts.breaks, help="list the breakpoints, with their numbers"),
     Command(usage="delete N", group=_BREAKS, act=acts.delete, help="delete the breakpoint with that number"),
@@ -146,7 +146,8 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
         help="type a line at the console of a task",
     ),
     Command(
-        usage="proceed", group=_CALLED, act=acts.answer("proceed"), help="continue after the step that called"
+        usage="proceed", group=_CALLED, act=acts.answer("proceed"), help="continue after the step that called the "
+            "operator"
     ),
     Command(
         usage="retry", group=_CALLED, act=acts.answer("retry"),
@@ -158,8 +159,9 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
         usage="checkpoint [FILE]", group=_LEAVING, act=acts.checkpoint,
         help="save this state, for `handeye resume`",
     ),
-    Command(usage="quit", short="q", group=_LEAVING, act=acts.leave, help="save this state and leave"),
-    Command(usage="help [COMMAND]", short="h", group=_LEAVING, act=_help, help="show this, or the help of one command"),
+    Command(usage="quit", short="q", group=_LEAVING, act=acts.leave, help="save this state and leave the stepper"),
+    Command(usage="help [COMMAND]", short="h", group=_LEAVING, act=_help, help="show this list, or the help of one "
+        "command"),
 )  # fmt: skip
 
 MEANWHILE: Final = " and ".join(f"`{command.name}`" for command in COMMANDS if command.meanwhile)

@@ -215,7 +215,7 @@ def checkpoint(session: DebugSession, rest: str) -> CommandResult:
         return CommandResult(file=str(path), said=f"saved to {path}")
     kept = session.keep(session.runner.checkpoint())
     if kept is None:
-        raise Refused("this run has no folder to keep checkpoints in: `checkpoint FILE` writes one")
+        raise Refused("this run has no folder for checkpoints; `checkpoint FILE` writes one to a file")
     return CommandResult(file=str(kept), said=f"saved to {kept}")
 
 
@@ -251,9 +251,9 @@ def _set(runner: Runner, text: str) -> None:
     settable = settables.get(kind.casefold())
     if settable is None:
         known = " or ".join(f"`set {name} {each.usage}`" for name, each in settables.items())
-        raise BadArgument(f"an experiment is {known}" if known else "this run has nothing to set")
+        raise BadArgument(f"`set` takes {known}" if known else "this run has no values to set")
     if runner.trouble is not None:
-        raise Refused("you cannot set anything here; go back first")
+        raise Refused("no value can be set here; go back first")
     name, numbers = _read(rest, settable, kind.casefold())
     values = tuple(number * unit for number, unit in zip(numbers, settable.units, strict=False))
     runner.experiment(kind.casefold(), name, values + settable.present(name)[len(values) :])
@@ -263,7 +263,7 @@ def _read(text: str, settable: Settable, kind: str) -> tuple[str, list[float]]:
     """The name and the numbers, brackets and commas left out."""
     name, *words = re.sub(r"[\[\](),]", " ", text).split() or [""]
     if not name or len(words) not in (settable.fewest, len(settable.units)):
-        raise BadArgument(f"write an experiment as `set {kind} {settable.usage}`")
+        raise BadArgument(f"write `set {kind} {settable.usage}`")
     numbers = [_number(word) for word in words]
     return _known(name, settable), numbers
 

@@ -136,7 +136,9 @@ def _positions(positions: dict[str, PositionView]) -> list[str]:
     return lines
 
 
-_NOTHING: Final = {"force_oz": "no estimate here: the last step was not stopped by a guard"}
+_NOTHING: Final = {
+    "force_oz": "there is no force estimate here, because the last step did not end on a guard"
+}
 _JOINTS_PER_LINE: Final = 3
 _LINES: Final[dict[str, Callable[[Any], Sequence[str]]]] = {
     "time_s": lambda seconds: [f"{seconds:.2f} s"],

@@ -114,7 +114,7 @@ class DebugSession:
         if self.going is None:
             raise Refused("the run is already paused")
         if self.going == "back":
-            raise Refused("the run is going back and will pause there")
+            raise Refused("the run is going back, and pauses when it arrives")
         self._pause_asked = True
 
     @contextmanager
@@ -156,8 +156,8 @@ class DebugSession:
             self.runner.rollback()
             done = self.runner.position
             raise Refused(
-                f"stopped by the panic button while going back to {counted(position, 'step')} done, "
-                f"with {counted(done, 'step')} done"
+                f"the panic button stopped the way back to the state after {counted(position, 'step')}; "
+                f"the run is now at the state after {counted(done, 'step')}"
             ) from None
 
     def first(self) -> int:

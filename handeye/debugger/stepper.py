@@ -69,7 +69,9 @@ class Stepper:
         try:
             command, rest = find(line)
             if not command.meanwhile:
-                raise Refused(f"`{command.name}` was ignored: during the run, only {MEANWHILE} are accepted")
+                raise Refused(
+                    f"`{command.name}` was ignored: while the run moves, only {MEANWHILE} are accepted"
+                )
             told = command.act(self.session, rest)
         except HandeyeError as error:
             self.refused = True

@@ -76,7 +76,7 @@ def _kept(runner: Runner, name: str, folder: Path) -> PictureShown:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise CannotWrite(f"{folder} cannot be made: {error.strerror}") from None
+        raise CannotWrite(f"the folder {folder} cannot be created: {error.strerror}") from None
     file = folder / f"{name.lower()}.png"
     write_picture(runner, file)
     return PictureShown(name=name, file=str(file))

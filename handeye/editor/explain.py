@@ -24,7 +24,7 @@ from handeye.program.language import own_languages
 _FOUND: Final = {
     "language": "while the script is checked",
     "planning": "when its motions are planned",
-    "strict": "by `handeye check --strict-1973` only",
+    "strict": "only by `handeye check --strict-1973`",
 }
 _NUMBERS: Final = {str(number): number for number in ERRORS}
 SENTENCE_WIDTH: Final = 100  # columns
@@ -127,8 +127,8 @@ class Remedy:
 
 REMEDIES: Final[dict[int, Remedy]] = {
     errors.JOINT_LIMIT: Remedy(
-        "The planner reports it for a planned place. During a run it happens when a part lies farther away than "
-        "planned: take another path.",
+        "The planner reports this for a planned position. During a run it happens when a part lies farther away "
+        "than planned: take another path.",
         "MOVE T\nSKIPE 1 ;T is too far away\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.NOTHING_HELD: Remedy(
@@ -137,48 +137,48 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'MOVE P\nCLOSE .1\nSKIPN 2 ;something is in the hand\nWAIT "NO PIN THERE"\nMOVE T',
     ),
     errors.NO_SOLUTION: Remedy(
-        "The planner reports it for a planned place. During a run it happens when the camera sees a part too far "
-        "away: leave that part alone.",
+        "The planner reports this for a planned position. During a run it happens when the camera sees a part too "
+        "far away: leave that part alone.",
         "MOVE T\nSKIPE 3 ;T is out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.SERVO_LAG: Remedy(
-        "Something is where nothing was expected, or the joint of the message does not follow. Expect the first with "
-        "a STOP, which ends the motion, or ask the operator.",
+        "The hand has met an object where none was expected, or the joint in the message does not follow. If you "
+        "expect contact, give the motion a STOP, which ends it; otherwise ask the operator.",
         'MOVE T\nCHANGE [0 0 -1] .5\nSKIPN 4 ;nothing is in the way\nWAIT "CLEAR THE TABLE"\nMOVE P',
     ),
     errors.WATCHDOG: Remedy(
-        "The computer failed, not the work: do not test for it, or tell the operator with a WAIT.",
+        "The computer failed, not the work: do not test for this error, or call the operator with a WAIT.",
         'MOVE T\nSKIPN 5 ;the computer kept up\nWAIT "THE COMPUTER WAS LATE"\nMOVE P',
     ),
     errors.SEARCH_EXHAUSTED: Remedy(
-        "A search has 49 places, or what its STEPS say. If you do not test for it, the error calls the operator, "
-        "which is usually right: the hole is not here. Count with SOJG to give up sooner.",
+        "A search has 49 places, or the number that its STEPS give. If you do not test for this error, it calls the "
+        "operator, which is usually right: the hole is not here. Count with SOJG to give up sooner.",
         "ASSIGN TRIES 9\nSEARCH .07\nL: MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPN 23 ;it met something\n"
         'JUMP IN\nSOJG TRIES NEXT\nWAIT "NO HOLE HERE"\nNEXT: AOJ L\nIN: OPEN 1',
     ),
     errors.WRONG_THICKNESS: Remedy(
-        "Give CLOSE a maximum gap as well. If it is too thick, it is another part: release it.",
+        "Give CLOSE a maximum gap as well. If the part is too thick, it is the wrong part: release it.",
         "MOVE P\nCLOSE .1 .3\nSKIPE 7 ;too thick for a pin\nJUMP HELD\nOPEN 1\nHELD: PARK",
     ),
     errors.WRONG_TRAVEL: Remedy(
-        "A motion that ended on a force may have ended too soon, such as with a pin on the rim of its hole. TRAVEL "
-        "checks how far it moved.",
+        "A motion that ended on a force may have ended too soon, for example with a pin on the rim of its hole. "
+        "TRAVEL checks how far the hand moved.",
         "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met at all\nJUMP OUT\nTRAVEL .5 .6\n"
         'SKIPN 8 ;as deep as the hole\nOUT: WAIT "NOT IN ITS HOLE"\nOPEN 1',
     ),
     errors.WRONG_HEIGHT: Remedy(
-        "HEIGHT compares two touches at one place, so that the error of the arm cancels. If it fails, a layer is "
-        "missing, or it is the wrong one.",
+        "HEIGHT compares two touches at one place, so that the error of the arm cancels. If the check fails, a "
+        "layer is missing or is the wrong one.",
         "OPEN 0\nMOVE T\nSTOP [0 0 -40]\nCHANGE [0 0 -1] .7 .5\nSAVE BARE\nPARK\nMOVE T\nSTOP [0 0 -40]\n"
         'CHANGE [0 0 -1] .7 .5\nHEIGHT BARE .04 .08\nSKIPN 9 ;one gasket thick\nWAIT "SEE TO THE GASKET"\nPARK',
     ),
     errors.NO_FORCE: Remedy(
-        "The hand met nothing. This may be what you want: a pin that meets nothing is in its hole.",
+        "The hand met no resistance. This may be what you want: a pin that meets no resistance is in its hole.",
         "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met: the pin is in\n"
         'WAIT "THERE IS NO HOLE"\nOPEN 1',
     ),
     errors.NO_TORQUE: Remedy(
-        "The screw never resisted: it has not found its thread, or the driver holds no screw.",
+        "The screw never resisted: it has not engaged its thread, or the driver holds no screw.",
         'MOVE T\nTOOL 100\nTORQUE 42\nCHANGE [0 0 -1] .5\nSKIPN 24 ;it is tight\nWAIT "NOT TIGHT"\nTOOL 0',
     ),
     errors.NO_TOUCH: Remedy(
@@ -194,52 +194,54 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'LOOK V\nGENERAL BASE V\nLOOK W\nSPECIFIC BASE W\nSKIPN 31 ;its holes are found\nWAIT "TURN THE BASE"\nMOVE P',
     ),
     errors.GASKET_WRONG: Remedy(
-        "The pictures before and after do not differ as they would with the gasket in place: put it on again, or ask "
-        "the operator.",
+        "The pictures before and after do not differ as they would with the gasket in place: place the gasket "
+        "again, or ask the operator.",
         "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
         'WAIT "CHECK THE GASKET"\nPARK',
     ),
     errors.PART_ASTRAY: Remedy(
-        "The part was moved or removed since the earlier picture; or the arm is elsewhere and casts its shadow "
-        "there: look again, or ask the operator.",
+        "The part was moved or removed since the earlier picture, or the arm stands elsewhere and casts its shadow "
+        "on the part: look again, or ask the operator.",
         "LOOK BEFORE\nMOVE P\nLOOK AFTER HOLD\nMATCH BASE BEFORE AFTER\nSKIPN 33 ;it stands as it stood\n"
         'WAIT "SOMEBODY HAS MOVED THE BASE"\nPARK',
     ),
     errors.SWITCH_WRONG: Remedy(
-        "A switch that is closed while its finger touches nothing is stuck. One that stays open while the fingers "
-        "press on something is stuck too, or their motor is weak. What such a switch reports is worthless: do not "
-        "test for the error, or tell the operator with a WAIT.",
+        "A switch that is closed while its finger touches nothing is stuck. A switch that stays open while the "
+        "fingers press on a part is stuck too, or the motor of the fingers is weak. The reports of such a switch "
+        "are worthless: do not test for the error, or call the operator with a WAIT.",
         'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
     ),
     errors.GAP_WRONG: Remedy(
-        "If the fingers have room, the gap's potentiometer is broken: do not test for the error. If they may meet "
-        "something as they open, open them less. A held part that slips or is pushed also changes the gap.",
+        "If the fingers have room, the potentiometer of the gap is broken: do not test for the error. If the "
+        "fingers may meet an object as they open, open them less. A held part that slips or is pushed also changes "
+        "the gap.",
         "OPEN 1.8\nSKIPN 51 ;the fingers reached their gap\nOPEN 1.5\nMOVE P",
     ),
     errors.FORCE_WRONG: Remedy(
-        "The first guarded motion after a MOVE already finds a force: declare with LOAD what the hand carries, and "
-        "LOAD 0 after it has released it. If the load is right, something leans on the hand, or a drive or a "
-        "tachometer fails.",
+        "The first guarded motion after a MOVE already feels a force. Declare the weight in the hand with LOAD, and "
+        "LOAD 0 after the release. If the load is right, an object leans on the hand, or a drive or a tachometer "
+        "fails.",
         "MOVE P\nCLOSE .1\nLOAD 30 ;else it would be felt\nMOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7",
     ),
     errors.JOINT_SENSE_WRONG: Remedy(
-        "The arm does not know where it is: do not test for the error, or tell the operator with a WAIT.",
+        "The arm does not know where it is: do not test for the error, or call the operator with a WAIT.",
         'MOVE T\nSKIPN 53 ;both sensors of each joint agree\nWAIT "SEE TO THE ARM\'S POTENTIOMETERS"\nMOVE P',
     ),
     errors.CURRENT_WRONG: Remedy(
-        "A motor takes current to start. Without a current reading, no TORQUE can be met, and no screw is known to "
-        "be tight.",
+        "A motor takes current to start. Without a current reading, no TORQUE can be met, and the program cannot "
+        "know whether a screw is tight.",
         "MOVE T\nTOOL 100\nTORQUE 42\nCHANGE [0 0 -1] .5\nSKIPN 54 ;the motor shows current\n"
         'WAIT "SEE TO THE DRIVER"\nTOOL 0',
     ),
     errors.PICTURE_WRONG: Remedy(
-        "Noise makes two pictures of a live camera differ, even of a scene at rest. A picture that equals an earlier "
-        "one, or is uniform, shows nothing; one with far more noise than a sound camera's is not to be measured in.",
+        "Noise makes two pictures of a live camera differ, even of a scene at rest. A picture that equals an "
+        "earlier one, or is uniform, shows nothing; a picture with far more noise than that of a sound camera must "
+        "not be used for measurement.",
         'LOOK V\nSKIPN 55 ;it is a live picture\nWAIT "SEE TO THE CAMERA"\nGENERAL BASE V',
     ),
     errors.JOINT_STIFF: Remedy(
         "One joint takes far more torque than its friction, and no force at the hand could cause this: do not test "
-        "for the error, or tell the operator with a WAIT.",
+        "for the error, or call the operator with a WAIT.",
         'MOVE T\nSKIPN 57 ;each joint takes what it took at first\nWAIT "SEE TO THE ARM\'S DRIVES"\nMOVE P',
     ),
 }
@@ -250,7 +252,8 @@ ACTIONS: Final = "\n".join(
         *_MOTIONS, *(f"{guard}\n{motion}" for guard in ("STOP 9", "TORQUE 42", "TOUCH 3") for motion in _MOTIONS[:-1]),
         "SEARCH .1\nL: MOVE T\nRESTORE H\nAOJ L", "OPEN 1", "CLOSE .1 .3", "CENTER .1", "CHANGE Z 1\nTRAVEL .1 .9",
         "SAVE H\nHEIGHT H .1 .9",
-        "LENS 25", "AIM BASE", "LOOK V HOLD", "GENERAL BASE V", "SPECIFIC BASE V", "INSPECT BASE V V", "MATCH BASE V V",
+        "LENS 25", "AIM BASE", "LOOK V HOLD", "GENERAL BASE V", "SPECIFIC BASE V", "INSPECT BASE V V", "MATCH BASE "
+        "V V",
     )
 )  # fmt: skip
 """Every instruction that can raise an error, with everything that lets it raise more."""

@@ -78,7 +78,7 @@ class SearchState(MutableRecord, kw_only=True):
         """Horizontal offset of the present place of the search, m."""
         found = self.place(pattern, self.count)
         if found is None:
-            raise Refused(f"the search has no place {self.count}, which it has reached")
+            raise Refused(f"the search is at its place {self.count}, which its pattern does not have")
         return found
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:

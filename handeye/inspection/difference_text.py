@@ -13,7 +13,7 @@ _SIGNS: Final = {"added": "+", "removed": "-", "changed": "~", "replanned": " "}
 def difference_text(found: Difference) -> list[str]:
     """The difference between two plans as lines of text."""
     if found.same:
-        return ["no difference: both do the same"]
+        return ["no difference: both plans do the same"]
     out = [f"~ {what}: {was} -> {now}" for what, was, now in found.heads]
     out += [f"- stage {name}" for name in found.stages_removed]
     out += [f"+ stage {name}" for name in found.stages_added]
@@ -57,6 +57,6 @@ def _motion(change: MotionChange) -> str:
         return time
     by = inches(change.moved) if change.kind == "prismatic" else degrees(change.moved)
     return (
-        f"{time}, joint {change.joint} ({change.name}) ends {by if change.moved < 0 else '+' + by} from its "
-        f"previous end"
+        f"{time}, joint {change.joint} ({change.name}) ends {by if change.moved < 0 else '+' + by} from where it "
+        "ended before"
     )

@@ -36,13 +36,13 @@ def faults(plan: Plan) -> Iterator[str]:
         if position.of is not None and position.of not in program.parts:
             yield f"position {key} is relative to part {position.of}, which is not in the plan"
         if not all(abs(value) <= 100 for value in position.at):
-            yield f"position {key} is not on this table"
+            yield f"position {key} has a coordinate above 100 m or rad"
     for key, part in program.parts.items():
         if not all(abs(value) <= 100 for value in part.at):
-            yield f"part {key} is not on this table"
+            yield f"part {key} has a coordinate above 100 m or rad"
     for key, fixture in program.fixtures.items():
         if not all(abs(value) <= 100 for value in fixture.at):
-            yield f"fixture {key} is not on this table"
+            yield f"fixture {key} has a coordinate above 100 m or rad"
         yield from _boxes(f"fixture {key}", fixture.boxes)
     for key, held in program.held.items():
         yield from (
@@ -57,7 +57,7 @@ def faults(plan: Plan) -> Iterator[str]:
         for fault in (*_step(plan, number, step), *_places(step, lines)):
             yield f"step {number} (line {step.place}) {fault}"
     if len(plan.joint_counts) > 1:
-        yield f"its motions are of arms with {' and '.join(map(str, plan.joint_counts))} joints"
+        yield f"its motions have different numbers of joints: {' and '.join(map(str, plan.joint_counts))}"
     for number in plan.motions:
         if not 0 <= number < len(program.steps):
             yield f"it has a motion for step {number}, which does not exist"
@@ -100,7 +100,7 @@ def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
         start, end = words.span
         length = len(there[words.line - 1]) if 1 <= words.line <= len(there) else 0
         if not 0 <= start <= end <= length:
-            yield f"is at characters {start} to {end} of line {words.line}, which has only {length}"
+            yield f"is at characters {start} to {end} of line {words.line}, which has {counted(length, 'character')}"
 
 
 def _use(program: Program, use: Use) -> Iterator[str]:
@@ -113,7 +113,7 @@ def _use(program: Program, use: Use) -> Iterator[str]:
         case "target" if use.name not in program.parts | program.positions:
             yield f"aims at {use.name}, which is neither a part nor a position of the plan"
         case "picture" if not _NAME.fullmatch(use.name):
-            yield f"calls a picture {use.name!r}; a name has letters, digits and underscores"
+            yield f"uses the picture name {use.name!r}; a name consists of letters, digits and underscores"
 
 
 def _numbers(operation: AnyOperation | AnyGuard) -> Iterator[str]:

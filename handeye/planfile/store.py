@@ -87,7 +87,7 @@ def read_plan(path: Path) -> Plan:
         raise refusal(entry.name, "plans", str(path))
     data = read_whole(path)
     if not data.lstrip().startswith((b"{", b"[")):
-        raise BadFile(f"{path} is not a plan; is it a script? `handeye plan {path}` makes a plan of it")
+        raise BadFile(f"{path} is not a plan; if it is a script, `handeye plan {path}` makes a plan from it")
     return decode(data, str(path))
 
 

@@ -48,9 +48,13 @@ def whole_steps(seconds: float, step: float) -> int:
     most `LONGEST` s.
     """
     if not (math.isfinite(seconds) and seconds > 0):
-        raise BadArgument(f"time cannot pass by {seconds:g} s; the shortest period is {step:{_DIGITS}} s")
+        raise BadArgument(
+            f"the clock cannot advance by {seconds:g} s; the shortest period is {step:{_DIGITS}} s"
+        )
     if seconds > LONGEST:
-        raise BadArgument(f"time cannot pass by {seconds:g} s at once; the longest period is {LONGEST:g} s")
+        raise BadArgument(
+            f"the clock cannot advance by {seconds:g} s at once; the longest period is {LONGEST:g} s"
+        )
     steps = round(seconds / step)
     if steps < 1 or abs(seconds / step - steps) > _ROUNDING:
         low = max(1, int(seconds / step))

@@ -35,7 +35,7 @@ def _at(place: str) -> tuple[type[SystemEvent], ...]:
     except Exception as error:
         raise BadArgument(f"{place} cannot be loaded: {type(error).__name__}: {error}") from error
     if taken:
-        raise BadArgument(f"{place} names a kind of event {min(taken)}, which is reserved")
+        raise BadArgument(f"{place} defines a kind of event with the reserved name {min(taken)}")
     return tuple(own)
 
 
@@ -100,7 +100,7 @@ def _refuse_unknown(plain: list[Any], system: str) -> None:
     for event in plain:
         kind = event.get("event") if isinstance(event, dict) else None
         if isinstance(kind, str) and kind not in known:
-            why = "they come from another version of handeye or of its system"
+            why = "the events come from another version of handeye or of its system"
             if system and system not in entries():
                 why = f"the system {quoted(system)} is not installed"
             raise msgspec.ValidationError(f"events of the kind {quoted(kind)} are unknown here: {why}")

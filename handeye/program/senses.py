@@ -8,7 +8,7 @@ Sense = Literal["vision", "touch", "search", "force", "centring"]
 SENSES: Final[tuple[str, ...]] = get_args(Sense)
 
 ASSUMPTIONS: Final[dict[str, str]] = {
-    "vision": "every part is assumed to be where the plan has it",
+    "vision": "every part is assumed to be at its planned pose",
     "touch": "finger switches report nothing: CENTER closes blindly and measures nothing",
     "search": "every search tries one place only",
     "force": "no force ends or guides a motion: every motion is assumed to have ended as planned",

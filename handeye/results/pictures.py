@@ -56,7 +56,7 @@ def keep_pictures(folder: Path, runner: Runner, *, photographs: bool = True) -> 
     try:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
     except OSError as error:
-        raise CannotWrite(f"{folder} cannot be made: {error.strerror}") from None
+        raise CannotWrite(f"the folder {folder} cannot be created: {error.strerror}") from None
     for name in runner.system.shots:
         write_whole(folder / f"{name.lower()}.png", annotated_png(runner.system, name))
     if runner.system.cell is None or not photographs:

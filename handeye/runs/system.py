@@ -378,7 +378,7 @@ class System(ABC):
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
         """The answers to the call of the operator that a run stands at, and what each does."""
         return {
-            "proceed": "proceed: continue after the step that called",
+            "proceed": "proceed: continue after the step that called the operator",
             "retry": "retry what was to be done",
             "skip": "skip it",
         }

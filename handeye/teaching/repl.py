@@ -24,7 +24,7 @@ from handeye.teaching.functions import TYPED, is_open, lasting, mistakes
 from handeye.teaching.workplace import Workplace
 
 MAX_LINES: Final = 500  # all of them are checked again with each that is added
-_ANSWERS: Final = "PROCEED, RETRY or SKIP continues from there; a new instruction abandons it"
+_ANSWERS: Final = "PROCEED, RETRY or SKIP continues the stopped program; a new instruction abandons it"
 
 
 @dataclass(slots=True, kw_only=True)
@@ -171,13 +171,13 @@ _TABLE: Final[tuple[Command[Callable[[Repl, str], Answer]], ...]] = (
     Command(usage="LIST", act=_list, help="list the collected lines"),
     Command(usage="DROP", act=_drop, help="remove the last collected line"),
     Command(usage="CLEAR", act=_clear, help="remove all collected lines"),
-    Command(usage="WRITE FILE", act=_write, help="write them to a new file, as a script"),
+    Command(usage="WRITE FILE", act=_write, help="write the collected lines to a new file, as a script"),
     Command(usage="SHOW [WHAT]", act=_show, help="show joints, hand, gap, saved differences, positions, ..."),
     Command(usage="BACK", act=_back, help="undo the last DO: restores arm, parts and memory"),
     Command(usage="PROCEED", act=_answer("proceed"), help="continue after the call of the operator"),
     Command(usage="RETRY", act=_answer("retry"), help="repeat from the first instruction of the stage"),
     Command(usage="SKIP", act=_answer("skip"), help="skip the rest of the stage"),
-    Command(usage="HELP [INSTRUCTION]", act=_help, help="show this, or what an instruction does"),
+    Command(usage="HELP [INSTRUCTION]", act=_help, help="show this list, or what an instruction does"),
     Command(usage="QUIT", act=_quit, help="leave"),
     Command(usage="EXIT", act=_quit, help="leave, too"),
 )

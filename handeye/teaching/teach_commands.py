@@ -113,7 +113,9 @@ def _push(teacher: Teacher, words: list[str]) -> Answer:
         raise BadArgument(f"a push is at most 200 oz, not {quoted(force)}")
     teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
     told = _where(teacher).said.show
-    return answer(teacher.workplace, show=told, said="this was a push from outside, which no program can do")
+    return answer(
+        teacher.workplace, show=told, said="this motion was a push from outside, which no program can command"
+    )
 
 
 # -- naming ---------------------------------------------------------------------------------------------
@@ -180,7 +182,7 @@ def _help(teacher: Teacher, _: list[str]) -> Answer:
 
 def _exactly(words: list[str], count: int, example: str) -> list[str]:
     if len(words) != count:
-        raise BadArgument(f"write it as in `{example}`")
+        raise BadArgument(f"write the command as in `{example}`")
     return words
 
 
@@ -198,7 +200,9 @@ def _along(axis: str, size: float) -> Vector3:
 
 
 _TABLE_HELP: Final = "move the hand along an axis of the table; or `table turn z 10`"
-_HAND_HELP: Final = "move it along one of its own axes (z is its pointing direction); or `hand turn y 5`"
+_HAND_HELP: Final = (
+    "move the hand along one of its own axes (z is its pointing direction); or `hand turn y 5`"
+)
 TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="j3 +1", act=_joint, help="move a joint by this much; without a sign, to this value"),
     Command(usage="table x +.5", act=_table, help=_TABLE_HELP),
@@ -206,14 +210,14 @@ TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="move NAME", act=_function("MOVE"), help="go to a position"),
     Command(usage="open GAP", act=_function("OPEN"), help="open the hand"),
     Command(usage="close [MIN]", act=_function("CLOSE"), help="close it"),
-    Command(usage="center [MIN]", act=_function("CENTER"), help="close it without pushing the part"),
+    Command(usage="center [MIN]", act=_function("CENTER"), help="close the hand without pushing the part"),
     Command(usage="float", act=_float, help="release the brakes; the arm then follows a push"),
-    Command(usage="push x 5 2", act=_push, help="push it: along x with 5 oz for 2 s"),
+    Command(usage="push x 5 2", act=_push, help="push the arm: along x with 5 oz for 2 s"),
     Command(usage="here NAME [of PART]", act=_here, help="name this position; `here NAME again` replaces it"),
     Command(usage="where", act=_look, help="show where the arm is"),
     Command(usage="list", act=_list, help="list what is taught"),
     Command(usage="undo", act=_undo, help="undo the last motion, or the last name"),
-    Command(usage="save", act=_save, help="write the new names to the file; nothing else in it changes"),
+    Command(usage="save", act=_save, help="write the new names to the file; the rest of the file is kept"),
     Command(usage="help", act=_help, help="show this"),
 )
 TEACH_COMMANDS: Final = {lesson.name: lesson for lesson in TABLE[1:]}

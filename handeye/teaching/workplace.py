@@ -130,7 +130,7 @@ class Workplace:
     def carry_out(self, plan: Plan) -> Pause:
         """Execute a plan; raises Refused if it takes pictures, and the camera was not set up."""
         if self.run.state.calibration is None and plan.program.written("picture"):
-            raise Refused("the camera is not calibrated; start with --look for a plan that takes pictures")
+            raise Refused("the camera is not calibrated; to take pictures, start with --look")
         self.mark()
         here = self.checkpoint()
         assert here.snapshot is not None

@@ -62,9 +62,12 @@ def test_a_name_that_looks_like_a_known_one_is_taken_for_it() -> None:
     [
         (
             "ASSIGN N 3\nL: PARK\nSOJG L,N",
-            "`L` is a label and `N` a counter: `SOJG` takes them the other way",
+            "`L` is a label and `N` a counter: `SOJG` takes them in the other order",
         ),
-        ("LOOK V\nGENERAL V BASE", "`V` is a picture and `BASE` a part: `GENERAL` takes them the other way"),
+        (
+            "LOOK V\nGENERAL V BASE",
+            "`V` is a picture and `BASE` a part: `GENERAL` takes them in the other order",
+        ),
     ],
 )
 def test_two_names_in_the_wrong_order_are_one_mistake(text: str, message: str) -> None:

@@ -103,7 +103,7 @@ def test_macro_inside_a_macro_is_reported_as_a_missing_blank_line() -> None:
     (diagnostic,) = diagnose("DEFINE A\nPARK\nDEFINE B\nPARK\n\nA\nB")
     assert (diagnostic.code, diagnostic.primary.text) == (
         "unterminated-macro",
-        "line `DEFINE B` comes before its end",
+        "`DEFINE B` comes before the end of the macro",
     )
 
 

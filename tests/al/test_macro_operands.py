@@ -101,7 +101,7 @@ def test_a_text_shows_an_operand_as_it_is_written_without_quotes() -> None:
 
 def test_words_without_braces_are_no_parameters() -> None:
     found = only("DEFINE TELL A\nWAIT A SCREW\n\nTELL T")
-    assert (found.code, found.help) == ("unused-parameter", "in a text, write it in braces: `{A}`")
+    assert (found.code, found.help) == ("unused-parameter", "in a text, write a parameter in braces: `{A}`")
 
 
 def test_braces_outside_of_macros_with_parameters_are_words() -> None:

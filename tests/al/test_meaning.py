@@ -19,7 +19,7 @@ def codes(text: str) -> list[str]:
 
 def test_a_test_that_only_skips_the_next_one_is_told() -> None:
     (told,) = diagnose("L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK")
-    assert told.message == "the program continues in the same way with and without error 2"
+    assert told.message == "the program continues in the same way whether or not error 2 was raised"
 
 
 @pytest.mark.parametrize(
@@ -50,7 +50,7 @@ BODY = (
 def test_a_body_behind_a_skip_is_told(between: str) -> None:
     (told,) = diagnose(BODY.format(between))
     assert told.code == "skips-one-only"
-    assert [label.text for label in told.secondary] == ["this line runs in any case"]
+    assert [label.text for label in told.secondary] == ["this line is always executed"]
 
 
 @pytest.mark.parametrize(
@@ -121,7 +121,7 @@ def test_what_is_saved_only_where_nothing_leads_is_never_saved() -> None:
 @pytest.mark.parametrize("grasp", ["CLOSE .1", "CENTER .1"])
 def test_a_touch_of_closed_fingers_is_told(grasp: str) -> None:
     (told,) = diagnose(f"{grasp}\nTOUCH 3\nCHANGE Z -1")
-    assert told.message.endswith("the fingers are closed: what they hold ends it at once")
+    assert told.message.endswith("the fingers are closed: the part between them ends it at once")
 
 
 @pytest.mark.parametrize("hand", ["", "CLOSE .1\nOPEN 1\n", "CLOSE .1\nSKIPE 2\nOPEN 1\n"])
@@ -144,7 +144,7 @@ def test_a_part_of_which_too_little_is_taught_is_told_before_anything_moves(look
     (told,) = (d for d in diagnose(f"LOOK V\n{look}") if d.severity == "error")
     assert told.code == "part-not-described"
     assert told.message.endswith(f"cannot find `GASKET` without its {lacks}")
-    assert (told.help or "").endswith("taught in full: `BASE`")
+    assert (told.help or "").endswith("parts with complete data: `BASE`")
 
 
 def test_a_comparison_with_a_picture_taken_as_the_camera_saw_fit_is_told() -> None:
@@ -179,7 +179,7 @@ def test_a_position_that_only_a_comment_goes_to_is_seen_there() -> None:
     (told,) = diagnose("TRANS ROD [24 36 3 90 90 0]\nOPEN 1 ; MOVE ROD\nPARK")
     assert (told.code, told.help) == (
         "unused-position",
-        "line 2 has it in a comment, after a `;`",
+        "line 2 uses it, but in a comment, after a `;`",
     )
 
 

@@ -113,7 +113,8 @@ def test_a_run_with_code_of_its_own_is_shown_with_how_python_goes_on_with_it(
 ) -> None:
     app(["show", str(searched.out)], result_action="return_value")
     told = capsys.readouterr().err
-    said = f"search `{__name__}.row` of its own: from Python, handeye.begin('{searched.out}', search=...) continues it"
+    way = f"resume it from Python with handeye.begin('{searched.out}', search=...)"
+    said = f"its caller's own search `{__name__}.row`; {way}"
     assert (said in " ".join(told.split()), "handeye resume" in told) == (True, False)
 
 

@@ -134,8 +134,7 @@ def test_a_byte_order_mark_is_no_part_of_a_text(plan: handeye.Plan) -> None:
 def test_a_line_without_an_end_is_the_name_of_a_file() -> None:
     with pytest.raises(
         InvalidInput,
-        match=r"^OPEN 1: there is no such file; a script given as text must contain a "
-        r"line end$",
+        match=r"^OPEN 1: there is no such file; a script given as text must contain a line break$",
     ):
         handeye.plan("OPEN 1")
 

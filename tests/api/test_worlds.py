@@ -102,7 +102,7 @@ def test_a_world_of_a_pump_with_seven_screws_has_the_quantities_of_the_seventh()
     )
     with pytest.raises(
         InvalidInput,
-        match=r"^the world has no quantity `holes\.top\.7\.x`; with pump\.screws set to 7 it has$",
+        match=r"^the world has the quantity `holes\.top\.7\.x` only if pump\.screws is set to 7$",
     ):
         handeye.World()["holes.top.7.x"]
 

@@ -80,7 +80,7 @@ def test_a_turn_through_the_line_of_both_rolls_is_refused(angle: float) -> None:
     refused = [each for each in found if isinstance(each, IKResult)]
     assert [each.reason for each in refused] in ([InLine((4, 6))], [InLine((4, 6))] * 2)
     assert refused[0].message(GANTRY) == (
-        "joints 5 and 7 line up on the way, and there the hand cannot keep its orientation"
+        "the axes of joints 5 and 7 line up on the way, and there the hand cannot keep its angles"
     )
 
 

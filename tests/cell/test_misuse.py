@@ -37,7 +37,7 @@ def borne(cell: SimulatedCell) -> Array:
 def test_a_period_that_is_refused_changes_nothing(cell: SimulatedCell, seconds: float) -> None:
     cell.devices.arm.drive(borne(cell))
     before = msgspec.json.encode(cell.capture(), enc_hook=np.ndarray.tolist)
-    with pytest.raises(InvalidInput, match=r"^(time cannot pass by|a period of) "):
+    with pytest.raises(InvalidInput, match=r"^(the clock cannot advance by|a period of) "):
         cell.advance(seconds)
     assert msgspec.json.encode(cell.capture(), enc_hook=np.ndarray.tolist) == before
 

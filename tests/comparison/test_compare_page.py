@@ -106,7 +106,7 @@ def traces(command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 @pytest.mark.parametrize("word", ["compare", "report"])
 def test_both_commands_write_the_page(command: Command, word: str) -> None:
     code, _, err = command(word, "a.mcap", "b.mcap", "-o", "page.html")
-    assert (code, err) == (0, "its page: page.html\n" if word == "compare" else "")
+    assert (code, err) == (0, "page: page.html\n" if word == "compare" else "")
     page = tree(Path("page.html").read_text(encoding="utf-8"))
     assert heading(page) == "Both runs are identical, to the last bit."
     assert not [node for node in page.all("p") if node.attributes.get("class") == "missing" and node.text]
@@ -127,7 +127,7 @@ def test_a_page_is_replaced_only_if_somebody_says_so_and_nothing_else_ever(comma
 
 @pytest.mark.usefixtures("traces")
 def test_a_report_of_two_runs_has_to_be_told_its_place(command: Command) -> None:
-    said = "handeye: a page of two runs belongs in neither folder; choose a file with -o\n"
+    said = "handeye: a page of two runs has no default place; choose a file with -o\n"
     assert command("report", "a.mcap", "b.mcap") == (2, "", said)
 
 

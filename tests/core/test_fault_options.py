@@ -48,7 +48,7 @@ def test_a_stage_may_have_any_name() -> None:
         (["lamp"], "`lamp` is a group of faults: `lamp.dead`"),
         (["lamp.dead=3"], "the fault `lamp.dead` has no value; leave out `=3`"),
         (["gap.off=wide"], "gap.off cannot be `wide`, which is not a number"),
-        (["gap.off=5in"], "gap.off cannot be `5in`; it can be -4 to 4 in"),
+        (["gap.off=5in"], "gap.off cannot be `5in`; it must be between -4 and 4 in"),
         (["gap.off=5N"], "gap.off is not measured in `N`; known: `in`, `m`, `mm`"),
         (["lamp.dead@0"], "`0` is not the number of a stage, which starts at 1"),
         (["lamp.dead@"], "`lamp.dead@` is not a fault; write NAME, NAME=VALUE or NAME@STAGE"),
@@ -56,7 +56,7 @@ def test_a_stage_may_have_any_name() -> None:
         (["lamp.dead", "lamp.dead@2"], "the fault `lamp.dead` is given twice"),
         (
             ["gasket.missing@2"],
-            "the fault `gasket.missing` cannot begin while the cell works; leave out `@2`",
+            "the fault `gasket.missing` cannot begin during a run, only before it; leave out `@2`",
         ),
     ],
 )
@@ -67,7 +67,11 @@ def test_what_names_no_fault_is_refused(texts: list[str], sentence: str) -> None
 
 
 def test_where_nothing_has_stages_a_fault_is_there_from_the_beginning() -> None:
-    with pytest.raises(InvalidInput, match=r"^here, a fault is present from the start; leave out `@2`$"):
+    with pytest.raises(
+        InvalidInput,
+        match=r"^this command has no stages, so a fault is present from the start; "
+        "leave out `@2`$",
+    ):
         faults(CATALOGUE, ["lamp.dead@2"], from_start_only)
 
 
@@ -77,7 +81,7 @@ def test_a_fault_is_told_as_it_would_be_typed() -> None:
 
 
 def test_a_recorded_fault_of_another_size_than_it_can_have_is_refused() -> None:
-    with pytest.raises(InvalidInput, match=r"^the fault `gap.off` cannot be 7\.0: it can be -0\.1016 to"):
+    with pytest.raises(InvalidInput, match=r"^the fault `gap.off` must have a value between -0\.1016 and"):
         CATALOGUE.check([Fault(name="gap.off", value=7.0)])
     with pytest.raises(InvalidInput, match=r"^the fault `lamp.dead` has no value$"):
         CATALOGUE.check([Fault(name="lamp.dead", value=7.0)])

@@ -151,7 +151,7 @@ def test_a_specification_survives_the_disk(seed: int, level: Level, name: str) -
 
 def test_a_world_drawn_in_another_way_is_refused() -> None:
     sentence = (
-        "the world of seed 3 comes from another version of handeye; this version gives another world for "
+        "the world of seed 3 comes from another version of handeye; this version draws a different world from "
         "that seed"
     )
     with pytest.raises(InvalidInput, match=sentence):
@@ -169,7 +169,10 @@ def test_a_world_drawn_in_another_way_is_refused() -> None:
             Overrides(set={"x": 1.0}),
             "the world has no quantity `x`; there are `camera`, `slip`, `wave`",
         ),
-        (Overrides(set={"camera": 1.0}), "`camera` is a group of quantities and cannot have one value"),
+        (
+            Overrides(set={"camera": 1.0}),
+            "`camera` is a group of quantities; set each quantity by its own name",
+        ),
     ],
 )
 def test_overrides_that_the_task_does_not_know_are_refused(overrides: Overrides, sentence: str) -> None:
@@ -189,7 +192,7 @@ def test_a_value_that_a_quantity_cannot_have_is_refused_wherever_it_comes_from(v
     bounded = Variation(
         Quantity(name="x", unit="in", distribution=Normal(1.0), limits=(-5, 5), source="test")
     )
-    with pytest.raises(InvalidInput, match=r"^x cannot be set to "):
+    with pytest.raises(InvalidInput, match=r"^x must be between "):
         bounded.draw(WorldSpec(seed=1, overrides=Overrides(set={"x": value})))
 
 
@@ -233,7 +236,7 @@ def test_a_scale_of_two_is_the_high_level_of_what_it_names(seed: int) -> None:
 def test_a_factor_that_errors_cannot_have_is_refused(factor: float) -> None:
     with pytest.raises(InvalidInput, match=r"^`slip` cannot be scaled by "):
         scaled(1, slip=factor)
-    with pytest.raises(InvalidInput, match=r"at the level high, factors are 0 to 2$"):
+    with pytest.raises(InvalidInput, match=r"at the level high, a factor must be between 0 and 2$"):
         scaled(1, "high", slip=2.5)
 
 

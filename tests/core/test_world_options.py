@@ -39,8 +39,8 @@ def test_a_value_is_in_its_unit_or_in_that_of_the_quantity(
         (f"place.x=2{'d' * 41}", f"place.x is not measured in `{'d' * 39}…`; known: `in`, `m`, `mm`"),
         ("place.yaw=2dg", "place.yaw is not measured in `dg`; known: `deg`, `rad`"),
         ("place.yaw=2degs", "place.yaw is not measured in `degs`; did you mean `deg`?"),
-        ("place.yaw=91", "place.yaw cannot be `91`; it can be -90 to 90 deg"),
-        ("mass=-95", "mass cannot be `-95`; -90 % is the minimum"),
+        ("place.yaw=91", "place.yaw cannot be `91`; it must be between -90 and 90 deg"),
+        ("mass=-95", "mass cannot be `-95`; it must be at least -90 %"),
         ("place.z=1", "the world has no quantity `place.z`; did you mean `place.x`?"),
     ],
 )

@@ -176,8 +176,8 @@ def test_a_step_is_found_by_its_number_or_its_label() -> None:
     ("text", "sentence"),
     [
         ("14", "there is no step 14; the program has steps 0 to 13"),
-        ("-9", "`-9` is neither a step's number nor a label"),
-        ("L4", "`L4` is neither a step's number nor a label; did you mean `L1`?"),
+        ("-9", "`-9` is neither the number of a step nor a label"),
+        ("L4", "`L4` is neither the number of a step nor a label; did you mean `L1`?"),
     ],
 )
 def test_a_step_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:
@@ -187,5 +187,7 @@ def test_a_step_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: 
 
 
 def test_a_label_that_stands_for_several_steps_is_no_step(macro: Plan) -> None:
-    with pytest.raises(InvalidInput, match=r"^several steps have label `LM`: 0, 2; give one by its number$"):
+    with pytest.raises(
+        InvalidInput, match=r"^several steps have the label `LM`: 0, 2; give the number of one$"
+    ):
         step_number("LM", macro.program)

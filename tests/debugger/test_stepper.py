@@ -275,7 +275,7 @@ def test_force_is_shown_where_a_guard_has_just_stopped_the_hand_and_nowhere_else
     assert shown.show.force_oz is None
     assert (
         as_text(shown).splitlines()[-1]
-        == "force     no estimate here: the last step was not stopped by a guard"
+        == "force     there is no force estimate here, because the last step did not end on a guard"
     )
     runner.context.state.drive.wrench = np.array((0, 0, -8.0, 0, 0, 0))
     runner.events.append(GuardTripped(time=runner.time, guard=GuardKind.FORCE, value=8.0, limit=7.0))
@@ -529,7 +529,7 @@ def test_a_run_in_trouble_goes_nowhere_but_back(say: Say, runner: Runner) -> Non
         say("s")[0].error
         == "the run cannot continue from here, only go back: the simulation lost its footing"
     )
-    assert say("set saved H 0 0 0")[0].error == "you cannot set anything here; go back first"
+    assert say("set saved H 0 0 0")[0].error == "no value can be set here; go back first"
     assert [answer.position for answer in say("b", "s")] == [1, 2]
 
 
@@ -583,17 +583,17 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("show s", "there is no `s` to show; there are " + ", ".join(TOPICS)),
         ("set", "an experiment is `set saved NAME x y z` or `set position NAME x y z [o a t]`"),
         ("set speed 3", "an experiment is `set saved NAME x y z` or `set position NAME x y z [o a t]`"),
-        ("set saved H 1 2", "write an experiment as `set saved NAME x y z`"),
+        ("set saved H 1 2", "write `set saved NAME x y z`"),
         ("set saved H 1 2 nan", "`nan` is not a number from -1000 to 1000"),
         ("set saved H 1 2 1e9", "`1e9` is not a number from -1000 to 1000"),
         ("set saved HH 1 2 3", "the program has no saved difference `HH`; did you mean `H`?"),
-        ("set position T 1 2 3 4", "write an experiment as `set position NAME x y z [o a t]`"),
+        ("set position T 1 2 3 4", "write `set position NAME x y z [o a t]`"),
         ("set position TT 1 2 3", "the program has no position `TT`; did you mean `T`?"),
         ("proceed", "`proceed` answers a call of the operator, but there is none"),
         ("retry", "`retry` answers a call of the operator, but there is none"),
         ("skip", "`skip` answers a call of the operator, but there is none"),
         ("abort", "`abort` answers a call of the operator, but there is none"),
-        ("checkpoint", "this run has no folder to keep checkpoints in: `checkpoint FILE` writes one"),
+        ("checkpoint", "this run has no folder for checkpoints; `checkpoint FILE` writes one to a file"),
         ("help me", "there is no command `me`; `help` lists them"),
     ],
 )  # fmt: skip

@@ -98,7 +98,8 @@ def test_a_pull_that_no_weight_of_a_link_explains_is_told() -> None:
     pulled = WorldSpec(seed=3, faults=(Fault(name="force.off_zero.z", value=20.0),))
     cell = task().cell(pulled, "ray").devices
     with pytest.raises(
-        FrictionUnknown, match=r"^the links could not be weighed: that of the wrist roll would be 0\.34 times"
+        FrictionUnknown,
+        match=r"^the links could not be weighed: the link of the wrist roll would be 0\.34 times",
     ):
         measure_joints(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD))
 

@@ -148,7 +148,7 @@ def test_a_gap_that_changes_faster_than_fingers_move_is_told() -> None:
 
 @pytest.mark.parametrize("touching", [True, False])  # a weak grip closes no switch
 @pytest.mark.parametrize(
-    ("to", "why"), [(0.8, "what is held has slipped"), (1.3, "what is held has been pushed")]
+    ("to", "why"), [(0.8, "the held part has slipped"), (1.3, "the held part has been pushed")]
 )
 def test_a_gap_that_jumps_while_something_is_held_may_be_that_of_the_fingers(
     to: float, why: str, touching: bool
@@ -228,7 +228,7 @@ def test_what_leans_on_the_hand_after_a_motion_that_met_it_is_no_matter_of_the_f
 def test_a_tachometer_that_reads_nothing_is_told_with_its_joint() -> None:
     run = reading(fake_run("CHANGE X 6"), lambda read: replace(read, qd=only(read.qd, 0, 0.0))).go()
     assert run.errors == [errors.JOINT_SENSE_WRONG]
-    assert "column has gone" in run.told
+    assert "column has moved" in run.told
     assert run.told.endswith("0.0 degrees by its tachometer)")
 
 
@@ -237,7 +237,7 @@ def test_a_potentiometer_that_jumps_is_told_with_its_joint() -> None:
     reading(run, lambda read: replace(read, q=only(read.q, 2, read.q[2] + 0.02 * (run.cell.clock.now > 1))))
     run.go()
     assert run.errors == [errors.JOINT_SENSE_WRONG]
-    assert "boom has gone" in run.told
+    assert "boom has moved" in run.told
 
 
 def resting(told: Callable[[float], float]) -> FakeRun:
@@ -253,8 +253,8 @@ def resting(told: Callable[[float], float]) -> FakeRun:
 def test_a_potentiometer_that_drifts_under_the_brakes_is_told_by_the_next_motion() -> None:
     run = resting(lambda seconds: 0.01 * DEGREE * seconds)
     assert run.errors == [errors.JOINT_SENSE_WRONG]
-    assert "column has gone 0.6 degrees by its potentiometer" in run.told
-    assert run.told.endswith("under its brake: or the brake slips)")
+    assert "column has moved 0.6 degrees by its potentiometer" in run.told
+    assert run.told.endswith("although its brake is set; or the brake slips)")
 
 
 def test_an_arm_that_creeps_under_its_brakes_is_believed() -> None:
@@ -293,10 +293,13 @@ STARTS = [0.05] * 4 + [0.0] * 20
 @pytest.mark.parametrize(
     ("torques", "told"),
     [
-        ([0.5 * each for each in STARTS] + [0.185] * 999, "it shows 3.5 oz-in where the motor takes 7.1"),
+        (
+            [0.5 * each for each in STARTS] + [0.185] * 999,
+            "it shows 3.5 oz-in, but the motor takes 7.1 oz-in",
+        ),
         (
             [2 * each for each in STARTS] + [0.74] * 999,
-            "it shows 104.8 oz-in where the motor takes 52.4: 2.0 times",
+            "it shows 104.8 oz-in, but the motor takes 52.4 oz-in: 2.0 times",
         ),
         ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "it turns too slowly"),
     ],
@@ -333,7 +336,7 @@ def test_a_current_that_ends_below_the_torque_stop_is_told_of_a_motor_that_is_he
     run.cell.arm.walls = [Wall(point=(0.0, 0.0, (5.8 if stands else 0) * INCH))]
     assert run.go().errors == [error]
     if error == errors.CURRENT_WRONG:
-        assert "it shows 30.0 oz-in, short of the 42.0 asked for" in run.told
+        assert "it shows 30.0 oz-in of the commanded 42.0 oz-in" in run.told
 
 
 # -- the camera -----------------------------------------------------------------------------------------

@@ -147,7 +147,7 @@ GUARD = f"{CHANGE}.guards.0"
         (
             "program.steps.1.span",
             [8, 80],
-            "step 1 (line 4) is at characters 8 to 80 of line 4, which has only 27",
+            "step 1 (line 4) is at characters 8 to 80 of line 4, which has 27 characters",
         ),
         ("program.steps.1.modifiers.0.line", 9, "step 1 (line 4) is at characters 8 to 25 of line 9"),
         ("program.steps.0.operation.via", ["X"], "step 0 (line 2) uses position X"),
@@ -161,7 +161,7 @@ GUARD = f"{CHANGE}.guards.0"
             [0.0, 0.0, 0.0],
             "step 0 (line 2) has a planned motion with impossible times or joints",
         ),
-        ("motions.0.knots.1", [0.0] * 5, "its motions are of arms with 5 and 6 joints"),
+        ("motions.0.knots.1", [0.0] * 5, "its motions have different numbers of joints: 5 and 6"),
         ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 time instead of 4 and 3"),
         (
             "motions.0.times",
@@ -189,7 +189,7 @@ GUARD = f"{CHANGE}.guards.0"
         (
             "program.steps.3.operation",
             {"op": "look", "picture": "../x"},
-            "step 3 (line 6) calls a picture '../x'",
+            "step 3 (line 6) uses the picture name '../x'",
         ),
         ("program.steps.3.operation", {"op": "search", "step": 1, "limit": -1}, "step 3 (line 6) has step 1"),
     ],
@@ -222,7 +222,11 @@ FIXTURE = {"at": [0, 0, 0, 0], "boxes": [[0, 0, 0, 1, 1, 1]]}
 @pytest.mark.parametrize(
     ("path", "value", "said"),
     [
-        ("program.fixtures", {"F": FIXTURE | {"at": [1e9, 0, 0, 0]}}, "fixture F is not on this table"),
+        (
+            "program.fixtures",
+            {"F": FIXTURE | {"at": [1e9, 0, 0, 0]}},
+            "fixture F has a coordinate above 100 m or rad",
+        ),
         (
             "program.fixtures",
             {"F": FIXTURE | {"boxes": [[0, 0, 0, 1, 1, 0]]}},

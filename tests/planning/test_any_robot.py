@@ -74,7 +74,7 @@ def refused(arm: ArmModel, position: str) -> Diagnostic:
         (
             CARTESIAN,
             f"[30 {Y} 4 60 90 0]",
-            "the hand would have to turn by 30.0 degrees, which no joint of the cartesian arm can do",
+            "the hand would have to turn by 30.0 degrees about an axis that the joints of the cartesian arm lack",
         ),
         (
             PLANAR,
@@ -110,7 +110,7 @@ def test_a_motion_that_comes_out_otherwise_is_told_by_the_robot_s_own_joints() -
     plans = [planned(GANTRY, f"{HEAD}TRANS C [{x} {Y} 4 90 90 0]\nMOVE C\n")[0] for x in (30, 31)]
     assert plans[0] is not None
     assert plans[1] is not None
-    assert "joint 3 (carriage) ends +1 in from its previous end" in "\n".join(
+    assert "joint 3 (carriage) ends +1 in from where it ended before" in "\n".join(
         difference_text(difference(*plans))
     )
 

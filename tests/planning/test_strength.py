@@ -103,7 +103,7 @@ def test_a_moment_that_no_joint_can_bring_up_is_found_in_planning(modifier: str,
         (
             "[0 0 -5]",
             "a stop on a force of 5 oz is hard to distinguish from joint friction here",
-            "use at least 6 oz",
+            "write at least 6 oz",
         ),
         (
             "NIL [19 0 0]",

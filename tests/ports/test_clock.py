@@ -17,7 +17,7 @@ STEPS = [0.001, 1 / 960, 1 / 3000, 7e-5]
 def test_time_passes_neither_backwards_nor_for_ever_nor_not_at_all(seconds: float) -> None:
     clock = FakeClock()
     with pytest.raises(
-        InvalidInput, match=r"^time cannot pass by .* s; the shortest period is 0\.00104166666667 s$"
+        InvalidInput, match=r"^the clock cannot advance by .* s; the shortest period is 0\.00104166666667 s$"
     ):
         clock.advance(seconds)
     assert clock.now == 0.0
@@ -26,7 +26,7 @@ def test_time_passes_neither_backwards_nor_for_ever_nor_not_at_all(seconds: floa
 @pytest.mark.parametrize("step", STEPS)
 def test_no_more_than_a_day_passes_at_once(step: float) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^time cannot pass by 1e\+12 s at once; the longest period is 86400 s$"
+        InvalidInput, match=r"^the clock cannot advance by 1e\+12 s at once; the longest period is 86400 s$"
     ):
         whole_steps(1e12, step)
 

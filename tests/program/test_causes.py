@@ -78,8 +78,8 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.SwitchesHard(fingers=(True, True), force=10 * OUNCE_FORCE),
-        "the switches of both fingers are open although the fingers are pressed together with 10 oz: they are numb, or "
-        "the fingers' motor is weak",
+        "the switches of both fingers are open although the fingers are pressed together with 10 oz: they are "
+        "numb, or the fingers' motor is weak",
     ),
     (
         c.GapJumped(gap=2.3 * INCH, before=2.0 * INCH, held=False),
@@ -87,17 +87,17 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.GapJumped(gap=1.29 * INCH, before=1.39 * INCH, held=True),
-        "it jumped from 1.39 in to 1.29 in: what is held has slipped, or the gap's potentiometer fails",
+        "it jumped from 1.39 in to 1.29 in: the held part has slipped, or the gap's potentiometer fails",
     ),
     (
         c.GapJumped(gap=1.32 * INCH, before=1.0 * INCH, held=True),
-        "it jumped from 1.00 in to 1.32 in: what is held has been pushed, and the fingers apart, or the gap's "
-        "potentiometer fails",
+        "it jumped from 1.00 in to 1.32 in: the held part has been pushed and has forced the fingers apart, or the "
+        "gap's potentiometer fails",
     ),
     (
         c.CurrentShort(torque=30 * OUNCE_INCH, asked=42 * OUNCE_INCH),
-        "it shows 30.0 oz-in, short of the 42.0 asked for, while the motor is stalled: its reading ends there, or "
-        "the motor is weak",
+        "it shows 30.0 oz-in of the commanded 42.0 oz-in while the motor is stalled: the current sensor reads no "
+        "higher, or the motor is weak",
     ),
     (
         c.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),
@@ -105,12 +105,12 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),
-        "it shows 3.5 oz-in where the motor takes 7.0: 0.5 times as much",
+        "it shows 3.5 oz-in, but the motor takes 7.0 oz-in: 0.5 times as much",
     ),
     (
         c.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
-        "by the weight that it bears a drive gives more or less torque than commanded, or the arm no longer stands "
-        "upright: that of the wrist 1.30 times",
+        "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque than "
+        "commanded (the drive of the wrist 1.30 times as much), or the arm no longer stands upright",
     ),
     (c.MotorSlow(share=0.4), "the motor had started after 0.4 of the usual time: it turns too slowly"),
     (
@@ -127,16 +127,16 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.JointSensesApart(joint=ARM.joints[0], potentiometer=1.0 * INCH, tachometer=0.0),
-        "rail has gone 1.00 in by its potentiometer, 0.00 in by its tachometer",
+        "rail has moved 1.00 in by its potentiometer and 0.00 in by its tachometer",
     ),
     (
         c.JointSensesApart(joint=ARM.joints[1], potentiometer=2 * DEGREE, tachometer=-1 * DEGREE),
-        "wrist has gone 2.0 degrees by its potentiometer, -1.0 degrees by its tachometer",
+        "wrist has moved 2.0 degrees by its potentiometer and -1.0 degrees by its tachometer",
     ),
     (
         c.JointSensesApart(joint=ARM.joints[1], potentiometer=2 * DEGREE, tachometer=0.0, braked=True),
-        "wrist has gone 2.0 degrees by its potentiometer, 0.0 degrees by its tachometer, under its brake: or the brake "
-        "slips",
+        "wrist has moved 2.0 degrees by its potentiometer and 0.0 degrees by its tachometer, although its brake "
+        "is set; or the brake slips",
     ),
     (
         c.JointAlone(joint=ARM.joints[1], torque=150 * OUNCE_INCH, friction=30 * OUNCE_INCH),
@@ -146,8 +146,8 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.JointAlone(joint=ARM.joints[1], torque=9 * OUNCE_INCH, friction=3 * OUNCE_INCH, one_way=True),
         "wrist takes 9 oz-in to move; at the start it took 3 oz-in, or the arm no longer stands upright",
     ),
-    (c.JointAlone(joint=ARM.joints[0], torque=-80 * OUNCE_FORCE), "rail: 80 oz do not move it"),
-    (c.CurrentSilent(torque=0.0), "it showed 0.0 oz-in at most, less than the motor needs to start"),
+    (c.JointAlone(joint=ARM.joints[0], torque=-80 * OUNCE_FORCE), "rail does not move with 80 oz"),
+    (c.CurrentSilent(torque=0.0), "it showed at most 0.0 oz-in, less than the motor needs to start"),
     (
         c.PictureRepeated(picture="AFTER", earlier="BEFORE"),
         "picture AFTER is the same as BEFORE, pixel by pixel",
@@ -166,7 +166,7 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.NoHoles(blobs=3),
         "3 dark blobs are found, but no two are the part's largest holes: is the picture in focus?",
     ),
-    (c.NoGasket(), "no gasket: the later picture shows nothing new where it should be"),
+    (c.NoGasket(), "no gasket: the later picture shows nothing new where the gasket should be"),
     (
         c.GasketWrong(
             faults=(c.GasketHoleOff(hole="largest", off=0.3 * INCH), c.GasketHoleUnseen(hole="second"))
@@ -179,7 +179,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.PartAstray(off=0.2 * INCH, unlike=0.034),
-        "moved by 0.20 in relative to its surroundings; 3.4 % of it looks different",
+        "it has moved by 0.20 in relative to its surroundings; 3.4 % of it looks different",
     ),
     (c.NoSearch(), "no search was set up"),
     (c.PlacesTried(places=9), "9 places tried"),
@@ -191,25 +191,26 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.HoldOff(gap=0.0, kept=0.0075, holding=True),
-        "the gap is 0.00 in; when the step was executed they held something at 0.30 in",
+        "the gap is 0.00 in; when the step was executed, the fingers held something at 0.30 in",
     ),
     (
         c.HoldOff(gap=0.0, kept=0.0254, holding=False),
-        "the gap is 0.00 in; when the step was executed they stood at 1.00 in",
+        "the gap is 0.00 in; when the step was executed, the fingers stood at 1.00 in",
     ),
     (
         c.MetEarly(fingers=(True, False), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),
-        "the +y finger touches something at 1.80 in already; when the step was executed the fingers held something at "
-        "1.40 in: it lies 0.20 in off the centre of the hand",
+        "the +y finger touches something already at a gap of 1.80 in; when the step was executed, the fingers "
+        "held something at 1.40 in: the object lies 0.20 in off the centre of the hand",
     ),
     (
         c.MetEarly(fingers=(True, True), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),
-        "both fingers touch something at 1.80 in already; when the step was executed the fingers held something at "
-        "1.40 in",
+        "both fingers touch something already at a gap of 1.80 in; when the step was executed, the fingers held "
+        "something at 1.40 in",
     ),
     (
         c.MetEarly(fingers=(False, True), gap=0.5 * INCH, kept=0.0, holding=False),
-        "the -y finger touches something at 0.50 in already; when the step was executed the fingers stood at 0.00 in",
+        "the -y finger touches something already at a gap of 0.50 in; when the step was executed, the fingers stood "
+        "at 0.00 in",
     ),
     (
         c.ScrewFast(torque=0.5, risen=0.0),
@@ -217,7 +218,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.ScrewLost(way=0.002, force=6.0),
-        "the hand does not hold the screw: it goes down 0.08 in without meeting 22 oz",
+        "the hand does not hold the screw: the hand goes down 0.08 in without meeting 22 oz",
     ),
     (c.BackingOut(), "the step drove a screw out, which cannot be undone"),
     (c.UndoUnknown(), "the record for undoing this step cannot be used"),

@@ -107,7 +107,8 @@ def test_a_kind_that_is_not_known_is_told_with_the_system_it_takes(written: Path
 @pytest.mark.usefixtures("machine")
 def test_a_kind_of_another_version_is_told_as_such() -> None:
     with pytest.raises(
-        msgspec.DecodeError, match="known here: they come from another version of handeye or of its system"
+        msgspec.DecodeError,
+        match="known here: the events come from another version of handeye or of its system",
     ):
         EventReader("machine").read(b'{"event":"Sneezed","time":1.0}')
 
@@ -121,7 +122,7 @@ def test_an_event_that_could_not_be_read_back_is_not_written() -> None:
 
 def test_no_system_can_give_another_meaning_to_a_common_kind(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(entries, "_registered", {"machine": entry("WRONG")})
-    with pytest.raises(InvalidInput, match=r"WRONG names a kind of event Saved, which is reserved$"):
+    with pytest.raises(InvalidInput, match=r"WRONG defines a kind of event with the reserved name Saved$"):
         own_kinds("machine")
 
 

@@ -103,7 +103,9 @@ def test_an_arm_that_floats_stays_where_it_is_until_somebody_pushes_it(pupil: Te
     say(pupil, "float")
     assert np.linalg.norm(hand(pupil) - before) < 0.1
     afloat = hand(pupil)
-    assert say(pupil, "push x 5 1").endswith("this was a push from outside, which no program can do")
+    assert say(pupil, "push x 5 1").endswith(
+        "this motion was a push from outside, which no program can command"
+    )
     assert (hand(pupil) - afloat)[0] > 0.3
 
 
@@ -171,7 +173,7 @@ def test_nobody_quits_unsaved_without_being_told(pupil: TeachSession) -> None:
     [
         ("fly", "there is no command `fly`; `help` lists them"),
         ("tabel x 1", "there is no command `tabel`; did you mean `table`?"),
-        ("table x", "write it as in `table x +.5` or `table turn z 10`"),
+        ("table x", "write the command as in `table x +.5` or `table turn z 10`"),
         ("table w 1", "`w` is not an axis; there are x, y and z"),
         ("table x inf", "`inf` is not a number"),
         ("here 1A", "`1A` is not a name: letters, digits and _, no digit first"),

@@ -44,7 +44,7 @@ def test_do_tells_a_modifier_alone_how_it_goes_with_its_motion(command: Command)
 @pytest.mark.parametrize(
     ("more", "advice"),
     [
-        ((), "--keep FILE would save the cell as it is now, and --from FILE would continue from there"),
+        ((), "with --keep FILE, `handeye do` saves the cell at the end, and --from FILE continues from it"),
         (("--keep", "a.checkpoint"), "`handeye do --from a.checkpoint` continues from there"),
     ],
 )

@@ -171,7 +171,7 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
     said = console.read("OPEN 1", "WAIT look here", "OPEN 2", "DO")
     assert said.endswith(
         "2 WAIT look here                 brakes set, operator called: look here\n"
-        "PROCEED, RETRY or SKIP continues from there; a new instruction abandons it"
+        "PROCEED, RETRY or SKIP continues the stopped program; a new instruction abandons it"
     )
     console.type("PROCEED")
     assert console.gap == pytest.approx(2, abs=0.05)
@@ -186,7 +186,7 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
         ("PROCEED", "`proceed` answers a call of the operator, but there is none"),
         ("WRITE", "`WRITE` takes the name of a file"),
         ("WRITE .", ". is a directory, not a file"),
-        ("DO LOOK VIEW", "the camera is not calibrated; start with --look for a plan that takes pictures"),
+        ("DO LOOK VIEW", "the camera is not calibrated; to take pictures, start with --look"),
         ("HELP OPNE", "there is no instruction `OPNE`; did you mean `OPEN`?"),
         ("DROP", "nothing is collected"),
     ],

@@ -128,7 +128,11 @@ def test_of_a_trace_that_was_cut_short_it_is_said_and_the_exit_code_says_so(
     whole = Path("a.mcap").read_bytes()
     Path("a.mcap").write_bytes(whole[: len(whole) * 3 // 4])
     code, out, err = command("trace", "export", "csv", "a.mcap", "-o", "told")
-    assert (code, out[:14], err) == (1, "told: joints (", "a.mcap was cut short; these are its contents\n")
+    assert (code, out[:14], err) == (
+        1,
+        "told: joints (",
+        "a.mcap was cut short; only the part that it holds is written\n",
+    )
 
 
 def test_an_event_list_makes_no_tables(command: Command) -> None:

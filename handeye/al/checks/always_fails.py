@@ -45,7 +45,7 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
             continue
         (x, y, z), (f, g, h) = change.displacement, guard.force
         if x * f + y * g + z * h < 0:
-            message = "the hand moves away from what its `STOP` should press on"
+            message = "the hand moves away from the surface that its `STOP` should meet"
             help = (
                 "the vector of `STOP` is the force that the hand exerts: point it in the direction of motion"
             )
@@ -99,8 +99,8 @@ def _torques(graph: Graph) -> Iterator[AlwaysFails]:
         started = graph.after(running) if started is None else started
         last = graph.last(number, Tool)
         if number not in started or (last and running.isdisjoint(last)):
-            message = "this motion should end on a torque, but the screwdriver does not turn"
-            help = "`TOOL` runs the screwdriver; without it this always raises error 24"
+            message = "this motion waits for a torque, but the screwdriver does not turn"
+            help = "`TOOL` runs the screwdriver; without it, this motion always raises error 24"
             yield AlwaysFails("torque-without-tool", number, message, help, max(last, default=None))
 
 
@@ -109,7 +109,10 @@ def _touches(graph: Graph) -> Iterator[AlwaysFails]:
     for number in _guarded(graph, GuardKind.TOUCH):
         last = graph.last(number, Open, Close, Center)
         if last and not any(graph.at(n, Open) for n in last):
-            message = "this motion should end on a touch, but the fingers are closed: what they hold ends it at once"
+            message = (
+                "this motion waits for a touch, but the fingers are closed: the part between them ends it at"
+                " once"
+            )
             help = "use `STOP`, which feels contact through the held part; `TOUCH` needs open fingers"
             yield AlwaysFails("touch-while-closed", number, message, help, max(last))
 
@@ -125,8 +128,8 @@ def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
     """WAITs that were intended as a delay."""
     for number, wait in graph.each(Wait):
         if _TIME.fullmatch(wait.message):
-            message = "`WAIT` stops the run and calls the operator: it does not wait for a number of seconds"
-            help = "leave it out: the arm is at rest when a motion ends"
+            message = "`WAIT` stops the run and calls the operator; it is not a delay"
+            help = "leave `WAIT` out: the arm is at rest when a motion ends"
             yield AlwaysFails("wait-for-time", number, message, help)
 
 

@@ -53,7 +53,7 @@ _ORDERS = (
         code="aoj-without-search",
         of=Advance,
         needs=Search,
-        message="there is no `SEARCH` before this `AOJ`, so there is no next place",
+        message="there is no `SEARCH` before this `AOJ`, so it has no next place to go to",
         help="put a `SEARCH` before the label",
     ),
     _Order(
@@ -69,7 +69,7 @@ _ORDERS = (
         of=Save,
         needs=Move,
         message="there is no `MOVE` before this `SAVE`, so there is no goal to compare with",
-        help="`SAVE` saves the difference between the hand's place and the goal of the last `MOVE`",
+        help="`SAVE` saves the offset of the hand from the goal of the last `MOVE`",
     ),
     _Order(
         code="travel-without-change",
@@ -140,7 +140,7 @@ class _Flow:
             lost = self.span(number) not in reached
             if lost and not before and number - 1 not in trapped:
                 help = "the line before jumps elsewhere, and no jump leads here"
-                message = "this is never executed"
+                message = "this line is never executed"
                 yield self.problem("unreachable-code", number, message, help=help)
             before = lost
 
@@ -175,7 +175,7 @@ class _Flow:
             elif operation.number not in raised[number] and operation.number in ERRORS:
                 yield number, self.never_raised(number, operation.number, actions[number], raised[number])
             elif operation.number in raised[number] and self.skips_test(operation, number, raised):
-                message = f"the program continues in the same way with and without error {operation.number}"
+                message = f"the program continues in the same way whether or not error {operation.number} was raised"
                 skips = f"`{self.word(number).text}` skips only the test below"
                 help = f"{skips}: write a test and a `JUMP` for each error"
                 yield number, self.problem("test-of-no-effect", number, message, help=help)

@@ -44,7 +44,7 @@ def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnos
                 "skips-one-only",
                 f"`{skip.text}` skips one instruction, not the indented block",
                 skip.span,
-                Label(span=behind[-1].span, text="this line runs in any case"),
+                Label(span=behind[-1].span, text="this line is always executed"),
                 help="to skip more, write the opposite test and a `JUMP`",
             )
 

@@ -71,8 +71,8 @@ def _swapped(statements: Sequence[Statement], known: dict[Refers, set[str]]) -> 
             assert statement.word is not None
             op = statement.word.text
             message = (
-                f"{quoted(a.text)} is a {second.value} and {quoted(b.text)} a {first.value}: "
-                f"`{op}` takes them the other way round"
+                f"{quoted(a.text)} is a {second.value} and {quoted(b.text)} a {first.value}: `{op}` takes them in "
+                "the other order"
             )
             help = f"usage: `{INSTRUCTIONS[op].usage}`"
             yield problem("wrong-operand", message, across(a, b), *uses(a), help=help)

@@ -100,7 +100,7 @@ def _early(use: Name, here: Statement) -> Diagnostic:
         use.span,
         Label(span=here.span, text="defined here"),
         *uses(use),
-        help="planning reads the text in order; a `TRANS` before it would give it a place",
+        help="move the `HERE` up, or define the position before this line with `TRANS`",
     )
 
 
@@ -133,7 +133,7 @@ def check_unused(
             name = statement.operands[0]
             if isinstance(name, Name) and name.text not in found:
                 line = commented().get(name.text)
-                help = None if line is None else f"line {line} has it in a comment, after a `;`"
+                help = None if line is None else f"line {line} uses it, but in a comment, after a `;`"
                 message = f"{what} {quoted(name.text)} is defined but never used"
                 yield problem(f"unused-{what}", message, name.span, help=help)
     called = {statement.word.text for statement in all_statements(script) if statement.word is not None}
@@ -195,9 +195,9 @@ def _not_described(
     lacking = [what for what, has in needs if not has(parts[name.text])]
     if lacking:
         others = [quoted(other) for other, part in parts.items() if all(has(part) for _, has in needs)]
-        known = f"; taught in full: {', '.join(others)}" if others else ""
+        known = f"; parts with complete data: {', '.join(others)}" if others else ""
         message = f"`{op}` cannot find {quoted(name.text)} without its {' and '.join(lacking)}"
-        help = f"add it under `[parts.{name.text}]` in the taught file{known}"
+        help = f"add this under `[parts.{name.text}]` in the taught file{known}"
         yield problem("part-not-described", message, name.span, help=help)
 
 
@@ -237,7 +237,7 @@ def check_parameters(script: Script) -> Iterator[Diagnostic]:
             if name not in known:
                 meant = alternatives(name, known)
                 lacks = f"{quoted(macro.name.text)} has no parameter {quoted(name)}"
-                message = f"{lacks}: the braces stay in the text"
+                message = f"{lacks}, so the text keeps the braces as they are"
                 yield problem("unknown-parameter", message, span, help=names_sentence(meant))
 
 
@@ -249,7 +249,7 @@ def unused_parameters(script: Script) -> Iterator[Diagnostic]:
         for parameter in macro.parameters:
             if parameter.text not in used:
                 words = {token.text for line in macro.body for token in line.tokens}
-                braces = f"in a text, write it in braces: `{{{parameter.text}}}`"
+                braces = f"in a text, write a parameter in braces: `{{{parameter.text}}}`"
                 help = braces if parameter.text in words else None
                 message = f"parameter {quoted(parameter.text)} is never used"
                 yield problem("unused-parameter", message, parameter.span, help=help)

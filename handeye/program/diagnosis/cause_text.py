@@ -106,7 +106,7 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
         case None:
             return "the gasket is in place"
         case c.NoGasket():
-            return "no gasket: the later picture shows nothing new where it should be"
+            return "no gasket: the later picture shows nothing new where the gasket should be"
         case c.GasketWrong():
             return "; ".join(f"the {fault.hole} hole {_hole(fault)}" for fault in cause.faults)
     assert_never(cause)
@@ -114,7 +114,7 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
 
 def match_sentence(off: float, unlike: float) -> str:
     """The result of a match as a sentence, from the displacement (m) and the fraction that looks different."""
-    return f"moved by {_inches(off)} relative to its surroundings; {100 * unlike:.1f} % of it looks different"
+    return f"it has moved by {_inches(off)} relative to its surroundings; {100 * unlike:.1f} % of it looks different"
 
 
 def _undo_stopped(cause: c.UndoCause) -> str:
@@ -125,17 +125,18 @@ def _undo_stopped(cause: c.UndoCause) -> str:
         case c.HoldOff():
             gap, kept = _apart(cause.gap, cause.kept)
             held = "held something at" if cause.holding else "stood at"
-            return f"the gap is {gap} in; when the step was executed they {held} {kept} in"
+            return f"the gap is {gap} in; when the step was executed, the fingers {held} {kept} in"
         case c.MetEarly():
             return _met_early(cause)
         case c.ScrewFast():
             torque = f"{cause.torque / OUNCE_INCH:.0f} oz in"
-            return f"the screw does not come out: it has risen by {_inches(cause.risen)}, and the driver shows {torque}"
+            return (
+                f"the screw does not come out: it has risen by {_inches(cause.risen)}, and the driver shows"
+                f" {torque}"
+            )
         case c.ScrewLost():
             force = f"{cause.force / OUNCE_FORCE:.0f} oz"
-            return (
-                f"the hand does not hold the screw: it goes down {_inches(cause.way)} without meeting {force}"
-            )
+            return f"the hand does not hold the screw: the hand goes down {_inches(cause.way)} without meeting {force}"
         case c.BackingOut():
             return "the step drove a screw out, which cannot be undone"
         case c.UndoUnknown():
@@ -146,11 +147,11 @@ def _undo_stopped(cause: c.UndoCause) -> str:
 def _met_early(cause: c.MetEarly) -> str:
     gap, kept = _apart(cause.gap, cause.kept)
     then = "held something" if cause.holding else "stood"
-    touching = f"{touching_fingers(cause.fingers)} something at {gap} in already"
-    reach_sentence = f"{touching}; when the step was executed the fingers {then} at {kept} in"
+    touching = f"{touching_fingers(cause.fingers)} something already at a gap of {gap} in"
+    reach_sentence = f"{touching}; when the step was executed, the fingers {then} at {kept} in"
     if all(cause.fingers) or not cause.holding:
         return reach_sentence
-    return f"{reach_sentence}: it lies {_inches((cause.gap - cause.kept) / 2)} off the centre of the hand"
+    return f"{reach_sentence}: the object lies {_inches((cause.gap - cause.kept) / 2)} off the centre of the hand"
 
 
 def _not_found(cause: c.SightCause) -> str:
@@ -217,21 +218,23 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return f"it reads {gap} in on {cause.held}, which is {thick} in thick there{times}"
         case c.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)
-            gives = " and ".join(f"that of the {joint.name} {factor:.2f} times" for joint, factor in named)
+            gives = " and ".join(
+                f"the drive of the {joint.name} {factor:.2f} times as much" for joint, factor in named
+            )
             return (
-                "by the weight that it bears a drive gives more or less torque than commanded, "
-                f"or the arm no longer stands upright: {gives}"
+                "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque "
+                f"than commanded ({gives}), or the arm no longer stands upright"
             )
         case c.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
             times = f": {told / known:.1f} times as much" if known else ""
-            return f"it shows {told:.1f} oz-in where the motor takes {known:.1f}{times}"
+            return f"it shows {told:.1f} oz-in, but the motor takes {known:.1f} oz-in{times}"
         case c.CurrentShort():
             shown, asked = (torque / OUNCE_INCH for torque in (cause.torque, cause.asked))
             short = (
-                f"it shows {shown:.1f} oz-in, short of the {asked:.1f} asked for, while the motor is stalled"
+                f"it shows {shown:.1f} oz-in of the commanded {asked:.1f} oz-in while the motor is stalled"
             )
-            return f"{short}: its reading ends there, or the motor is weak"
+            return f"{short}: the current sensor reads no higher, or the motor is weak"
         case c.MotorSlow():
             return f"the motor had started after {cause.share:.1f} of the usual time: it turns too slowly"
         case c.GapAstray():
@@ -243,13 +246,15 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return _in_air(cause)
         case c.JointSensesApart():
             pot, tachometer = (_way(cause.joint, way) for way in (cause.potentiometer, cause.tachometer))
-            ways = f"{cause.joint.name} has gone {pot} by its potentiometer, {tachometer} by its tachometer"
-            return f"{ways}, under its brake: or the brake slips" if cause.braked else ways
+            ways = (
+                f"{cause.joint.name} has moved {pot} by its potentiometer and {tachometer} by its tachometer"
+            )
+            return f"{ways}, although its brake is set; or the brake slips" if cause.braked else ways
         case c.JointAlone():
             return _alone(cause)
         case c.CurrentSilent():
             return (
-                f"it showed {cause.torque / OUNCE_INCH:.1f} oz-in at most, less than the motor needs to start"
+                f"it showed at most {cause.torque / OUNCE_INCH:.1f} oz-in, less than the motor needs to start"
             )
         case c.PictureRepeated():
             return f"picture {cause.picture} is the same as {cause.earlier}, pixel by pixel"
@@ -265,8 +270,8 @@ def _jump(cause: c.GapJumped) -> str:
     """The possible causes of a jump of the gap. If the fingers touch nothing, only the potentiometer can cause it."""
     if not cause.held:
         return "no finger can move so fast"
-    moved = "slipped" if cause.gap < cause.before else "been pushed, and the fingers apart"
-    return f"what is held has {moved}, or the gap's potentiometer fails"
+    moved = "slipped" if cause.gap < cause.before else "been pushed and has forced the fingers apart"
+    return f"the held part has {moved}, or the gap's potentiometer fails"
 
 
 def touching_fingers(fingers: tuple[bool, bool]) -> str:
@@ -301,7 +306,7 @@ def _alone(cause: c.JointAlone) -> str:
     prismatic = cause.joint.kind == "prismatic"
     unit, name = (OUNCE_FORCE, "oz") if prismatic else (OUNCE_INCH, "oz-in")
     if cause.friction is None:
-        return f"{cause.joint.name}: {abs(cause.torque) / unit:.0f} {name} do not move it"
+        return f"{cause.joint.name} does not move with {abs(cause.torque) / unit:.0f} {name}"
     took, takes = distinct_digits([cause.friction / unit, cause.torque / unit], 0)
     tilted = ", or the arm no longer stands upright" if cause.one_way else ""
     return f"{cause.joint.name} takes {takes} {name} to move; at the start it took {took} {name}{tilted}"

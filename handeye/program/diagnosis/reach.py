@@ -156,8 +156,8 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
             )
         case FixedOrientation():
             return (
-                f"the hand would have to turn by {enough_digits(reason.angle / DEGREE, 1)} degrees, "
-                f"which no joint of the {arm.name} arm can do"
+                f"the hand would have to turn by {enough_digits(reason.angle / DEGREE, 1)} degrees about an axis "
+                f"that the joints of the {arm.name} arm lack"
             )
         case FixedDirection():
             movers = [named(arm, joint) for joint in reason.joints]
@@ -172,7 +172,8 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
         case InLine():
             one, other = (joint + 1 for joint in reason.joints)
             return (
-                f"joints {one} and {other} line up on the way, and there the hand cannot keep its orientation"
+                f"the axes of joints {one} and {other} line up on the way, and there the hand cannot keep its"
+                " angles"
             )
         case TooFast():
             scale, unit = _unit(arm, reason.joint)

@@ -330,7 +330,7 @@ def test_the_stepper_tells_of_a_taught_program_what_is_true_of_it(monkeypatch: p
     stepper = Stepper(runner)
     manual = str(stepper.do("help").said)
     assert all(word not in manual for word in ("set saved", "picture", "inches", "repeat the stage", "AOJ"))
-    assert stepper.do("help set").error == "`set` does nothing in a run of TRIG"
+    assert stepper.do("help set").error == "`set` is not a command for runs of TRIG"
     hand, _, grasp = stepper.do("step 3").did[1:]
     assert hand.outcome.startswith("hand at (")
     assert hand.outcome.endswith(") mm")

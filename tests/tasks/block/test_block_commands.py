@@ -69,7 +69,7 @@ def test_a_task_that_contradicts_the_plan_is_refused(command: Command) -> None:
     told(command, "plan", *BLOCK, "block.al")
     assert command("run", PLAN, "--task", "water_pump") == (
         2, "", f"handeye: {PLAN} is a plan for the task `block`, not for `water_pump`; "
-        "leave out --task, or name another\n",
+        "leave out --task, or give the right one\n",
     )  # fmt: skip
 
 
@@ -81,7 +81,7 @@ def test_a_run_of_another_task_is_refused_and_left_as_it_is(command: Command) ->
     for name in ("resume", "dismantle", "video", "trace verify"):
         code, _, err = command(*name.split(), "whole", "--task", "insertion")
         assert code == 2
-        assert err.startswith("handeye: the run in whole is of the task `block`, not of `insertion`")
+        assert err.startswith("handeye: the run in whole belongs to the task `block`, not to `insertion`")
     assert sorted(Path("whole", CHECKPOINTS).iterdir()) == kept
 
 

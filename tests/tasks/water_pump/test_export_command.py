@@ -67,7 +67,7 @@ def test_a_finished_run_is_exported_as_it_ended(command: Command, ended: tuple[P
 def test_a_run_that_is_not_finished_is_marked_so(command: Command, ended: tuple[Path, Runner]) -> None:
     path = ended[0].with_name("half-way")
     code, out, err = command("export", "mjcf", str(path), "-o", "half")
-    assert (code, err) == (0, f"the run in {path} is not finished\n")
+    assert (code, err) == (0, f"the run in {path} is not finished; its newest state is exported\n")
     assert out.endswith("at “feel for nothing”: unfinished\n")
     model, data = end(Path("half"))
     assert (text(model, "moment"), text(model, "shows")) == ("unfinished", out.strip().removeprefix("half: "))
@@ -118,7 +118,7 @@ def test_of_a_run_whose_end_is_damaged_the_state_before_is_exported_as_unfinishe
     last.write_bytes(last.read_bytes()[:-1])
     code, _, err = command("export", "mjcf", "run", "-o", "a")
     left_out, unfinished = err.splitlines()
-    assert (code, unfinished) == (0, "the run in run is not finished")
+    assert (code, unfinished) == (0, "the run in run is not finished; its newest state is exported")
     assert left_out.startswith(f"left out: {last}")
 
 
