@@ -538,8 +538,8 @@ DEFINE TOOLS
         WAIT    "PIN 2 DOES NOT STAND IN ITS HOLDER"
         CHANGE  [0 0 1] 1
 
-; What lies over the face of the base at each screw: gasket, flange and head, .511 in under six screws. The last thing of all: a screw that
-; works loose later than this, nothing tells.
+; What lies over the face of the base at each screw: gasket, flange and head, .511 in under six screws. As late as can be: no picture
+; tells whether a screw is loose.
 DEFINE LAYERS
         OPEN    0
         ASSIGN  AGAIN 2
@@ -967,14 +967,13 @@ MOVED:  SOJG    TRIES ALL       ;by the inspection itself? All of it once more
 ALL:    BLOCKS                  ;home, before it is felt
         ROTATION
         HEADS
+        TOOLS
         BLOCKS                  ;the driver has drawn it off a little
         PARK
         LOOK    WHOLE           ;what is lost from here on, the last picture shows
-        TOOLS
+        LAYERS
         PARK
         LOOK    DONE HOLD
         MATCH   PUMP WHOLE DONE ;does it still stand as it was felt?
         SKIPN   33
         JUMP    MOVED
-        LAYERS
-        PARK
