@@ -1,1 +1,1 @@
-"""Runs that can be stepped, kept, resumed and taken back in time."""
+"""Runs that can be stepped, saved, resumed, and taken back to an earlier state."""

@@ -1,4 +1,4 @@
-"""Advance a run step by step until it ends or a stop condition pauses it; states worth keeping go to the observers."""
+"""Advances a run step by step until it ends or a stop condition pauses it; states to be kept go to the observers."""
 
 from collections.abc import Callable, Sequence
 from typing import Literal
@@ -12,19 +12,19 @@ from handeye.runs.snapshot import Snapshot
 
 
 class StopCondition(Record, frozen=True, kw_only=True, tag_field="stop", tag=True):
-    """Base of the conditions; one by itself never pauses a run."""
+    """Base of the stop conditions, which never pauses a run itself."""
 
     def met_before(self, runner: Runner) -> bool:
-        """Pause before the step that is next."""
+        """True if the run pauses before the next step."""
         return False
 
     def met_after(self, events: Sequence[AnyEvent]) -> bool:
-        """Pause after a step in which these events happened."""
+        """True if the run pauses after a step with these events."""
         return False
 
 
 class AtSteps(StopCondition, frozen=True, kw_only=True):
-    """Pause before any of some steps, given by their numbers."""
+    """Pause before any of several steps, given by number."""
 
     steps: tuple[int, ...]
 
@@ -40,7 +40,7 @@ class AtLine(AtSteps, frozen=True, kw_only=True):
 
 
 class AtLabel(AtSteps, frozen=True, kw_only=True):
-    """Pause before the steps that a label stands before."""
+    """Pause before the steps with a label."""
 
     label: str
 
@@ -56,7 +56,7 @@ class BeforeStep(AtSteps, frozen=True, kw_only=True):
 
     @property
     def step(self) -> int:
-        """Its number."""
+        """Number of the step."""
         return self.steps[0]
 
 
@@ -91,28 +91,28 @@ class AfterStage(StopCondition, frozen=True, kw_only=True):
 
 
 class ReversalEnd(StopCondition, frozen=True, kw_only=True, tag="Undone"):
-    """Pause when the arm has undone as much as was ordered."""
+    """Pause when the arm has undone as many steps as ordered."""
 
     def met_before(self, runner: Runner) -> bool:
         return isinstance(runner.events[-1], UndoEnded)
 
 
 class AfterSteps(StopCondition, frozen=True, kw_only=True):
-    """Pause after a number of steps, which the caller counts."""
+    """Pause after a number of steps; the caller counts them."""
 
     count: int
 
 
 class PauseRequest(StopCondition, frozen=True, kw_only=True, tag="Asked"):
-    """Pause because a person asked for it during the run."""
+    """Pause because a person requested it during the run."""
 
 
 class ByHand(StopCondition, frozen=True, kw_only=True):
-    """Pause because a person left the run as it was."""
+    """Pause because a person ended the control of the run."""
 
 
 class DriverFailure(StopCondition, frozen=True, kw_only=True, tag="BrokenOff"):
-    """Pause because the program that drives the run failed."""
+    """Pause because the program that controls the run failed."""
 
     exception: str  # class name
 
@@ -134,7 +134,7 @@ AnyStop = (
 
 
 class Pause(Record, frozen=True, kw_only=True):
-    """Reason of a pause, as facts."""
+    """The reason for a pause, as facts."""
 
     kind: Literal["end", "operator", "trouble", "break", "panic"]  # `trouble`: it cannot continue
     done: int = 0  # steps done since the run went on
@@ -153,7 +153,9 @@ def advance(
     steps: int | None = None,
     asked: Callable[[], bool] = lambda: False,
 ) -> Pause:
-    """Do `steps` steps, or all, and one at least; `asked` is called after each: True pauses there."""
+    """Execute `steps` steps, or all, but at least one; `asked` is called after each step, and the run pauses if it
+    returns True.
+    """
     done = 0
     while not runner.ended:
         if runner.between_stages:
@@ -174,7 +176,7 @@ def advance(
 
 
 def paused_before(runner: Runner, stops: Sequence[AnyStop], done: int = 0) -> Pause | None:
-    """The pause before the next step, if a condition asks for one; the state is kept then."""
+    """The pause before the next step, if a condition demands one; the state is kept in that case."""
     met = next((stop for stop in stops if stop.met_before(runner)), None)
     if met is None:
         return None
@@ -183,7 +185,7 @@ def paused_before(runner: Runner, stops: Sequence[AnyStop], done: int = 0) -> Pa
 
 
 def _step(runner: Runner, stops: Sequence[AnyStop], done: int) -> Pause | None:
-    """Do one step; the pause after it, if there is one."""
+    """Execute one step; returns the pause after it, if there is one."""
     happened = len(runner.events)
     try:
         runner.step()
@@ -204,7 +206,7 @@ def _step(runner: Runner, stops: Sequence[AnyStop], done: int) -> Pause | None:
 
 
 def ended(runner: Runner, done: int = 0) -> Pause:
-    """Why a run cannot continue alone."""
+    """The reason why a run cannot continue without the operator."""
     if runner.trouble is not None:
         return Pause(kind="trouble", done=done, message=runner.trouble)
     call = runner.call
@@ -214,7 +216,7 @@ def ended(runner: Runner, done: int = 0) -> Pause:
 
 
 def keep(runner: Runner, snapshot: Snapshot) -> None:
-    """Hand a state of the run to the observers that keep states."""
+    """Give a state of the run to the observers that keep states."""
     checkpoint = runner.checkpoint(snapshot)
     for observer in runner.observers:
         observer.checkpoint(checkpoint)

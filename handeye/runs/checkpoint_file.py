@@ -1,7 +1,7 @@
-"""Checkpoints on disk: one line with its format, one line of readable JSON, then the compressed state.
+"""Checkpoints on disk: one line with the format, one line of readable JSON, then the compressed state.
 
-The first line carries a digest of all that follows it, so that a file that is cut short, or in which any bit is
-wrong, is refused before anything in it is used.
+The first line has a digest of everything after it. A file that is truncated or has a wrong bit is refused before
+any of its content is used.
 """
 
 import hashlib
@@ -35,7 +35,7 @@ LARGEST: Final = 1 << 28  # bytes of a state, decompressed: a hundred times what
 
 
 class Head(Record, frozen=True, kw_only=True):
-    """Summary of a checkpoint, to read, and to find the right one."""
+    """Summary of a checkpoint, for display and for finding the right checkpoint."""
 
     system: str = "program"  # the kind of system that carries the run out
     program: str
@@ -58,7 +58,7 @@ class Head(Record, frozen=True, kw_only=True):
 
 
 class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """A `Snapshot` whose state is read by the type of its system."""
+    """A `Snapshot` whose state has not been decoded yet, because its type depends on the system."""
 
     position: Annotated[int, msgspec.Meta(ge=0)]
     happened: Annotated[int, msgspec.Meta(ge=0)]
@@ -111,7 +111,9 @@ def encode(checkpoint: Checkpoint) -> bytes:
 
 
 def decode(data: bytes, name: str) -> Checkpoint:
-    """The checkpoint in some bytes; raises BadFile if it is none, or cannot be used here. `name` is for messages."""
+    """Decode a checkpoint; raises BadFile if the data are no checkpoint, or cannot be used here. `name` is the
+    file's name for messages.
+    """
     head, rest = _opened(data, name)
     try:
         body = unpacked(rest, _Body, LARGEST)
@@ -181,27 +183,27 @@ def _in_memory(kept: _Snapshot, kind: System, name: str) -> Snapshot:
 
 
 def decode_head(data: bytes, name: str) -> Head:
-    """The summary of a checkpoint; all of it is checked for damage, as in `decode`."""
+    """Decode the summary of a checkpoint; the whole file is checked for damage, as in `decode`."""
     return _opened(data, name)[0]
 
 
 def read_checkpoint(path: Path) -> Checkpoint:
-    """The checkpoint in a file; raises BadFile as `decode`."""
+    """Read the checkpoint in a file; raises BadFile as `decode` does."""
     return decode(read_whole(path), str(path))
 
 
 def read_head(path: Path) -> Head:
-    """The summary of the checkpoint in a file; raises BadFile as `decode`."""
+    """Read the summary of the checkpoint in a file; raises BadFile as `decode` does."""
     return decode_head(read_whole(path), str(path))
 
 
 def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
-    """Write a checkpoint, whole or not at all."""
+    """Write a checkpoint completely or not at all."""
     write_whole(path, encode(checkpoint))
 
 
 def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
-    """The head and the packed body, if they are undamaged."""
+    """The summary and the compressed state of a checkpoint; raises BadFile if they are damaged."""
     first, _, rest = data.partition(b"\n")
     words = first.decode("ascii", errors="replace").split(" ")
     if len(words) != 3 or words[0] != MAGIC or not re.fullmatch(r"[1-9][0-9]{0,8}", words[1]):

@@ -1,4 +1,6 @@
-"""Checkpoints of one run in a folder: found, written, and removed when the run goes back to before them."""
+"""Checkpoints of one run in a folder: finds and writes them, and removes those after the point to which the run
+goes back.
+"""
 
 import re
 from collections.abc import Iterator
@@ -28,7 +30,7 @@ class CheckpointStore:
         self.folder = folder
 
     def save(self, checkpoint: Checkpoint) -> Path:
-        """Write a checkpoint under a name that sorts by the number of steps done; return the file."""
+        """Write a checkpoint under a name that sorts by the number of steps done; returns the file."""
         path = self.folder / file_name(checkpoint)
         write_checkpoint(path, checkpoint)
         for other in self.folder.glob(f"{checkpoint.position:04}-*{ENDING}"):
@@ -37,7 +39,7 @@ class CheckpointStore:
         return path
 
     def heads(self) -> Iterator[tuple[Path, Head]]:
-        """Sound checkpoints, the newest first."""
+        """Valid checkpoints with their summaries, the newest first."""
         for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
             try:
                 yield path, read_head(path)
@@ -45,11 +47,11 @@ class CheckpointStore:
                 continue
 
     def moved(self) -> Iterator[Path]:
-        """Files, valid or not, of checkpoints of a run that had begun."""
+        """Files, valid or not, of checkpoints made after the run began."""
         return (path for path in self.folder.glob(f"*{ENDING}") if _position(path) >= 0)
 
     def damaged(self) -> list[str]:
-        """A sentence for each file that is not valid."""
+        """A sentence for each file that is not a valid checkpoint."""
         faults = []
         for path in sorted(self.folder.glob(f"*{ENDING}")):
             try:
@@ -59,7 +61,7 @@ class CheckpointStore:
         return faults
 
     def check(self, setup: Setup) -> None:
-        """Raises BadFile if the checkpoints here belong to a run with another setup."""
+        """Raises BadFile if the checkpoints in the folder belong to a run with another setup."""
         newest = next((path for path, _ in self.heads()), None)
         for path, head in self.heads():
             if (head.system, head.plan) != (setup.system, digest_of(setup)):
@@ -78,7 +80,7 @@ class CheckpointStore:
                 )
 
     def claim(self, setup: Setup) -> None:
-        """Raises InvalidInput if a run with this setup would overwrite what could not be made again."""
+        """Raises InvalidInput if a run with this setup would overwrite checkpoints that could not be made again."""
         self.check(setup)
         for fault in self.damaged():
             raise CannotWrite(f"{self.folder} holds an unreadable file ({fault}); choose another folder")
@@ -88,7 +90,7 @@ class CheckpointStore:
             )
 
     def newest(self) -> tuple[Checkpoint | None, list[str]]:
-        """The valid checkpoint with the most steps done, and a sentence for each file that is not valid."""
+        """The valid checkpoint with the most steps done, and a sentence for each invalid file."""
         found, faults = None, []
         for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
             try:
@@ -101,16 +103,17 @@ class CheckpointStore:
         return found, faults
 
     def at_or_before(self, position: int) -> Checkpoint | None:
-        """The newest checkpoint with at most `position` steps done, except the one from before the run."""
+        """The newest checkpoint with at most `position` steps done, except the one made before the run began."""
         for path, head in self.heads():
             if head.position >= 0 and 0 <= _position(path) <= position:
                 return read_checkpoint(path)
         return None
 
     def for_stage(self, setup: Setup, number: int) -> Checkpoint | None:
-        """The checkpoint from which the fewest steps lead to a stage (by number) of a run with this setup.
+        """The checkpoint from which the fewest steps lead to a stage, by number, of a run with this setup.
 
-        Checkpoints from after people interfered do not count. Raises BadFile if those here are of another run.
+        Checkpoints made after a person interfered do not count. Raises BadFile if the checkpoints belong to another
+        run.
         """
         self.check(setup)
         stages = listing_of(setup).stages
@@ -122,20 +125,22 @@ class CheckpointStore:
         return None
 
     def drop_after(self, position: int) -> None:
-        """Remove those with more than `position` steps done."""
+        """Remove the checkpoints with more than `position` steps done."""
         for path in self.folder.glob(f"*{ENDING}"):
             if _position(path) > position:
                 path.unlink(missing_ok=True)
 
 
 def _position(path: Path) -> int:
-    """Steps done, by the name of a checkpoint's file; -1 for the one from before the run."""
+    """Number of steps done, from the name of a checkpoint's file; -1 for the checkpoint made before the run began."""
     number = re.match(r"(\d+)-", path.name)
     return -1 if number is None else int(number[1])
 
 
 def file_name(checkpoint: Checkpoint) -> str:
-    """`0036-insert-the-aligning-pins.checkpoint`: steps done, and the stage under way or to come."""
+    """The name of a checkpoint's file: steps done, and the present or next stage, such as
+    `0036-insert-the-aligning-pins.checkpoint`.
+    """
     if checkpoint.snapshot is None:
         return f"start{ENDING}"
     words = re.sub(r"[^a-z0-9]+", "-", (checkpoint.stage or "end").lower()).strip("-")
@@ -143,7 +148,7 @@ def file_name(checkpoint: Checkpoint) -> str:
 
 
 def leave(folder: Path, checkpoint: Checkpoint) -> Path:
-    """Write a checkpoint under a name of its own, never over another state; return the file."""
+    """Write a checkpoint under a new name that replaces no other state; returns the file."""
     state, setup, name = encode(checkpoint), checkpoint.setup, file_name(checkpoint)
     if _holds(folder / name, state):
         return folder / name

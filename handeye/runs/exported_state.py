@@ -1,4 +1,4 @@
-"""The state of a work cell for other programs: a world at its start, or at the end of a run."""
+"""The state of a work cell for export to other programs: the initial state of a world, or the state of a run."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +21,7 @@ MomentKind = Literal["drawn", "final", "unfinished"]  # before, at the end of, o
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExportedState:
-    """A cell at a moment, and what to say about it."""
+    """The state of a cell at one moment, with the facts to describe it."""
 
     task: str
     world: WorldSpec
@@ -33,12 +33,14 @@ class ExportedState:
 
 
 def initial_state(world: WorldSpec, name: str = DEFAULT) -> ExportedState:
-    """A world of a task, by its name, with the cell switched on and nothing done."""
+    """The initial state of a world of a task, with the cell switched on."""
     return ExportedState(task=name, world=world, moment="drawn", truth=_task(name).cell(world, "ray").truth)
 
 
 def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
-    """The state in a checkpoint or the newest valid one of a run's folder, and a sentence for each unreadable one."""
+    """The state in a checkpoint, or in the newest valid checkpoint of a run's folder, and a sentence for each
+    unreadable checkpoint.
+    """
     if not path.is_dir():
         return _exhibit(path, read_checkpoint(path)), []
     _, checkpoint, faults = open_again(path)
@@ -46,7 +48,7 @@ def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
 
 
 def present_state(runner: Runner) -> ExportedState:
-    """The present state of a run; raises Refused if its system acts on no cell."""
+    """The present state of a run; raises Refused if its system has no cell."""
     if runner.system.cell is None:
         raise Refused("the run has no work cell")
     return _shown(runner.checkpoint(), runner.cell.truth)
@@ -64,7 +66,7 @@ def _exhibit(path: Path, checkpoint: Checkpoint) -> ExportedState:
 
 
 def _task(name: str) -> Task:
-    """The task of a name; raises Refused if it is of a system whose cells are not exported."""
+    """The task with a name; raises Refused if the cells of its system cannot be exported."""
     found = any_task(name)
     if not isinstance(found, Task):
         raise Refused(f"the task {quoted(name)} exports no scene")

@@ -1,7 +1,6 @@
-"""The folder that a run leaves: plan, events, trace, checkpoints, pictures, result, report, video, and what it cost
-the host.
+"""The folder of a run: plan, events, trace, checkpoints, pictures, result, report, video, and computing time.
 
-It is an observer: it writes down what happens and changes nothing.
+It is an observer: it records the run and changes nothing.
 """
 
 import os
@@ -41,13 +40,13 @@ HOST: Final = "host.json"
 REPORT: Final = "report.html"
 VIDEO: Final = "video.webp"
 TRIALS: Final = "trials.jsonl"
-"""Is in the folder of a batch of trials, and in none of a run."""
+"""A file that only the folder of a batch of trials contains."""
 MARK: Final = "unnamed"
-"""Holds the name of a folder that handeye has named itself; see `runs/unnamed_runs.py`."""
+"""A file that marks a folder that handeye has named itself; see `runs/unnamed_runs.py`."""
 
 
 def _outcomes() -> list[str]:
-    """Names of the files that tell how a run has ended, whichever system carried it out."""
+    """Names of the files with the outcome of a run, for all systems."""
     return [RESULT, REPORT, VIDEO, *(name for entry in entries().values() for name in entry.files)]
 
 
@@ -66,7 +65,9 @@ class RunFolder(Observer):
     """Keeps a run in a folder."""
 
     def __init__(self, path: Path, made: list[Path]) -> None:
-        """Use `open_new` or `open_again`; `made` are the folders that are new, the innermost first."""
+        """Not for callers: use `open_new` or `open_again`. `made` are the newly created folders, the innermost
+        first.
+        """
         self.path = path
         self.kept = CheckpointStore(path / CHECKPOINTS)
         self._made = made
@@ -82,7 +83,7 @@ class RunFolder(Observer):
     def watch(
         self, runner: Runner, start: Checkpoint, *, again: bool, meter: Meter | None = None
     ) -> "RunFolder":
-        """Observe a run that begins, or with `again` resumes, from `start`; `meter` counts its host time."""
+        """Observe a run that begins, or with `again` resumes, at `start`; `meter` measures its host time."""
         if (self.path / RESULT).is_dir():  # it would be found out when the run is over
             raise CannotWrite(f"{self.path / RESULT} cannot be written: it is a folder")
         self._runner, self._meter = runner, meter or Meter(before=self.spent)
@@ -97,16 +98,18 @@ class RunFolder(Observer):
 
     @property
     def journal_lost(self) -> bool:
-        """True if the event list of a resumed run was lost or belonged to another run, and was started again."""
+        """True if the event list of a resumed run was lost or belonged to another run, so that it was started
+        again.
+        """
         return self._journal is not None and self._journal.lost
 
     @property
     def unlocked(self) -> str:
-        """Why other commands are not kept from writing to the folder, if they are not."""
+        """The reason why other commands cannot be kept from writing to the folder; empty if they are."""
         return "" if self._journal is None else self._journal.unlocked
 
     def begin(self, start: Checkpoint) -> None:
-        """Let this run replace the one that was here."""
+        """Let this run replace the run that was in the folder."""
         self.kept.drop_after(-1)
         left = [self.path / name for name in (TRACE, f"{TRACE}.part", HOST, *_outcomes())]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
@@ -160,7 +163,7 @@ class RunFolder(Observer):
             self._journal.undone(events, self._runner.time, "back")
 
     def _goes_on(self) -> None:
-        """Remove the outcome: it is no longer the run's."""
+        """Remove the outcome, because it no longer belongs to the run."""
         for name in _outcomes():
             (self.path / name).unlink(missing_ok=True)
 
@@ -177,7 +180,7 @@ class RunFolder(Observer):
         write_host_seconds(self.path / HOST, self._meter.seconds(self._runner))
 
     def check_traced(self) -> None:
-        """Raises CannotWrite if the trace was cut off, so that nothing more may happen."""
+        """Raises CannotWrite if the trace could not be written, so that the run must not continue."""
         if self._recorder is not None and self._recorder.broken:
             raise CannotWrite(
                 f"the trace in {self.path} was cut short; free some disk space, then `handeye resume {self.path}` "
@@ -195,7 +198,7 @@ class RunFolder(Observer):
         self._closed = True
 
     def discard(self) -> None:
-        """Remove what `open_new` has made, if the run has not begun."""
+        """Remove the folders that `open_new` has created, if the run has not begun."""
         if self._recorder is not None:
             return
         if self._first is not None:
@@ -211,7 +214,9 @@ class RunFolder(Observer):
 
 
 def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False, unnamed: bool = False) -> RunFolder:
-    """A folder for a run; raises CannotWrite if one would be lost, unless `overwrite` replaces it once this moves."""
+    """Make a folder for a run. Raises CannotWrite if it holds a run; with `overwrite`, that run is replaced as soon
+    as this one begins.
+    """
     _refuse_others(path)
     if not overwrite:
         if _holds_run(path):
@@ -240,9 +245,10 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False, unnamed:
 
 
 def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
-    """The folder of an interrupted run, its newest valid checkpoint, and a sentence for each file left out.
+    """Open the folder of an interrupted run: returns it with its newest valid checkpoint, and a sentence for each
+    file left out.
 
-    Raises BadFile if there is none, or it is not of the plan in the folder.
+    Raises BadFile if there is no checkpoint, or if the checkpoint is not of the plan in the folder.
     """
     folder = RunFolder(path, [])
     if not folder.kept.folder.is_dir():
@@ -262,13 +268,13 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
 
 
 def check_exists(path: Path) -> None:
-    """Raises BadFile if nothing is at a path."""
+    """Raises BadFile if a path does not exist."""
     if not path.exists():
         raise BadFile(f"{path}: there is no such file")
 
 
 def check_holds_run(path: Path) -> None:
-    """Raises BadFile unless a path is a folder in which a run has left anything: the one sentence of all commands."""
+    """Raises BadFile unless a path is a folder that contains files of a run; all commands use this sentence."""
     check_exists(path)
     if (path / TRIALS).is_file():
         raise BadFile(f"{path} is the folder of a batch of trials, not of a run")
@@ -287,13 +293,13 @@ def _check_plan(path: Path, setup: Setup) -> None:
 
 
 def _holds_run(path: Path) -> bool:
-    """True if a run in the folder has moved, and was not only set up."""
+    """True if the folder holds a run that has begun, not only its setup."""
     records = any((path / name).exists() for name in (EVENTS, TRACE, f"{TRACE}.part", RESULT))
     return records or any(CheckpointStore(path / CHECKPOINTS).moved())
 
 
 def _refuse_others(path: Path) -> None:
-    """Raises InvalidInput if a folder holds what no run has left."""
+    """Raises InvalidInput if a folder contains files that do not belong to a run."""
     if others := _others(path):
         raise CannotWrite(
             f"{path} holds other files ({quoted(others[0])}); choose a new folder, or an empty one"
@@ -301,12 +307,12 @@ def _refuse_others(path: Path) -> None:
 
 
 def holds_only_a_run(path: Path) -> bool:
-    """True if all that is in a folder was left by a run."""
+    """True if a folder contains only files of a run."""
     return not _others(path)
 
 
 def _others(path: Path) -> list[str]:
-    """Names of what is in a folder and was left by no run."""
+    """Names of the files in a folder that do not belong to a run."""
     ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", CHECKPOINTS, PICTURES, HOST, MARK, *_outcomes()}
     if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
         ours.remove(PICTURES)

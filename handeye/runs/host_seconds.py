@@ -1,6 +1,6 @@
-"""Host time of a run in all its sessions, beside what happened in it.
+"""Host time of a run over all its sessions, kept beside the run.
 
-It is kept in a file of its own, so that checkpoints and traces of equal runs are equal to the byte.
+It is kept in a separate file, so that checkpoints and traces of equal runs are equal byte for byte.
 """
 
 from dataclasses import dataclass, field
@@ -18,20 +18,22 @@ _LARGEST = 10_000  # bytes of the file
 
 
 class HostSeconds(Record, frozen=True, kw_only=True):
-    """Computing time, summed over the sessions of a run: the processes that began and resumed it."""
+    """Computing time, summed over the sessions of a run; a session is one process that began or resumed the run."""
 
     planning_cpu_s: float = 0.0  # 0: the plan was there already
     vision_cpu_s: float = 0.0  # with what was undone later
     run_cpu_s: float = 0.0
     run_wall_s: float = 0.0
-    """From when the command was loaded, or the call from Python, to the verdict; including waiting for the user."""
+    """From loading the command, or the call from Python, to the verdict, including the time spent waiting for the
+    user.
+    """
     from_step: int = 0  # steps done before the first session that is counted
     from_clock_s: float = 0.0  # the clock at that moment: below 0 if it prepared the cell
 
 
 @dataclass(slots=True, kw_only=True)
 class Meter:
-    """Measures a session of a run, added to the earlier ones."""
+    """Measures the host time of a session, and adds it to that of earlier sessions."""
 
     timer: HostTimer = field(default_factory=HostTimer)
     planning_cpu_s: float = 0.0
@@ -50,7 +52,7 @@ class Meter:
 
 
 def read_host_seconds(path: Path) -> HostSeconds | None:
-    """Host time of earlier sessions; None if there is no record. Raises BadFile if it is not valid."""
+    """Host time of earlier sessions; None if there is no record. Raises BadFile if the record is not valid."""
     if not path.exists():
         return None
     try:
@@ -63,5 +65,5 @@ def read_host_seconds(path: Path) -> HostSeconds | None:
 
 
 def write_host_seconds(path: Path, seconds: HostSeconds) -> None:
-    """Write the record, whole or not at all."""
+    """Write the host time completely or not at all."""
     write_whole(path, msgspec.json.format(msgspec.json.encode(seconds), indent=1) + b"\n")

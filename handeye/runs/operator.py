@@ -1,4 +1,6 @@
-"""Policies for calls of the operator: give up, or retry a number of times. Asking people is the debugger's."""
+"""Rules that answer calls of the operator: give up, or retry a number of times. Asking a person is part of the
+debugger.
+"""
 
 import re
 from collections.abc import Callable, Sequence
@@ -28,13 +30,15 @@ from handeye.runs.undo_orders import stage_began
 
 
 class Back(Record, frozen=True, kw_only=True):
-    """Go back in time to where a stage, given by its index, last began."""
+    """Return the simulation to the latest beginning of a stage, given by its index."""
 
     stage: int
 
 
 class Unwind(Record, frozen=True, kw_only=True):
-    """Have the arm undo steps back to the last start of a stage, given by its index, and continue from there."""
+    """Have the arm undo its steps back to the latest beginning of a stage, given by its index, and continue from
+    there.
+    """
 
     stage: int
 
@@ -43,15 +47,15 @@ OperatorChoice = Choice | Literal["abort"] | Back | Unwind
 
 
 class Operator(Protocol):
-    """A person or a rule that says how to continue."""
+    """A person or a rule that decides how to continue after a call."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """The operator's answer to a call of a run; `refused`: why the last answer was impossible."""
+        """The operator's answer to a call; `refused` is the reason why the previous answer was impossible."""
 
 
 @dataclass(frozen=True, slots=True)
 class Abort:
-    """Gives up."""
+    """Always gives up."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         return "abort"
@@ -62,9 +66,10 @@ NOBODY: Final = Abort()
 
 @dataclass(frozen=True, slots=True)
 class Retry:
-    """Repeats each stage up to `times` times, then gives up; it gives up at once while the arm reverses.
+    """Repeats each stage up to `times` times, then gives up; while the arm undoes its work, it gives up at once.
 
-    It counts the events of the run, so that a resumed run continues as if it had never been interrupted.
+    Earlier attempts are counted from the events of the run, so that a resumed run continues as if it had not been
+    interrupted.
     """
 
     times: int
@@ -83,9 +88,10 @@ class Retry:
 
 @dataclass(frozen=True, slots=True)
 class UnwindOnce:
-    """Has the arm undo its steps to the beginning of a stage given by its index, once for each stage that fails.
+    """Has the arm undo its steps back to the beginning of a stage given by its index, once for each stage that
+    fails.
 
-    Like `Retry` it uses the events of the run.
+    Like `Retry`, it counts from the events of the run.
     """
 
     stage: int | None = None  # None: that which has failed
@@ -97,7 +103,7 @@ class UnwindOnce:
 
 
 def undoing(runner: Runner) -> bool:
-    """True if the last step of a run was the undo of one."""
+    """True if the arm is undoing steps."""
     last = next((event for event in reversed(runner.events) if isinstance(event, StepStarted)), None)
     return isinstance(last, UndoStarted)
 
@@ -114,13 +120,15 @@ def _unwound(runner: Runner) -> set[int]:
 
 
 def _of_this_part(runner: Runner) -> Sequence[AnyEvent]:
-    """Events since the run began, or since the last order to undo all of it, another part of its job."""
+    """Events since the run began, or since the order to undo all its work, which begins the second part of a job."""
     ordered = (n for n, event in enumerate(runner.events) if isinstance(event, UndoOrdered) and event.halts)
     return runner.events[max(ordered, default=-1) + 1 :]
 
 
 def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:
-    """The operator that `abort`, `retry:N`, `unwind` or `unwind:STAGE` names; None for `ask`, which takes a person."""
+    """The operator for the words `abort`, `retry:N`, `unwind` or `unwind:STAGE`; None for `ask`, which requires a
+    person.
+    """
     if text == "abort":
         return Abort()
     if text == "ask":
@@ -144,7 +152,7 @@ def attend(
     stops: Sequence[AnyStop] = (),
     kept: Callable[[int], Checkpoint | None] = lambda _: None,
 ) -> Pause:
-    """Continue until the run pauses in a way that the operator does not settle.
+    """Continue until the run pauses and the operator cannot continue it.
 
     `kept` finds the newest checkpoint on disk with at most that many steps done, for going back.
     """
@@ -172,7 +180,9 @@ def _carry_out(
     stops: Sequence[AnyStop],
     kept: Callable[[int], Checkpoint | None],
 ) -> Pause | None:
-    """Follow the operator's answer; the pause after it, if any. Raises InvalidInput if it cannot be followed."""
+    """Follow the operator's answer; returns the pause after it, if any. Raises InvalidInput if the answer is
+    impossible.
+    """
     if isinstance(answer, Back):
         try:
             runner.back_to(beginnings(runner)[answer.stage], kept)
@@ -188,7 +198,7 @@ def _carry_out(
 
 
 def beginnings(runner: Runner) -> dict[int, int]:
-    """Number of steps done when each stage last began, by index of the stage, the last to begin last."""
+    """Number of steps done when each stage last began, by index of the stage; the latest beginning is last."""
     found: dict[int, int] = {}
     done = 0
     for event in runner.events:

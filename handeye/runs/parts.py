@@ -1,7 +1,7 @@
-"""Parts of a run that are replaced by code of the caller.
+"""Parts of a run that the caller's code replaces.
 
-Checkpoints and traces cannot hold code, but its name: a run that was begun with such a part continues only with a part
-of that name.
+Checkpoints and traces cannot store code, but only its name: a run that was begun with a replaced part can continue
+only with a part of the same name.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ NEEDED: Final = ("search", "camera")  # parts that decide a run; the referee dec
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
-    """Replacements for the parts that decide a run; None: handeye's own."""
+    """Replacements of the parts that determine a run; None: handeye's own part."""
 
     search: SearchPattern | None = None  # the places that a search tries
     camera: RendererMaker | None = None  # maker of pictures
 
     @property
     def names(self) -> dict[str, str]:
-        """The name of each part that there is."""
+        """The names of the replaced parts."""
         found = {"search": self.search, "camera": self.camera}
         return {part: name_of(code) for part, code in found.items() if code is not None}
 
     def check(self, begun: dict[str, str]) -> None:
-        """Raises Refused if a run was begun with other parts, given by their names."""
+        """Raises Refused if a run was begun with other parts, which are given by name."""
         here = self.names
         for part in NEEDED:
             was, now = begun.get(part), here.get(part)
@@ -47,17 +47,17 @@ class Parts:
 
 
 def deciding(names: dict[str, str]) -> dict[str, str]:
-    """The replaced parts that decide a run."""
+    """The replaced parts that determine a run."""
     return {part: names[part] for part in NEEDED if part in names}
 
 
 def named(names: dict[str, str]) -> str:
-    """The replaced parts that decide a run, in words."""
+    """The replaced parts that determine a run, in words."""
     return ", ".join(f"{part} {name}" for part, name in deciding(names).items()) or "handeye's own"
 
 
 def name_of(code: Any) -> str:
-    """The name of a function, a class, or of the class of anything else, with its module."""
+    """The name, with its module, of a function or class, or of the class of another object."""
     named = code if hasattr(code, "__qualname__") else type(code)
     return f"{named.__module__}.{named.__qualname__}"
 

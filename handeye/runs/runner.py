@@ -1,7 +1,8 @@
-"""A run that can be stepped, stopped and put back.
+"""A run that can be stepped, stopped and restored.
 
-Between two steps the cell is put into its own state, which changes nothing but what a state leaves out (see
-`SimulatedCell.restore`). So every run, stopped or not, goes the same way to the byte.
+Between two steps, the cell's own state is captured and restored, which changes nothing except what a state does not
+contain (see `SimulatedCell.restore`). Every run, interrupted or not, therefore takes the same course, byte for
+byte.
 """
 
 from __future__ import annotations
@@ -50,12 +51,12 @@ RECENT: Final = 400  # steps whose states are kept in memory; of older ones thos
 
 
 def reach(first: int) -> str:
-    """Sentence on how far a run can go back whose earliest state has `first` steps done."""
+    """A sentence on how far a run can go back if its earliest state has `first` steps done."""
     return f"this run begins with {counted(first, 'step')} done: there is nothing before that"
 
 
 class Runner:
-    """A run of a plan in a drawn world, from its beginning or from a checkpoint."""
+    """A run of a plan in a world, from its beginning or from a checkpoint."""
 
     def __init__(
         self,
@@ -67,12 +68,15 @@ class Runner:
         parts: Parts = OWN,
         calibrate: bool = False,
     ) -> None:
-        """Build the cell; calibrate its camera, or restore the state kept of that or of the checkpoint.
+        """Build the cell; then calibrate its camera, or restore the state of a kept calibration or of the
+        checkpoint.
 
         Args:
-            halt: the panic button, asked every servo period; Halted is raised if it is hit during calibration.
-            viewed: called for each view of a camera calibration with its number and their count.
-            observers: makes the observers, once the cell is built and before anything happens in it.
+            halt: the panic button, polled in every servo period; Halted is raised if it is pressed during
+                calibration.
+            viewed: called for each view of a camera calibration with the number of the view and the number of all
+                views.
+            observers: makes the observers, after the cell is built and before the run begins.
             calibrate: calibrate the camera again, even if an earlier run kept its calibration.
         """
         parts.check(start.setup.replaced)
@@ -120,62 +124,66 @@ class Runner:
 
     @property
     def time(self) -> float:
-        """The clock of the run, s: 0 as its program begins."""
+        """The clock of the run, s; 0 when its program begins."""
         return self.system.time
 
     @property
     def trouble(self) -> str | None:
-        """Why the run cannot continue, if it is not a matter for the operator."""
+        """The reason why the run cannot continue, if the operator cannot resolve it."""
         return self._broken or self.system.trouble
 
     @property
     def task(self) -> AnyTask:
-        """Task that is done in its cell."""
+        """The task of the run."""
         return any_task(self.setup.task)
 
     def require(self, capability: Capability) -> None:
-        """See that the system can do something; raises InvalidInput, by its name, if it cannot."""
+        """Check that the run's system has a capability; raises InvalidInput with the system's name if it has not."""
         require(self.setup.system, capability)
 
     @property
     def context(self) -> ExecutionContext:
-        """Context in which a plan of motions is executed; raises InvalidInput if the system executes none."""
+        """The context in which a plan of motions is executed; raises InvalidInput if the system executes no such
+        plans.
+        """
         if self.system.context is None:
             raise refusal(self.setup.system, "plans")
         return self.system.context
 
     @property
     def arm_cell(self) -> SimulatedCell:
-        """The cell in which a plan of motions is executed; raises InvalidInput if the system follows none."""
+        """The cell in which a plan of motions is executed; raises InvalidInput if the system executes no such
+        plans.
+        """
         if self.system.arm_cell is None:
             raise refusal(self.setup.system, "plans")
         return self.system.arm_cell
 
     @property
     def cell(self) -> SnapshotCell:
-        """The simulated cell; raises Refused if the system acts on none."""
+        """The simulated cell; raises Refused if the system has none."""
         if self.system.cell is None:
             raise Refused(f"the system {self.setup.system} acts on no cell")
         return self.system.cell
 
     @property
     def ended(self) -> bool:
-        """No step can be done, unless the operator says how to continue."""
+        """True if no step is possible unless the operator says how to continue."""
         return self.at is None or self.trouble is not None
 
     @property
     def call(self) -> OperatorCalled | None:
-        """The call of the operator that has not been answered."""
+        """The call of the operator that is not answered yet; None if there is none."""
         return self.system.state.stopped
 
     @property
     def at(self) -> int | None:
-        """The number of the step to be done next; None if the run cannot continue alone."""
+        """Number of the next step; None if the run cannot continue without the operator."""
         return self.system.state.at
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """The place of each unfinished task; that of `at` runs next."""
+        """The place of each unfinished task; the task at `at` runs next."""
         return self.system.state.places
 
     @property
@@ -184,28 +192,28 @@ class Runner:
 
     @property
     def onward(self) -> int | None:
-        """After a call of the operator: the number of the step that would have been next."""
+        """After a call of the operator: number of the step that would have been next."""
         return self.system.state.onward
 
     @property
     def stage(self) -> int | None:
-        """The index of the stage under way; None between two stages."""
+        """Index of the present stage; None between two stages."""
         return self.system.state.stage
 
     @property
     def between_stages(self) -> bool:
-        """No stage is under way, and one is to come."""
+        """True if no stage is in progress and another one follows."""
         return self.stage is None and self.at is not None
 
     @property
     def undone(self) -> bool:
-        """True if it has ended where the arm has undone as much as was ordered."""
+        """True if the run has ended because the arm has undone as many steps as ordered."""
         last = next((e for e in reversed(self.events) if isinstance(e, StepStarted | UndoEnded)), None)
         return self.at is None and isinstance(last, UndoEnded)
 
     @property
     def touched(self) -> bool:
-        """People have interfered: an experiment, a typed line, an answer of the operator, or an order to undo."""
+        """True if a person interfered: an experiment, a typed line, an answer of the operator, or an order to undo."""
         return interfered(self.events)
 
     def checkpoint(self, snapshot: Snapshot | None = None) -> Checkpoint:
@@ -220,7 +228,9 @@ class Runner:
     # -- running --------------------------------------------------------------------------------------
 
     def step(self) -> None:
-        """Do the next step. Raises Halted if the panic button is hit; `rollback` then takes back what it did."""
+        """Execute the next step. Raises Halted if the panic button is pressed; `rollback` then reverts the
+        incomplete step.
+        """
         assert not self.ended
         try:
             self.system.step()
@@ -234,22 +244,24 @@ class Runner:
         self._settle()
 
     def answer(self, choice: Choice) -> None:
-        """Continue after the operator was called."""
+        """Continue after a call of the operator."""
         self.system.answer(choice)
         self._settle()
 
     def order_reversal(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
-        """Each step now has the arm undo an executed one, until `left` are left; the run ends there if `halts`."""
+        """Order the arm to undo one executed step in each following step, until `left` are left; with `halts`, the
+        run ends there.
+        """
         self.require("undo")
         self.system.reverse(ReversalOrder(left=left, halts=halts, asked_by=asked_by))
         self._settle()
 
     def finish(self) -> bool:
-        """Close the account of the run; True if the program ended."""
+        """End the run; True if the program was completed."""
         return self.system.finish() and self.trouble is None
 
     def repeat(self, events: Sequence[AnyEvent]) -> None:
-        """Continue until as many events have happened, repeating what the operator did in them."""
+        """Continue until as many events have happened as in `events`, and repeat the operator's actions among them."""
         while len(self.events) < len(events):
             then = events[len(self.events)]
             if isinstance(then, OperatorAnswered) and (self.call is not None or self.undone):
@@ -269,13 +281,15 @@ class Runner:
     # -- going back -----------------------------------------------------------------------------------
 
     def rollback(self) -> None:
-        """Return the simulation to the end of the last complete step."""
+        """Return the simulation to its state at the end of the last complete step."""
         self._return_to(self.history[-1])
 
     def back_to(self, position: int, kept: Callable[[int], Checkpoint | None] = lambda _: None) -> None:
-        """Return to where `position` steps were done: from the nearest kept state, and forward from there.
+        """Return to the state with `position` steps done: restore the nearest kept state, and execute forwards from
+        there.
 
-        `kept` finds the newest checkpoint on disk with at most that many steps done, for what is no longer in memory.
+        `kept` finds the newest checkpoint on disk with at most that many steps done, for states that are no longer
+        in memory.
         """
         if not 0 <= position <= self.position:
             raise BadArgument(f"cannot go back to {counted(position, 'step')} done")
@@ -289,7 +303,7 @@ class Runner:
         self.repeat(again)
 
     def _nearest(self, position: int, kept: Callable[[int], Checkpoint | None]) -> Snapshot:
-        """The state from which the fewest steps lead to a position: in memory or, if nearer, on disk."""
+        """The state, in memory or nearer on disk, from which the fewest steps lead to a position."""
         near = next((here for here in reversed(self.history) if here.position <= position), None)
         if near is None or near.position < position:
             checkpoint = kept(position)
@@ -301,7 +315,7 @@ class Runner:
         return near
 
     def _happened(self, position: int) -> int:
-        """Number of events before the step after a position."""
+        """Number of events before the step that follows a position."""
         done = 0
         for number, event in enumerate(self.events):
             if done == position and isinstance(event, StageStarted | StepStarted):
@@ -317,7 +331,7 @@ class Runner:
     # -- experiments ----------------------------------------------------------------------------------
 
     def experiment(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        """Set a value that the system remembers, SI."""
+        """Set a value in the system's memory, SI."""
         self.system.set_value(what, name, value)
         self._emit(ExperimentMade(time=self.time, what=what, name=name, value=value))
         self._settle()
@@ -331,7 +345,7 @@ class Runner:
     # -- inside ---------------------------------------------------------------------------------------
 
     def _settle(self) -> None:
-        """Put the cell into its own state, and keep that."""
+        """Capture the cell's state, restore it, and keep it."""
         cell = self.system.cell
         captured = None if cell is None else cell.capture()
         if cell is not None and captured is not None:
@@ -348,7 +362,7 @@ class Runner:
             self._thin()
 
     def _thin(self) -> None:
-        """Forget the oldest state that does not begin a stage."""
+        """Drop the oldest kept state that is not at the beginning of a stage."""
         for index in range(1, len(self.history) - RECENT):
             before, here = self.history[index - 1 : index + 1]
             interfered = before.position == here.position  # no step led from one to the other

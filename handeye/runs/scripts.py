@@ -1,4 +1,4 @@
-"""Scripts of tasks: their language, the positions taught for them, their plans."""
+"""Scripts of tasks: their languages, their taught positions, and their plans."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
     from handeye.planning.planner import PlannedScript
 
 LANGUAGES: Final = {".al": AL}
-"""Languages of scripts by the endings of their files; a file with another ending is taken for the first."""
+"""Languages of scripts by file ending; a file with another ending is read in the first language."""
 
 UNNAMED: Final = "script.al"  # name of a text that comes from no file
 
 
 def default_script(work: Task | None = None) -> Path:
-    """The script of a task, by default of the one meant where none is named; raises InvalidInput if it has none."""
+    """The script of a task, by default of the default task; raises InvalidInput if the task has none."""
     work = work or tasks.task()
     if work.script is None:
         raise BadArgument(f"the task {quoted(work.name)} has no script of its own; name one")
@@ -35,7 +35,7 @@ def default_script(work: Task | None = None) -> Path:
 
 
 def program_named(name: str) -> tuple[Path, Task] | None:
-    """The script that a task comes with, by the name of its file without the ending, and that task."""
+    """An included script with this file name without the ending, and its task; None if there is none."""
     return next((each for each in _programs() if each[0].stem == name), None)
 
 
@@ -44,14 +44,14 @@ def program_names() -> list[str]:
 
 
 def task_of(file: Path) -> Task:
-    """The task that comes with a script; of any other file the one that is meant where none is named."""
+    """The task to which a script belongs; for other files, the default task."""
     whole = file.resolve()
     own = tasks.of_plans("ours") if whole.parent == plans().resolve() else tasks.of_plans("registered")
     return next((work for work in own if whole in _scripts(work)), None) or tasks.task()
 
 
 def _programs() -> Iterator[tuple[Path, Task]]:
-    """The scripts that all tasks come with, each with its task."""
+    """The scripts of all tasks, each with its task."""
     for kind in get_args(tasks.Kind):
         for work in tasks.of_plans(kind):
             yield from ((script, work) for script in _scripts(work))
@@ -62,23 +62,27 @@ def _scripts(work: Task) -> list[Path]:
 
 
 def taught(file: Path, work: Task | None = None) -> Taught:
-    """Positions and parts taught by the file beside a script, if any; raises InvalidInput if it cannot be used."""
+    """Positions and parts in the taught file beside a script, if there is one; raises InvalidInput if the file
+    cannot be used.
+    """
     return in_cell(taught_beside(file), work or task_of(file))
 
 
 def taught_beside(file: Path) -> Taught:
-    """Positions taught by the file beside a script, if there is one."""
+    """Positions in the taught file beside a script, if there is one."""
     path = beside(file, ".toml")
     return load_taught(path) if is_there(path) else Taught()
 
 
 def in_cell(known: Taught, work: Task) -> Taught:
-    """Taught positions, with the fixtures of the cell of a task where they say nothing of them."""
+    """Taught positions, completed by the fixtures of the task's cell where the taught file has none."""
     return replace(known, fixtures={**work.fixtures(), **known.fixtures})
 
 
 def plan_script(file: Path, known: Taught | None = None, work: Task | None = None) -> "PlannedScript":
-    """Compile and plan a script, by default with the file beside it for its own task; raises InvalidInput."""
+    """Compile and plan a script, by default with the taught file beside it and for its own task; raises
+    InvalidInput.
+    """
     entry, _ = entry_of_file(file.name)
     if entry is not None:
         raise refusal(entry.name, "plans", str(file))
@@ -88,7 +92,7 @@ def plan_script(file: Path, known: Taught | None = None, work: Task | None = Non
 
 
 def plan_text(text: str, known: Taught, work: Task) -> "PlannedScript":
-    """Compile and plan a text; the files that it requires are looked for where this program runs."""
+    """Compile and plan a text; required files are searched in the current folder."""
     source = sewn(Source(name=UNNAMED, text=text.removeprefix("\ufeff")), lambda key: read_source(key).text)
     return planned(source, known, work, AL)
 

@@ -1,4 +1,4 @@
-"""Setup: what decides a run."""
+"""The setup of a run: everything that determines its course."""
 
 import msgspec
 
@@ -10,7 +10,7 @@ from handeye.planfile.plan import Plan
 
 
 class Setup(Record, frozen=True, kw_only=True):
-    """Everything that decides a run without interference."""
+    """Everything that determines a run without interference."""
 
     system: str = PLANNED  # name of the system that carries it out
     plan: Record  # the plan: a `Plan` if it is one of motions
@@ -18,13 +18,13 @@ class Setup(Record, frozen=True, kw_only=True):
     camera: str  # how to make pictures: `auto`, `gl` or `ray`
     judged: bool = False  # the referee is to look at what came out. It decides nothing of the run.
     limits: dict[str, float] = msgspec.field(default_factory=dict)
-    """Limits that findings of the task's referee stand against instead of its own, in their units."""
+    """Limits that replace those of the task's referee, by finding, in the units of the findings."""
     replaced: dict[str, str] = msgspec.field(default_factory=dict)  # parts by the caller's code, by name
     without: tuple[str, ...] = ()  # senses that the program does without, in the order of `SENSES`
 
     @property
     def task(self) -> str:
-        """Name of the task, which the plan records; raises BadFile if it records none."""
+        """Name of the task that the plan records; raises BadFile if it records none."""
         name = getattr(self.plan, "task", None)
         if not isinstance(name, str):
             raise BadFile(f"a plan of {entry_named(self.system).title} records no task")
@@ -32,7 +32,7 @@ class Setup(Record, frozen=True, kw_only=True):
 
 
 def plan_of(setup: Setup) -> Plan:
-    """The plan of motions of a run; raises Refused if its system follows none."""
+    """The plan of motions of a run; raises Refused if its system executes no such plans."""
     if not isinstance(setup.plan, Plan):
         raise refusal(setup.system, "plans")
     return setup.plan

@@ -23,7 +23,7 @@ class Snapshot(Record, frozen=True, kw_only=True):
 
 
 class Checkpoint(Record, frozen=True, kw_only=True):
-    """Everything needed to resume a run, on any day and any computer."""
+    """Everything needed to resume a run, on any computer."""
 
     setup: Setup
     snapshot: Snapshot | None = None  # None: the run has not begun
@@ -31,23 +31,23 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
     @property
     def position(self) -> int:
-        """Steps done; -1 if the run has not begun."""
+        """Number of steps done; -1 if the run has not begun."""
         return -1 if self.snapshot is None else self.snapshot.position
 
     @property
     def ended(self) -> bool:
-        """The plan has ended: no step is left, and no call of the operator is open."""
+        """True if the plan has ended: no step is left, and no call of the operator is open."""
         state = None if self.snapshot is None else self.snapshot.state
         return state is not None and state.at is None and state.stopped is None
 
     @property
     def touched(self) -> bool:
-        """People have interfered: an experiment, a typed line, an answer of the operator, or an order to undo."""
+        """True if a person interfered: an experiment, a typed line, an answer of the operator, or an order to undo."""
         return interfered(self.events)
 
     @property
     def between_stages(self) -> bool:
-        """The next step begins a stage."""
+        """True if the next step begins a stage."""
         if self.snapshot is None:
             return False
         state = self.snapshot.state
@@ -55,7 +55,7 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
     @property
     def stage(self) -> str | None:
-        """The stage under way, or the one to come; None if the run has not begun or has ended."""
+        """The present or next stage; None if the run has not begun or has ended."""
         if self.snapshot is None:
             return None
         state, listing = self.snapshot.state, listing_of(self.setup)
@@ -65,7 +65,7 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
 
 def interfered(events: Iterable[AnyEvent]) -> bool:
-    """True if people had a hand in what happened."""
+    """True if a person interfered in the run with these events."""
     return any(
         event.asked_by == "person"
         if isinstance(event, UndoOrdered)

@@ -1,6 +1,7 @@
-"""System: what a folder of `handeye/systems` offers; and RunningSystem: what a run drives, steps, keeps and puts back.
+"""`System`, the interface of a system in `handeye/systems`; and `RunningSystem`, the interface of a system during a
+run: it can be stepped, saved and restored.
 
-A system is found by its entry (`handeye/core/entries.py`), and is loaded when a run of it is.
+A system is found by its entry (`handeye/core/entries.py`), and is loaded when a run needs it.
 """
 
 from __future__ import annotations
@@ -39,87 +40,87 @@ if TYPE_CHECKING:
 
 
 class StepFacts(Protocol):
-    """A step as shown."""
+    """A step as it is shown to users."""
 
     @property
     def stage(self) -> int:
-        """Index of its stage."""
+        """Index of the step's stage."""
 
     @property
     def file(self) -> str:
-        """The required file it stands in; empty: the source itself."""
+        """The required file that contains the step; empty: the main text."""
 
     @property
     def line(self) -> int:
-        """Line of that text, from 1, or by its own number."""
+        """Line of the step in that text, from 1, or by the numbering of the text."""
 
     @property
     def text(self) -> str:
-        """Its statement."""
+        """Statement of the step."""
 
     @property
     def word(self) -> str:
-        """The word that its statement begins with."""
+        """First word of the statement."""
 
     @property
     def macro(self) -> str:
-        """The macro whose call it comes from; empty: none."""
+        """The macro from whose call the step comes; empty: none."""
 
     @property
     def needs(self) -> Device | None:
-        """The device that it works, if there is one besides the arm."""
+        """The device besides the arm that the step uses; None: none."""
 
     @property
     def ways(self) -> tuple[int | None, ...]:
-        """The steps that may follow; None: the end."""
+        """Steps that may follow; None: the end."""
 
     @property
     def place(self) -> str:
-        """Its line, as messages give it: `12`, or `pins.al:12`."""
+        """The line of the step as messages write it: `12`, or `pins.al:12`."""
 
     @property
     def examines(self) -> str | None:
-        """Name of the picture that it looks at, if it looks at one."""
+        """Name of the picture that the step examines; None: none."""
 
     @property
     def guarded(self) -> bool:
-        """It moves until something is felt."""
+        """True if the step's motion is ended by guards."""
 
     @property
     def begins_search(self) -> bool:
-        """It sets up a search."""
+        """True if the step starts a search."""
 
 
 class ExecutedStep(Protocol):
-    """A step that was executed and that the arm has not undone."""
+    """A step that was executed and has not been undone by the arm."""
 
     @property
     def step(self) -> int:
-        """Its number."""
+        """Number of the step."""
 
     @property
     def enters(self) -> bool:
-        """Its stage began with it."""
+        """True if the step began its stage."""
 
 
 class Listing(Protocol):
-    """Stages and steps of a system's program, and the source they were made from."""
+    """Stages and steps of a system's program, and the source from which they were made."""
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """Name of the program."""
 
     @property
     def source(self) -> str:
-        """Its text."""
+        """Source text of the program."""
 
     @property
     def required(self) -> dict[str, str]:
-        """Texts of the files that it requires."""
+        """Texts of the files that the program requires."""
 
     @property
     def numbered(self) -> Mapping[int, str]:
-        """The lines of the text by numbers that it gives them itself; empty: they are counted from 1."""
+        """Lines of the text by the text's own numbering; empty: lines are counted from 1."""
 
     @property
     def stages(self) -> tuple[str, ...]:
@@ -127,20 +128,20 @@ class Listing(Protocol):
 
     @property
     def labels(self) -> Mapping[str, Sequence[int]]:
-        """The steps that each label stands before."""
+        """Numbers of the steps at each label."""
 
     @property
     def steps(self) -> Sequence[StepFacts]:
-        """The steps; they are numbered by their place."""
+        """The steps; the number of a step is its index."""
 
     @property
     def errors(self) -> Collection[int]:
-        """Numbers of the errors that steps may raise; none where steps raise none."""
+        """Numbers of the errors that steps may raise; empty if steps raise none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settable:
-    """Something that a person can set in a paused run."""
+    """A value that a person can set in a paused run."""
 
     noun: str
     usage: str  # form of the words after its kind: `NAME x y z`
@@ -151,65 +152,70 @@ class Settable:
 
 
 class RunningSystem(Protocol):
-    """A machine that can be stepped, kept and put back."""
+    """A system during a run, which can be stepped, saved and restored."""
 
     @property
     @abstractmethod
     def state(self) -> SystemState:
-        """All that it remembers: the record it lives in."""
+        """The whole state of the system, as the record in which it lives."""
 
     @property
     def cell(self) -> SnapshotCell | None:
-        """The simulated cell it acts on, if there is one."""
+        """The simulated cell, if the system has one."""
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Names of the arm's joints, in order; none of a system without one."""
+        """Names of the arm's joints, in order; empty without an arm."""
         return ()
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Channels recorded in its servo periods, besides joints and hand."""
+        """Channels that are recorded in each servo period, besides joints and hand."""
         return ()
 
     @property
     @abstractmethod
     def time(self) -> float:
-        """Its clock, s: 0 as the program begins."""
+        """The clock of the system, s; 0 when the program begins."""
 
     @property
     def trouble(self) -> str | None:
-        """Why it cannot do any step, if it is not a matter for the operator."""
+        """The reason why no step is possible, if the operator cannot resolve it."""
 
     @property
     def switched_on(self) -> float:
-        """Its clock when this object began to simulate, s: below 0 by the time in which it prepared its first step; 0
-        if what an earlier run had kept spared it that."""
+        """The clock when this object began to simulate, s: negative by the duration of its preparation, or 0 if the
+        preparation was kept from an earlier run.
+        """
         return 0.0
 
     @property
     def unkept(self) -> str | None:
-        """The reason why its preparation could not be kept for other runs."""
+        """The reason why the preparation could not be kept for later runs; None if it was kept."""
         return None
 
     @abstractmethod
     def begin(self) -> Sequence[AnyEvent]:
-        """Prepare the first step; the events that begin the run, `RunStarted` first, at 0. Raises Halted."""
+        """Prepare the first step; returns the events that begin the run at time 0, `RunStarted` first. Raises
+        Halted.
+        """
 
     @abstractmethod
     def step(self) -> None:
-        """Do one step, the unit that is done again when it is interrupted. Raises Halted or PhysicsFailed."""
+        """Execute one step, which is the unit that is repeated after an interruption. Raises Halted or
+        PhysicsFailed.
+        """
 
     def answer(self, choice: Choice) -> None:
-        """Continue after the operator was called."""
+        """Continue after a call of the operator."""
 
     @property
     def executed(self) -> Sequence[ExecutedStep]:
-        """Steps that were executed and that the arm has not undone, in order; none of a system that cannot undo."""
+        """Executed steps that the arm has not undone, in order; empty for a system that cannot undo."""
         return ()
 
     def reverse(self, undoing: ReversalOrder) -> None:
-        """From now on each step undoes one that was executed, the last first; raises InvalidInput without any."""
+        """From now on, let each step undo an executed step, the last first; raises InvalidInput if there is none."""
 
     @abstractmethod
     def finish(self) -> bool:
@@ -217,64 +223,67 @@ class RunningSystem(Protocol):
 
     @property
     def context(self) -> ExecutionContext | None:
-        """Context in which a plan of motions is executed; None if the system executes none."""
+        """The context in which a plan of motions is executed; None if the system executes no such plans."""
         return None
 
     @property
     def arm_cell(self) -> SimulatedCell | None:
-        """The cell in which a plan of motions is executed."""
+        """The cell in which a plan of motions is executed; None if the system executes no such plans."""
         return None
 
     @property
     def shots(self) -> Mapping[str, Shot]:
-        """Pictures that its program took and still has, by name."""
+        """Pictures that the program took and still has, by name."""
         return {}
 
     def marks(self, picture: str) -> Sequence[Mark]:
-        """Marks of what was found in a picture."""
+        """Marks for the findings in a picture."""
         return ()
 
     @property
     def just_found(self) -> tuple[str, Sequence[Mark]]:
-        """The picture in which the step under way has found something, and the marks of that alone."""
+        """The picture in which the present step has found something, with the marks for that finding only."""
         return "", ()
 
     def built(self) -> Findings:
-        """The referee's findings on finished work since undone; empty if there was none or it was not judged."""
+        """The referee's findings on finished work that was undone afterwards; empty if there was none, or it was
+        not judged.
+        """
         return {}
 
     def remembered(self) -> Findings:
-        """Findings on the program's memory after everything it did is undone."""
+        """Findings on the program's memory after all its work was undone."""
         return {}
 
     @abstractmethod
     def restore(self, state: SystemState) -> None:
-        """Continue from a copy of a state, with its cell as at that time; raises InvalidInput if it does not fit the
-        plan.
+        """Continue from a copy of a state, with the cell as at that time; raises InvalidInput if the state does not
+        fit the plan.
         """
 
     @property
     def shown(self) -> Mapping[str, Any]:
-        """Its state, for display."""
+        """The state of the system, for display."""
         shown: dict[str, Any] = msgspec.to_builtins(self.state, enc_hook=np.ndarray.tolist)
         return shown
 
     def type_line(self, text: str, task: str) -> None:
-        """Give a task a line typed at the console, and emit `LineTyped` before all that comes of it. Raises
-        InvalidInput if this system has no console, or no such task; nothing has happened then."""
+        """Give a task a line that was typed at the console, and emit `LineTyped` before all its effects. Raises
+        InvalidInput, without any effect, if the system has no console or no such task.
+        """
         raise Refused("this system has no console to type at")
 
     def settables(self) -> Mapping[str, Settable]:
-        """Things that a person can set, by kind; by default none."""
+        """Values that a person can set, by kind; none by default."""
         return {}
 
     def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        """Set something; SI; raises InvalidInput if there is no such object, or the value does not fit it."""
+        """Set a value, SI; raises InvalidInput if there is no object with that name, or the value does not fit."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunCallbacks:
-    """Callbacks that a system is given by the run that drives it."""
+    """Callbacks that a run gives to its system."""
 
     emit: Callable[[AnyEvent], None]
     watch: Callable[[ServoPeriod], None]  # called for every servo period
@@ -287,7 +296,7 @@ class RunCallbacks:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StepperWords:
-    """The words of the stepper's manual for the runs of a system."""
+    """The words of the stepper's manual for runs of a system."""
 
     about: tuple[str, ...] = (
         "The program runs one step at a time; the arrow marks the next one.",
@@ -308,7 +317,7 @@ PLAIN: Final[Topics] = {
 
 
 class System(ABC):
-    """A system: how its plans are written and read, its state, how it is built, and its words."""
+    """A system: reads and writes its plans, builds its running system, and provides its words."""
 
     name: str  # its entry's
     plan: type[Record]
@@ -321,18 +330,18 @@ class System(ABC):
 
     @abstractmethod
     def encode(self, plan: Any) -> bytes:
-        """A plan as bytes."""
+        """Encode a plan as bytes."""
 
     @abstractmethod
     def decode(self, data: bytes, name: str) -> Any:
-        """The plan in some bytes, found valid; `name` is for messages. Raises InvalidInput."""
+        """Decode and check a plan; `name` is the plan's name for messages. Raises InvalidInput."""
 
     def digest(self, plan: Any, data: bytes) -> str:
-        """Sixteen hexadecimal digits that identify a plan, `data` as bytes."""
+        """Sixteen hexadecimal digits that identify a plan; `data` is the plan as bytes."""
         return written_digest(data)
 
     def alike(self, one: Any, other: Any) -> bool:
-        """True if two plans are the same, except for the last digits of computed numbers."""
+        """True if two plans agree, apart from the last digits of computed numbers."""
         return self.encode(one) == self.encode(other)
 
     @abstractmethod
@@ -341,27 +350,27 @@ class System(ABC):
 
     @abstractmethod
     def build(self, setup: Setup, around: RunCallbacks) -> RunningSystem:
-        """A run's machine, before its first step; raises InvalidInput if it cannot be built here."""
+        """Build the running system before its first step; raises InvalidInput if it cannot be built here."""
 
     def machine(self, plan: Any) -> tuple[str, str]:
-        """Name and digest of the machine that a plan is for; empty if it is for none."""
+        """Name and digest of the machine that a plan is made for; empty if it is made for none."""
         return "", ""
 
     def check(self, setup: Setup) -> None:
-        """Raises InvalidInput unless plan, task and world of a run go together."""
+        """Raises InvalidInput unless plan, task and world of a run fit together."""
         if not isinstance(setup.plan, self.plan):
             raise BadFile(f"this is not a plan of {self.entry.title}")
 
     def own_plan(self, task: str) -> Any:
-        """The system's default plan for a task; raises InvalidInput if there is none."""
+        """The default plan for a task; raises InvalidInput if there is none."""
         raise refusal(self.name, "plans")
 
     def executed(self, plan: Any, state: Any) -> Sequence[ExecutedStep]:
-        """Steps of a plan that were executed and not undone, by a state."""
+        """Steps of a plan that were executed and not undone, according to a state."""
         return ()
 
     def order(self, plan: Any, state: Any, undoing: ReversalOrder) -> None:
-        """Set a state to undo executed steps; raises InvalidInput if there is nothing to undo."""
+        """Set a state to undo executed steps; raises InvalidInput if there are none."""
         raise refusal(self.name, "undo")
 
     def calibration(self, state: Any) -> Calibration | None:
@@ -372,11 +381,11 @@ class System(ABC):
 
     @property
     def topics(self) -> Topics:
-        """The topics of a paused run that can be shown."""
+        """The topics that a paused run can show."""
         return PLAIN
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
-        """The answers to the call of the operator that a run stands at, and what each does."""
+        """The possible answers to the present call of the operator, with their effects."""
         return {
             "proceed": "proceed: continue after the step that called the operator",
             "retry": "retry what was to be done",
@@ -386,13 +395,17 @@ class System(ABC):
     # -- the way of a run -----------------------------------------------------------------------------
 
     def carry_out(self, runner: Runner, go: Callable[[], Pause]) -> Pause:
-        """Continue a run from its present state; `go` lets it run until it pauses."""
+        """Continue a run from its present state; `go` lets the run continue until it pauses."""
         return go()
 
     def files(self, runner: Runner, pause: Pause, result: Any) -> Mapping[str, bytes]:
-        """Files that a run adds to its folder, by names in its entry; `result` is its `results.result.Result`."""
+        """Further files for the run's folder, by the names in the system's entry; `result` is the run's
+        `results.result.Result`.
+        """
         return {}
 
     def page(self, folder: Path) -> bytes | None:
-        """The report of the finished run in a folder that has those files; None: it is made as for every run."""
+        """The report of the finished run in a folder, made from the system's own files; None: the general report is
+        used.
+        """
         return None

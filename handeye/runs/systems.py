@@ -1,4 +1,4 @@
-"""Systems by name: each is loaded from its entry when it is asked for."""
+"""Finds systems by name, and loads each from its entry on first use."""
 
 from functools import lru_cache
 from pathlib import Path
@@ -10,18 +10,18 @@ from handeye.runs.system import Listing, System
 
 
 def system_named(name: str) -> System:
-    """The system of a name; raises InvalidInput if there is none."""
+    """The system with a name; raises InvalidInput if there is none."""
     found: System = loaded(entry_named(name).system)
     return found
 
 
 def system_of(setup: Setup) -> System:
-    """The system that carries a run out."""
+    """The system of a run."""
     return system_named(setup.system)
 
 
 def system_of_files(folder: Path) -> System | None:
-    """The system that has left files of its own in the folder of a run; None: there are none."""
+    """The system whose own files are in the folder of a run; None if there are none."""
     found = (e for e in entries().values() if any((folder / name).is_file() for name in e.files))
     return next((system_named(entry.name) for entry in found), None)
 
@@ -31,24 +31,24 @@ def listing_of(setup: Setup) -> Listing:
 
 
 def written(setup: Setup) -> bytes:
-    """The plan of a run as bytes. Every checkpoint has them, so they are made once."""
+    """The plan of a run as bytes. All checkpoints need these bytes, so they are made once and kept."""
     return _written(_Identical(setup.system, setup.plan))
 
 
 def digest_of(setup: Setup) -> str:
-    """Sixteen hexadecimal digits that identify the program executed."""
+    """Sixteen hexadecimal digits that identify the plan of a run."""
     return _digest(_Identical(setup.system, setup.plan))
 
 
 def same_plan(one: Setup, other: Setup) -> bool:
-    """True if two runs use the same plan, except for the last digits of its computed numbers."""
+    """True if two runs use the same plan, apart from the last digits of its computed numbers."""
     return one.system == other.system and (
         one.plan is other.plan or system_of(one).alike(one.plan, other.plan)
     )
 
 
 class _Identical:
-    """A plan that equals itself only: to compare two takes as long as to write one."""
+    """A plan that is compared by identity, because comparing two plans takes as long as writing one."""
 
     def __init__(self, system: str, plan: Record) -> None:
         self.system, self.plan = system, plan

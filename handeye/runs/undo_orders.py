@@ -1,4 +1,4 @@
-"""Orders to reverse a kept run: how far back, and the checkpoint from which the reversal starts."""
+"""Orders to undo a kept run: how many steps to undo, and the checkpoint from which the arm starts."""
 
 from collections.abc import Sequence
 
@@ -17,7 +17,9 @@ from handeye.runs.systems import listing_of, system_of
 
 
 def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) -> int:
-    """Number of steps executed when a stage, given by its index, last began; raises Refused if none are left."""
+    """Number of steps executed when a stage, given by its index, last began; raises Refused if none of its steps
+    are left.
+    """
     steps = listing.steps
     found = [n for n, done in enumerate(executed) if done.enters and steps[done.step].stage == stage]
     if not found:
@@ -26,7 +28,9 @@ def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) 
 
 
 def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) -> Checkpoint:
-    """A run about to be undone to the beginning of a stage, or of the run, and to end there; `name` is for messages."""
+    """A checkpoint ordered to undo its steps back to the beginning of a stage or of the run, and to end there;
+    `name` is the run's name for messages.
+    """
     require(checkpoint.setup.system, "undo", name)
     snapshot, kind, plan = checkpoint.snapshot, system_of(checkpoint.setup), checkpoint.setup.plan
     if snapshot is None:
@@ -58,7 +62,9 @@ def _check_whole(checkpoint: Checkpoint, done: Sequence[ExecutedStep], name: str
 
 
 def done_since(checkpoint: Checkpoint, events: Sequence[AnyEvent]) -> int | None:
-    """Number of steps finished after a checkpoint, by all events of a run; None if it is not of that run."""
+    """Number of steps finished after a checkpoint, from all events of its run; None if the events are of another
+    run.
+    """
     begun = len(checkpoint.events)
     if tuple(events[:begun]) != checkpoint.events:
         return None
@@ -66,9 +72,9 @@ def done_since(checkpoint: Checkpoint, events: Sequence[AnyEvent]) -> int | None
 
 
 def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> Checkpoint:
-    """The run as it was after the last step it finished: the steps since the checkpoint are repeated.
+    """The run as it was after its last finished step: the steps since the checkpoint are repeated.
 
-    Equal runs take the same course to the byte. Raises BadFile if this one takes another.
+    Equal runs take the same course, byte for byte. Raises BadFile if this run takes another course.
     """
     if not done_since(checkpoint, events):
         return checkpoint

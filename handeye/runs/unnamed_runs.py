@@ -1,4 +1,5 @@
-"""Runs without a name of the user's: the newest ten stay in `runs` in the current folder, named by when they began.
+"""Runs without a name given by the user: the newest ten are kept in `runs` in the current folder, named by their
+start time.
 
 The environment variable HANDEYE_RUNS names another folder; if it is empty, no run is kept without `--out`.
 """
@@ -20,21 +21,23 @@ from handeye.runs.snapshot import Checkpoint
 VARIABLE: Final = "HANDEYE_RUNS"
 MOST: Final = 10
 _IGNORED: Final = "*\n"
-"""The runs are not for the repository that they stand in."""
+"""Content of `.gitignore`: runs are not committed to the repository that contains them."""
 _GONE: Final = ".removed-"
 
 
 def runs_folder() -> Path | None:
-    """The folder of runs; None if none are kept."""
+    """The folder for unnamed runs; None if none are kept."""
     named = os.environ.get(VARIABLE, "runs")
     return Path(named) if named else None
 
 
 class UnnamedRun:
-    """A folder for an unnamed run. Its mark is locked until it is closed, so that no other command removes it."""
+    """A folder for an unnamed run. Its mark is locked until the run is closed, so that no other command removes the
+    folder.
+    """
 
     def __init__(self, home: Path, start: Checkpoint) -> None:
-        """Begin a run in `home`, and remove all but the newest ten there; raises CannotWrite."""
+        """Begin a run in `home`, and remove all but the newest ten unnamed runs there; raises CannotWrite."""
         try:
             path = _new_place(home, start)
             self._mark = LineFile(path / MARK, "another run", again=False)
@@ -50,7 +53,7 @@ class UnnamedRun:
         return self.folder.path
 
     def close(self) -> None:
-        """Let go of the folder; raises CannotWrite if the trace cannot be completed."""
+        """Close the folder; raises CannotWrite if the trace cannot be completed."""
         try:
             self.folder.close()
         finally:
@@ -66,13 +69,15 @@ class UnnamedRun:
 
 
 def newest_run() -> Path | None:
-    """The newest run in the folder of runs, named or not, if there is one."""
+    """The newest run in the folder for runs, named or not; None if there is none."""
     home = runs_folder()
     return None if home is None else next(_newest_first(_runs(home)), None)
 
 
 def newest_runs(number: int) -> list[Path]:
-    """The newest runs in the folder of runs, named or not, the newest first; raises BadFile if there are fewer."""
+    """The newest runs in the folder for runs, named or not, the newest first; raises BadFile if there are fewer
+    than `number`.
+    """
     home = runs_folder()
     if home is None:
         raise BadFile(f"give the folder of a run; none are kept, since the variable {VARIABLE} is empty")
@@ -84,12 +89,12 @@ def newest_runs(number: int) -> list[Path]:
 
 
 def bytes_of(path: Path) -> int:
-    """Size of the files in a folder."""
+    """Total size of the files in a folder, bytes."""
     return sum(file.stat().st_size for file in path.rglob("*") if file.is_file())
 
 
 def _new_place(home: Path, start: Checkpoint) -> Path:
-    """A new folder, with the time and the seed in its name."""
+    """A new path for a folder, with time and seed in its name."""
     if not home.exists():
         home.mkdir(parents=True)
         (home / ".gitignore").write_text(_IGNORED, encoding="utf-8")
@@ -103,7 +108,7 @@ def _new_place(home: Path, start: Checkpoint) -> Path:
 
 
 def _runs(home: Path) -> Iterator[Path]:
-    """Folders in which a run has left something."""
+    """Folders that contain files of a run."""
     if home.is_dir():
         for path in home.iterdir():
             if not path.name.startswith(".") and any((path / name).is_file() for name in (EVENTS, TRACE)):
@@ -111,7 +116,7 @@ def _runs(home: Path) -> Iterator[Path]:
 
 
 def _unnamed(home: Path) -> Iterator[Path]:
-    """Folders of unnamed runs that hold nothing else; a folder that was renamed has a name."""
+    """Folders of unnamed runs that contain nothing else; a renamed folder counts as named."""
     for path in home.iterdir():
         mark = path / MARK
         if path.is_symlink() or not mark.is_file() or mark.is_symlink():
@@ -121,12 +126,12 @@ def _unnamed(home: Path) -> Iterator[Path]:
 
 
 def _newest_first(runs: Iterator[Path]) -> Iterator[Path]:
-    """Runs by the time at which they were last written to."""
+    """Runs in order of their last change, the newest first."""
     return iter(sorted(runs, key=lambda path: (_written(path), path.name), reverse=True))
 
 
 def _written(path: Path) -> int:
-    """The time at which something last happened in a run, ns."""
+    """Time of the last change of a run, ns."""
     for name in (EVENTS, TRACE, MARK):
         with suppress(OSError):
             return (path / name).stat().st_mtime_ns
@@ -134,7 +139,7 @@ def _written(path: Path) -> int:
 
 
 def _remove(path: Path) -> None:
-    """Remove a run, unless another process writes to it."""
+    """Remove a run, unless another process is writing to it."""
     with suppress(InvalidInput, OSError), ExitStack() as locks:
         for name in (MARK, EVENTS):
             if (path / name).is_file():
@@ -146,7 +151,7 @@ def _remove(path: Path) -> None:
 
 @contextmanager
 def held(path: Path) -> Iterator[None]:
-    """While a run continues in a folder, no other command removes it."""
+    """In this context, no other command removes the folder, because its run continues."""
     with ExitStack() as lock:
         if (path / MARK).is_file():
             with suppress(InvalidInput):

@@ -1,4 +1,4 @@
-"""Verifies a recorded run: it is repeated and compared."""
+"""Verifies a recorded run by repeating it and comparing both recordings."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,7 +20,7 @@ from handeye.trace.reading import Trace, read_trace
 
 
 def setup_of(trace: Trace) -> Setup:
-    """The setup that a recorded run began with; pictures are made in the same way."""
+    """The setup with which a recorded run began, with the same renderer."""
     begun = trace.head
     plan = system_named(begun.system).decode(trace.plan, f"the plan in {trace.name}")
     camera = "gl" if begun.camera.method == "opengl" else "ray"
@@ -35,7 +35,7 @@ def setup_of(trace: Trace) -> Setup:
 
 
 def settled(events: Sequence[AnyEvent]) -> int:
-    """Number of a run's events that do not depend on when the panic button was hit."""
+    """Number of events of a run that do not depend on the moment at which the panic button was pressed."""
     if not events or not isinstance(events[-1], PanicStopped):
         return len(events)
     steps = [n for n, event in enumerate(events) if isinstance(event, StepStarted)]
@@ -45,13 +45,13 @@ def settled(events: Sequence[AnyEvent]) -> int:
 
 
 def difference(trace: Trace, folder: Path) -> str | None:
-    """The first difference, if only of last places, as a sentence; arguments as for `repetition`."""
+    """The first difference, even if only in last digits, as a sentence; arguments as for `repetition`."""
     found = repetition(trace, folder)
     return found.rounded or found.parts
 
 
 def repetition(trace: Trace, folder: Path) -> Repetition:
-    """Repeat a run in `folder` and compare the two. Raises Refused if the trace is thinned."""
+    """Repeat a run in `folder` and compare both recordings. Raises Refused if the trace is thinned."""
     if trace.thinned:
         raise Refused(f"{trace.name} is thinned: verify the whole trace that it was made from")
     wanted = trace.events[: settled(trace.events)]

@@ -1,1 +1,1 @@
-"""Traces: one MCAP file a run, which other robotics tools open, and what can be learnt from it afterwards."""
+"""Traces: one MCAP file per run, which other robotics tools can open, and the analysis of traces."""

@@ -1,4 +1,4 @@
-"""A readable account of what happened in a run, and why, for people who know the arm language."""
+"""A readable account of the events of a run and their reasons, for readers who know the arm language."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -17,7 +17,7 @@ _BENEATH: Final = " " * 20  # indents the outcome of a step
 
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
-    """The account, line by line: stages; time, line and text of each step, its outcome; and how it ended."""
+    """The account as lines of text: stages; time, line, text and outcome of each step; and how the run ended."""
     teller = _Teller()
     for event in events:
         teller.tell(event)
@@ -38,11 +38,13 @@ class _Teller:
     _camera: float = 0.0  # seconds of it that the camera's mechanism took
     _shift: Array | None = None  # offset of the goal of the present step from its planned place, m
     _off: Array = field(default_factory=lambda: np.zeros(3))
-    """Offset of the end of the last motion from its planned end, m; a straight one begins from there."""
+    """Offset of the end of the last motion from its planned end, m; a straight motion after it begins with this
+    offset.
+    """
     _tested: str | None = None  # the answer to a test, until it is known where the program continues
 
     def clock(self, event: AnyEvent) -> str:
-        """The time of an event in a column: seconds since the run began."""
+        """The time of an event, in s since the run began, formatted for a column."""
         return f"{event.time:z9.2f}"
 
     def tell(self, event: AnyEvent) -> None:
@@ -103,13 +105,13 @@ class _Teller:
         self.lines.append(f"{_BENEATH}{text}")
 
     def _lead_on(self, where: str) -> None:
-        """Report the answer to a test, now that it is known where it leads."""
+        """Report the answer to a test, as soon as the next step is known."""
         if self._tested is not None:
             self._beneath(f"{self._tested}: {where}")
         self._tested = None
 
     def _ended(self, event: happened.StepFinished) -> None:
-        """Say where a motion ended, if neither where its goal was nor as far off as the last one."""
+        """Report where a motion ended, unless it ended at its goal or with the same offset as the last motion."""
         if event.planned is None or event.hand is None:
             return
         off = np.subtract(event.hand, event.planned)

@@ -1,6 +1,7 @@
-"""The channels of a trace: what each holds, and the schema it is declared with.
+"""The channels of a trace: the content of each, and the schema with which it is declared.
 
-The typed ones are those that robotics tools show by themselves; `/events` is the lossless copy of each event, for us.
+Typed channels are those that robotics tools display directly; `/events` is a lossless copy of each event, for
+handeye itself.
 """
 
 from dataclasses import dataclass, replace
@@ -54,7 +55,7 @@ class Channel:
 
 
 def _typed(topic: str, kind: type[Message]) -> Channel:
-    """A channel of protobuf messages, described together with all that they are made of."""
+    """A channel of protobuf messages, with the description of all types they use."""
     files: dict[str, Any] = {}
 
     def add(file: Any) -> None:
@@ -112,7 +113,7 @@ CHANNELS: Final = (
 
 @cache
 def channels_of(system: str) -> tuple[Channel, ...]:
-    """The channels of a run of a system, which may have kinds of events of its own."""
+    """The channels of a run of a system; a system may have further kinds of events."""
     own = _schema(event_type(system))
     return tuple(replace(each, schema=own) if each.topic == EVENTS else each for each in CHANNELS)
 
@@ -121,8 +122,9 @@ NUMBERS: Final = {channel.topic: number for number, channel in enumerate(CHANNEL
 
 
 def nanoseconds(time: float) -> int:
-    """A simulated time (s) as the traces count it.
+    """A simulated time (s) in ns, as traces store it.
 
-    To the microsecond: the cell's clock is a sum of many steps, the events' is rounded, and both must agree.
+    It is rounded to a microsecond, because the cell's clock is a sum of many steps, the clock of the events is
+    rounded, and both must agree.
     """
     return round(time * 1e6) * 1000

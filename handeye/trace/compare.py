@@ -1,4 +1,4 @@
-"""Comparison of two traces: the first difference, and whether it is one of last places only."""
+"""Compares two traces: finds the first difference, and whether only last digits differ."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,17 +14,17 @@ from handeye.trace.trace import Trace
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Repetition:
-    """How two traces compare, a sentence each; both None: they say the same to the byte."""
+    """The differences of two traces, a sentence each; both None: the traces are identical, byte for byte."""
 
     parts: str | None = None  # where they truly part
     rounded: str | None = None  # where they first differ by last places of numbers alone
 
 
 def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> Repetition:
-    """Compare two traces, however they are packed.
+    """Compare two traces, however they are compressed.
 
-    Only the first `events` events and what came before and between them are compared, and nothing recorded beside the
-    first `unseen` of them. On which processor and with which versions the runs were made is no difference.
+    Only the first `events` events, and the messages before and between them, are compared, without the messages
+    recorded beside the first `unseen` events. Processor and versions of the two runs may differ.
     """
     if a.plan != b.plan:
         return Repetition(parts="the traces are of different plans")
@@ -48,13 +48,13 @@ def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) 
 
 
 def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:
-    """The first difference, if only of last places, as a sentence; arguments as for `compared`."""
+    """The first difference, even if only in last digits, as a sentence; arguments as for `compared`."""
     found = compared(a, b, events=events, unseen=unseen)
     return found.rounded or found.parts
 
 
 def _begin_alike(a: Trace, b: Trace) -> bool:
-    """True if two runs begin in the same way, whatever they are made with."""
+    """True if two runs begin in the same way, apart from processor and versions."""
     return a.head.made_alike == b.head.made_alike
 
 
@@ -66,7 +66,7 @@ class _SoFar:
 
 
 def _compared(trace: Trace, events: int | None, unseen: int) -> Iterator[RawMessage]:
-    """The messages, but what was recorded beside `unseen` events."""
+    """The messages, without those recorded beside the first `unseen` events."""
     count = 0
     for message in until(trace.messages, events):
         if count >= unseen or message.topic not in MOMENTS:
@@ -87,7 +87,7 @@ def _difference(
     *,
     rounded: bool = False,
 ) -> str:
-    """A sentence; of a quantity that differs by more than last places if these are `rounded`."""
+    """The difference as a sentence; with `rounded`, of a quantity that differs by more than its last digits."""
     events = so_far.events
     last = a.events[events - 1] if events else None
     after = "before the first event" if last is None else f"after event {events} ({sentence(last)})"

@@ -1,4 +1,4 @@
-"""Event lists on disk (`events.jsonl`): one JSON object a line, appended as things happen, never rewritten."""
+"""Event lists on disk (`events.jsonl`): one JSON object per line, appended as events happen, never rewritten."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -13,9 +13,10 @@ from handeye.program.events import AnyEvent, RunStarted, WentBack, to_line
 
 
 def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
-    """The events in a file, undone ones too.
+    """The events in a file, including those that were undone later.
 
-    Raises BadFile if a line is no event, or cut short and not `growing`; or if the run does not begin at 0.
+    Raises BadFile if a line is no event, or is incomplete (unless `growing`), or if the run does not begin at time
+    0.
     """
     text = read_whole(path)
     if growing:
@@ -47,12 +48,12 @@ def effective(events: Iterable[AnyEvent]) -> list[AnyEvent]:
 
 
 class Journal:
-    """Appends events to a file; what is undone stays in it, followed by a `WentBack`."""
+    """Appends events to a file; undone events stay in the file, followed by a `WentBack`."""
 
     def __init__(self, path: Path, events: Sequence[AnyEvent], *, again: bool) -> None:
         """Begin a journal with these events, or resume one.
 
-        A last line that was cut short is dropped; a journal that has lost some of the events is started again.
+        An incomplete last line is dropped; a journal that has lost some of the events is started again.
         """
         self._owed: WentBack | None = None  # there was no room for it
         self._file = LineFile(path, "another run", again=again)
@@ -65,18 +66,20 @@ class Journal:
 
     @property
     def unlocked(self) -> str:
-        """Why other runs are not kept from writing to it, if they are not."""
+        """The reason why other runs cannot be kept from writing to the file; empty if they are."""
         return self._file.unlocked
 
     def append(self, event: AnyEvent) -> None:
-        """Write one event; raises CannotWrite if there is no room."""
+        """Write one event; raises CannotWrite if the disk is full."""
         owed, self._owed = self._owed, None
         if owed is not None and not isinstance(event, WentBack):
             self._write(owed)
         self._write(event)
 
     def undone(self, events: int, time: float, why: Literal["back", "resumed"]) -> None:
-        """Note that only the first `events` events have happened; if there is no room, before the next one."""
+        """Record that only the first `events` events count; if the disk is full, this is recorded before the next
+        event.
+        """
         self.append(WentBack(time=time, events=events, why=why))
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""Force of the hand on the world in a run, as arrays."""
+"""The force of the hand on the world during a run, as arrays."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
@@ -20,11 +20,11 @@ NO_VECTOR: Final = (np.nan, np.nan, np.nan)
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Forces(Brief):
-    """Force of the hand on the world, and the guard that watches it, in n servo periods.
+    """The force of the hand on the world, and the guard that watches it, in n servo periods.
 
-    Vectors are in the axes that the task names (`AnyTask.force_axes`). The program estimates force in guarded and
-    compliant motions only, and takes what it feels as they begin for zero. Elsewhere there is nothing to tell, and
-    figures are NaN.
+    Vectors are in the axes that the task names (`AnyTask.force_axes`). The program estimates force only in guarded
+    and compliant motions, relative to the force at their beginning. In all other periods there is no estimate, and
+    the figures are NaN.
     """
 
     times: Array  # ends of the periods, shape (n,), s
@@ -32,24 +32,28 @@ class Forces(Brief):
     moment: Array  # moment of the hand on the world about its tool centre point, shape (n, 3), N m
     estimated: NDArray[np.bool_]  # where there is an estimate, shape (n,)
     guard: NDArray[np.str_]
-    """Kind of the guard that watches (the first, if there are several), shape (n,): `force`, `against`, `moment`,
-    `torque`, `touch`; empty: none does."""
+    """Kind of the active guard (the first, if there are several), shape (n,): `force`, `against`, `moment`,
+    `torque`, `touch`; empty: no guard.
+    """
     axis: Array
-    """Unit vector along which, or about which, that guard looks, shape (n, 3); NaN: it looks at no force."""
+    """Unit vector along which, or about which, the guard watches, shape (n, 3); NaN: the guard watches no force or
+    moment.
+    """
     value: Array
-    """Its reading, shape (n,): force along the axis (N), moment about it (N m), torque of the screwdriver (N m),
-    or finger switches as a mask; NaN: no guard watches, or there is no record of it."""
+    """Reading of the guard, shape (n,): force along the axis (N), moment about it (N m), torque of the screwdriver
+    (N m), or finger switches as a mask; NaN: no guard, or no record of the reading.
+    """
     limit: Array  # its limit, shape (n,); NaN: no guard watches
 
     def within(self, spans: Sequence[Span]) -> "Forces":
-        """The forces within some spans of time."""
+        """The forces within some time spans."""
         inside = np.zeros(len(self.times), dtype=np.bool_)
         for span in spans:
             inside[span.rows(self.times)] = True
         return self._rows(inside)
 
     def motions(self) -> "tuple[Forces, ...]":
-        """The motions in which force was estimated, each by itself, in order."""
+        """The motions in which force was estimated, each separately, in order."""
         known = np.concatenate([[False], self.estimated, [False]])
         borders = np.flatnonzero(known[1:] != known[:-1])
         return tuple(
@@ -63,7 +67,7 @@ class Forces(Brief):
 
 
 def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
-    """Forces by messages about the hand, one a servo period; raises ValueError if some are missing."""
+    """Make the arrays from messages about the hand, one per servo period; raises ValueError if some are missing."""
     told = [read_hand(message.data) for message in messages]
     if len(told) != len(times):
         raise ValueError("the number of servo periods and of hand forces differ")
@@ -85,14 +89,14 @@ def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
 
 
 def looked_at(guard: NDArray[np.str_], axis: Array, force: Array, moment: Array, sensed: Array) -> Array:
-    """Readings of guards, shape (n,): a component of force or moment, or what is sensed."""
+    """Readings of guards, shape (n,): a component of force or moment, or another sensed value."""
     pressing = (guard == GuardKind.FORCE) | (guard == GuardKind.AGAINST)
     components = [(force * axis).sum(axis=1), (moment * axis).sum(axis=1)]
     return np.select([pressing, guard == GuardKind.MOMENT], components, default=sensed)
 
 
 def _sensed(message: HandMessage, guard: GuardMessage | None) -> float:
-    """Sensed value that a guard looks at, if it looks at none of force and moment."""
+    """Sensed value of a guard that watches neither force nor moment."""
     if guard is not None and guard.guard == GuardKind.TORQUE:
         return abs(message.driver_torque)
     if guard is not None and guard.guard == GuardKind.TOUCH:
@@ -101,6 +105,6 @@ def _sensed(message: HandMessage, guard: GuardMessage | None) -> float:
 
 
 def _vectors(vectors: Iterable[Any]) -> Array:
-    """Vectors, shape (n, 3); NaN where there is none."""
+    """Vectors as an array of shape (n, 3); NaN where there is none."""
     rows = [(v.x, v.y, v.z) if isinstance(v, Axes) else NO_VECTOR for v in vectors]
     return np.array(rows, dtype=np.float64).reshape(len(rows), 3)

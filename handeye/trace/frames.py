@@ -1,4 +1,4 @@
-"""Frames of everything in the simulated cell, for the trace: an observer that can change nothing."""
+"""Poses of all bodies in the simulated cell, for the trace; an observer that changes nothing."""
 
 import numpy as np
 from foxglove_schemas_protobuf.Color_pb2 import Color
@@ -18,13 +18,13 @@ from handeye.trace.messages import Poses, stamp
 
 
 def looks(truth: Truth, body: int) -> list[int]:
-    """The shapes by which a body is seen, or will be."""
+    """The geoms of a body that are visible, or will be after an event."""
     mine = np.flatnonzero(truth.model.geom_bodyid == body)
     return [int(shape) for shape in mine if truth.drawn.geom_group[shape] in (SEEN, LATENT)]
 
 
 def scene(truth: Truth, time: int) -> bytes:
-    """All visible bodies at the start, each in its own frame; `time` in ns."""
+    """All visible bodies at the start, with each body's shapes in the frame of the body; `time` in ns."""
     entities = []
     for body in range(truth.model.nbody):
         name = truth.model.body(body).name if body else WORLD
@@ -36,7 +36,7 @@ def scene(truth: Truth, time: int) -> bytes:
 
 
 def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
-    """Add a shape to the entity of its body. A lamp, the only ball, is left out."""
+    """Add a shape to the entity of its body. The lamp, the only ball, is left out."""
     model = truth.model
     material = model.geom_matid[shape]
     r, g, b, a = _short(truth.drawn.mat_rgba[material] if material >= 0 else model.geom_rgba[shape])
@@ -63,7 +63,7 @@ def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
 
 
 def _short(values: Array) -> list[float]:
-    """Figures to seven places, which make short files."""
+    """Figures rounded to seven digits, to keep files small."""
     return [float(value) for value in values.astype(np.float32)]
 
 
@@ -76,10 +76,10 @@ Mask = NDArray[np.bool_]
 
 
 class Frames:
-    """The frames of a cell's bodies. They are those the simulator last computed, a physics step before the tick."""
+    """The poses of a cell's bodies, as the simulator last computed them, one physics step before the tick."""
 
     def __init__(self, truth: Truth, joints: tuple[str, ...]) -> None:
-        """Look at a cell; `joints` are the names of its arm's joints, in order."""
+        """Observe a cell; `joints` are the names of the arm's joints, in order."""
         self._truth = truth
         bodies = range(1, truth.model.nbody)  # body 0 is the world
         self.names = tuple(str(truth.model.body(number).name) for number in bodies)
@@ -91,17 +91,17 @@ class Frames:
         return np.concatenate([data.xpos[1:], data.xquat[1:]], axis=1, dtype=np.float32, casting="same_kind")
 
     def there(self) -> Mask:
-        """Which frames belong to bodies that are there now, be they put away or not; shape (n,)."""
+        """Mask of the frames whose bodies exist now, including bodies that are put away, shape (n,)."""
         there: Mask = self._truth.model.geom_group[self._looks] != LATENT
         return there
 
     def scene(self, time: int) -> bytes:
-        """PictureSource of the bodies, as a message; `time` in ns."""
+        """The bodies of the scene, as a message; `time` in ns."""
         return scene(self._truth, time)
 
 
 class NoFrames(Frames):
-    """No frames at all: of a system that acts on no cell."""
+    """No poses, for a system without a cell."""
 
     def __init__(self) -> None:
         self.names, self.joints = (), ()

@@ -1,4 +1,6 @@
-"""Servo periods as JSON: force, gap and guards of the hand, which no typed message has, and channels of machines."""
+"""Servo periods as JSON messages: force, gap and guards of the hand, for which there is no typed message, and the
+machines' channels.
+"""
 
 from typing import Annotated, Any, Final
 
@@ -29,7 +31,7 @@ class Axes(Record, frozen=True, kw_only=True):
 
 
 class GuardMessage(Record, frozen=True, kw_only=True):
-    """A guard that watches."""
+    """An active guard."""
 
     guard: Annotated[GuardKind, msgspec.Meta(extra_json_schema={"type": "string"})]
     limit: float  # N, N m, or finger switches as a mask
@@ -54,7 +56,7 @@ _decoder: Final = msgspec.json.Decoder(HandMessage)
 
 
 def hand_message(period: ServoPeriod) -> bytes:
-    """The message for a servo period."""
+    """Encode the hand message of a servo period."""
     sensed, felt = period.sensed, period.wrench
     message = HandMessage(
         estimated=felt is not None,
@@ -70,7 +72,7 @@ def hand_message(period: ServoPeriod) -> bytes:
 
 
 def read_hand(data: bytes) -> HandMessage:
-    """The message in some bytes; raises msgspec.DecodeError if they are none."""
+    """Decode a hand message; raises msgspec.DecodeError if the data are none."""
     return _decoder.decode(data)
 
 
@@ -79,13 +81,13 @@ def hand_schema() -> bytes:
 
 
 def in_one_piece(kind: type[Record]) -> bytes:
-    """JSON schema of a record without references within it, which not every tool follows."""
+    """JSON schema of a record without internal references, because not all tools follow them."""
     whole = msgspec.json.schema(kind)
     return msgspec.json.encode(_in_place(whole, whole["$defs"]), order="sorted")
 
 
 def _in_place(schema: Any, defined: dict[str, Any]) -> Any:
-    """The schema with what is defined beside it put where it is referred to."""
+    """The schema with each reference replaced by its definition."""
     match schema:
         case {"$ref": str(name)}:
             return _in_place(defined[name.rsplit("/", 1)[-1]], defined)
@@ -111,7 +113,7 @@ def rounded(value: float) -> float:
 
 
 class ChannelValues(Channel, frozen=True, kw_only=True, omit_defaults=True):
-    """A channel and its values."""
+    """A channel with its values."""
 
     values: tuple[float, ...]
 
@@ -127,7 +129,7 @@ _channels_decoder: Final = msgspec.json.Decoder(ChannelsMessage)
 
 
 def channels_message(sensed: Sensed) -> bytes:
-    """The message for a servo period."""
+    """Encode the channels message of a servo period."""
     told = [
         ChannelValues(**msgspec.structs.asdict(channel), values=tuple(map(rounded, values)))
         for channel, values in sensed.channels.items()
@@ -140,7 +142,7 @@ def channels_schema() -> bytes:
 
 
 def decoded_channels(data: bytes) -> tuple[ChannelValues, ...]:
-    """The channels of the message in some bytes; raises DecodeError if it is none."""
+    """The channels in a channels message; raises DecodeError if the data are none."""
     channels = _channels_decoder.decode(data).channels
     if any(channel.width != len(channel.values) for channel in channels):
         raise msgspec.DecodeError("a channel has another number of values than it declares")

@@ -1,4 +1,4 @@
-"""An MCAP file while it grows: after a sync its content survives whatever happens to the program."""
+"""Writes an MCAP file that grows; after a sync, its content survives a crash of the program."""
 
 import os
 from collections.abc import Iterator
@@ -33,7 +33,7 @@ _HARDEST: Final = 19  # level at which a plan is packed: a tenth of its size, in
 
 @dataclass(slots=True)
 class _Sink:
-    """Sink of the MCAP writer: every byte at once, or an OSError; nothing is held back for later."""
+    """Output of the MCAP writer: every byte is written at once, without a buffer, or raises OSError."""
 
     handle: int
     count: int = 0
@@ -53,14 +53,15 @@ class _Sink:
 
 
 class GrowingFile:
-    """A trace being written; one that cannot be written raises CannotWrite once.
+    """A trace that is being written; a write error raises CannotWrite once.
 
-    Where its chunks end depends on the messages alone: by `CHUNK`, after the start of the run, and at the end of each
-    stage; so equal messages give equal bytes. Unless a sync falls within a chunk, which makes the file `uneven`.
+    The ends of chunks depend only on the messages: at `CHUNK` bytes, after the start of the run, and at the end of
+    each stage. Equal messages therefore give equal bytes, unless a sync falls within a chunk, which makes the file
+    `uneven`.
     """
 
     def __init__(self, file: Path) -> None:
-        """Make or empty a file."""
+        """Create the file, or empty it."""
         self.file = file
         self.uneven = False  # a chunk ends where it would not have ended by itself
         self.broken = False  # something could not be written; the file ends there
@@ -71,7 +72,9 @@ class GrowingFile:
         self._writer = Writer(cast(IO[Any], self._sink), chunk_size=1 << 62, enable_data_crcs=True)
 
     def begin(self, head: RunStarted, plan: bytes, *, thinned: bool = False) -> None:
-        """Write what stands before all messages; `thinned`: the file will hold only some of the run's servo periods."""
+        """Write everything that precedes the messages; `thinned`: the file will have only some of the run's servo
+        periods.
+        """
         said = msgspec.to_builtins(head)
         said["seed"], said["world"] = head.world.seed, msgspec.json.encode(head.world).decode()
         metadata = {
@@ -97,7 +100,7 @@ class GrowingFile:
                 self._writer.register_channel(channel.topic, channel.encoding, schema)
 
     def write(self, topic: str, time: int, data: bytes, *, boundary: bool = False) -> None:
-        """Write a message (`time` in ns), or nothing after a failed write; a chunk ends at a `boundary`."""
+        """Write a message (`time` in ns), or do nothing after a failed write; a `boundary` ends the chunk."""
         if self.broken:
             return
         with self._complaining():
@@ -107,7 +110,7 @@ class GrowingFile:
                 self._end_chunk()
 
     def sync(self) -> None:
-        """Put everything so far on the disk."""
+        """Flush everything written so far to the disk."""
         if self.broken:
             return
         with self._complaining():
@@ -117,7 +120,9 @@ class GrowingFile:
             settle(self._sink.handle)
 
     def finish(self) -> None:
-        """Write the summary: the file is whole. If it cannot be written, what was in the file stays readable."""
+        """Write the summary, which completes the file. If the summary cannot be written, the messages stay
+        readable.
+        """
         with self._complaining():
             self._writer.finish()
             settle(self._sink.handle)
@@ -129,7 +134,7 @@ class GrowingFile:
         self.released = True
 
     def move(self, file: Path) -> None:
-        """Rename the file; one that has the name already is replaced."""
+        """Rename the file; a file of that name is replaced."""
         with self._complaining():
             os.replace(self.file, file)
         self.file = file
@@ -140,7 +145,9 @@ class GrowingFile:
 
     @contextmanager
     def _complaining(self) -> Iterator[None]:
-        """Turn an error of the operating system into a sentence; nothing more is written then."""
+        """In this context, an error of the operating system becomes a CannotWrite, and nothing more is written
+        afterwards.
+        """
         try:
             yield
         except OSError as error:
@@ -152,7 +159,7 @@ class GrowingFile:
 
 
 def _flat(fields: dict[str, Any], before: str = "") -> dict[str, Any]:
-    """Fields within fields side by side, their names joined by points."""
+    """Nested fields as flat fields, with names joined by dots."""
     flat: dict[str, Any] = {}
     for name, value in fields.items():
         inner = isinstance(value, dict)

@@ -1,4 +1,4 @@
-"""The typed messages of a trace as bytes, marks on pictures among them. Times are in ns of the cell's clock."""
+"""Encodes the typed messages of a trace, including marks on pictures. Times are in ns of the cell's clock."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any, Final
@@ -30,8 +30,9 @@ LEVEL: Final = 255 // 15  # grey level that one step of the camera's digitiser i
 SECOND: Final = 10**9
 
 Poses = NDArray[np.float32]
-"""Poses in W, shape (n, 7): place (m), then a unit quaternion w, x, y, z. A ten-thousandth of a millimetre is enough
-for a view of the cell, and short figures make short files."""
+"""Poses in W, shape (n, 7): position (m), then a unit quaternion w, x, y, z. Single precision, a ten-thousandth of
+a millimetre, is enough to view the cell and keeps files small.
+"""
 
 
 def stamp(time: int) -> Timestamp:
@@ -39,7 +40,9 @@ def stamp(time: int) -> Timestamp:
 
 
 class JointMessage:
-    """Sensed position and rate of each joint, its torque (N m) or force (N), and the gap; refilled 60 times per s."""
+    """Sensed position and rate of each joint, its torque (N m) or force (N), and the gap; one object is refilled 60
+    times per second.
+    """
 
     def __init__(self, names: tuple[str, ...]) -> None:
         joints = [JointState(name=name) for name in (*names, GAP)]
@@ -47,7 +50,7 @@ class JointMessage:
         *self._joints, self._gap = self._message.joints
 
     def filled(self, time: int, sensed: Sensed, effort: Array) -> bytes:
-        """The message for a servo period."""
+        """Encode the message of a servo period."""
         self._message.timestamp.seconds, self._message.timestamp.nanos = divmod(time, SECOND)
         figures = zip(self._joints, sensed.q.tolist(), sensed.qd.tolist(), effort.tolist(), strict=True)
         for joint, q, qd, tau in figures:
@@ -57,13 +60,13 @@ class JointMessage:
 
 
 class FramesMessage:
-    """Poses of frames in W; filled in again and again like the joints' message."""
+    """Poses of frames in W; one object is refilled, like `JointMessage`."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         self._frames = [FrameTransform(parent_frame_id=WORLD, child_frame_id=name) for name in names]
 
     def filled(self, time: int, which: list[int], poses: Poses) -> bytes:
-        """The message about some frames, by their numbers; their poses, shape (len(which), 7)."""
+        """Encode the message about some frames, given by number, with their poses, shape (len(which), 7)."""
         seconds, nanos = divmod(time, SECOND)
         frames = [self._frames[number] for number in which]
         for frame, pose in zip(frames, poses.tolist(), strict=True):
@@ -74,7 +77,7 @@ class FramesMessage:
 
 
 def picture(time: int, levels: Picture) -> bytes:
-    """A picture, its levels 0..15 spread over those of a byte."""
+    """Encode a picture, with its levels 0 to 15 spread over the range of a byte."""
     height, width = levels.shape
     grey = (levels * np.uint8(LEVEL)).tobytes()
     return RawImage(
@@ -89,13 +92,13 @@ def picture(time: int, levels: Picture) -> bytes:
 
 
 def log(time: int, level: Log.Level.ValueType, sentence: str, *, name: str, file: str, line: int) -> bytes:
-    """A sentence. `name` is the program's; `file` and `line`: where it happened (0: on no line)."""
+    """Encode a sentence. `name` is the program's name; `file` and `line` are the place in the script (0: no line)."""
     message = Log(timestamp=stamp(time), level=level, message=sentence, name=name, file=file, line=line)
     return message.SerializeToString()
 
 
 def annotations(taken: int, marks: Sequence[Mark]) -> bytes:
-    """Marks on the picture taken at a time (ns), which is how the tools find it."""
+    """Encode marks on the picture taken at a time (ns), by which tools find the picture."""
     message = ImageAnnotations(timestamp=stamp(taken))
     for mark in marks:
         match mark:
@@ -109,13 +112,15 @@ def annotations(taken: int, marks: Sequence[Mark]) -> bytes:
 
 
 def read_annotations(data: bytes) -> tuple[int, tuple[Mark, ...]]:
-    """The time (ns) of the picture that marks are on, and the marks; raises DecodeError if there are none."""
+    """Decode marks: returns the time (ns) of their picture, and the marks; raises DecodeError if the data are no
+    marks.
+    """
     message = ImageAnnotations.FromString(data)
     return message.timestamp.seconds * SECOND + message.timestamp.nanos, tuple(_marks(message))
 
 
 def _marks(message: ImageAnnotations) -> Iterator[Mark]:
-    """The marks of a message: lines first, then discs, which is the order they are drawn in."""
+    """The marks of a message, in the order in which they are drawn: lines first, then discs."""
     for lines in message.points:
         points = tuple((point.x - 0.5, point.y - 0.5) for point in lines.points)
         colour = _levels(lines.outline_color)
@@ -157,7 +162,9 @@ def _disc(mark: Disc, taken: int) -> CircleAnnotation:
 
 
 def _point(point: Point) -> Point2:
-    """A picture point; theirs count from the corner of the first point, ours from its middle."""
+    """A picture point in the message's coordinates, which count from the corner of the first point; ours count from
+    its centre.
+    """
     u, v = point
     return Point2(x=u + 0.5, y=v + 0.5)
 

@@ -1,4 +1,4 @@
-"""Plots of traces: joints, force and events against time, in the units of the task; equal traces give equal files."""
+"""Plots traces: joints, forces and events over time, in the units of the task; equal traces give equal files."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ class Panel:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Mark:
-    """Events of a kind."""
+    """Times of the events of one kind."""
 
     name: str
     times: tuple[float, ...]  # s since the run began
@@ -46,7 +46,7 @@ class Mark:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Plot:
-    """A plot of a run, or of a stage of it."""
+    """The data of a plot of a run, or of one stage."""
 
     title: str
     begin: float  # s since the run began
@@ -67,7 +67,9 @@ _MARKED: Final[Mapping[str, type[AnyEvent]]] = {
 
 
 def plot(trace: Trace, stage: str | None = None) -> Plot:
-    """A plot of a trace, or of one `stage` given by its number among those executed, its name, or part of it."""
+    """Make the plot of a trace, or of one `stage`, given by its number among the executed stages, its name, or a
+    part of the name.
+    """
     begin, end = trace.covers if stage is None else _covers(trace, stage)
     rows = Span(begin, end).rows(trace.times)
     if rows.start == rows.stop:
@@ -83,7 +85,7 @@ def plot(trace: Trace, stage: str | None = None) -> Plot:
 
 
 def _covers(trace: Trace, stage: str) -> tuple[float, float]:
-    """Start and end of a stage, each time it ran, s."""
+    """Start of the first and end of the last execution of a stage, s."""
     names = tuple(dict.fromkeys(each.name for each in trace.stages))
     name = names[stage_index(stage, names)]
     found = [each for each in trace.stages if each.name == name]
@@ -91,8 +93,8 @@ def _covers(trace: Trace, stage: str) -> tuple[float, float]:
 
 
 def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
-    """A panel for the revolute joints, one for the prismatic joints and the fingers; in SI units if the arm is not
-    known.
+    """Panels for the revolute joints, and for the prismatic joints with the fingers; in SI units if the arm is
+    unknown.
     """
     task, measures = known_any(trace.head.task), measures_of(trace.head.task)
     kinds = {} if task is None else task.joint_kinds
@@ -139,7 +141,7 @@ def _channels(trace: Trace, begin: float, end: float) -> Iterator[Panel]:
 
 
 def _marks(trace: Trace, begin: float, end: float) -> Iterator[Mark]:
-    """Events that happened, kind by kind; those of the run's own system by the names of their kinds."""
+    """Events by kind; events of the run's own system are named by their type."""
     own = {type(event).__name__: type(event) for event in trace.events if isinstance(event, SystemEvent)}
     for name, kind in {**_MARKED, **own}.items():
         times = (event.time for event in trace.events if isinstance(event, kind))
@@ -172,7 +174,7 @@ _BANDS: Final = ("#f2f2f2", "#ffffff")
 
 
 def drawn(plot: Plot, ending: str) -> bytes:
-    """A plot as a file with an ending of KINDS; raises MissingExtra without matplotlib."""
+    """Draw a plot as a file of a type in KINDS; raises MissingExtra without matplotlib."""
     try:
         import matplotlib
         from matplotlib.figure import Figure
@@ -208,7 +210,7 @@ def _draw_marks(axis: Any, plot: Plot) -> None:
 
 
 def _name_stages(axis: Any, plot: Plot) -> None:
-    """Write each stage over where it begins, or a little to the right where there is no room."""
+    """Write the name of each stage above its beginning, or slightly to the right if there is no space."""
     least, free = (plot.end - plot.begin) * _LEAST_GAP, plot.begin
     for stage in plot.stages:
         if plot.begin <= stage.begin < plot.end:

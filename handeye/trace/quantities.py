@@ -1,4 +1,6 @@
-"""Quantities of a trace: the first one in which two messages on a channel differ, and words for it."""
+"""Quantities in the messages of a trace: finds the first quantity in which two messages differ, and describes it in
+words.
+"""
 
 from collections.abc import Callable, Iterator, Mapping
 from itertools import zip_longest
@@ -35,17 +37,17 @@ class QuantityDifference(Record, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """Its name as one word, for programs: `joint.boom.position`."""
+        """Name of the quantity as one word, for programs, such as `joint.boom.position`."""
         return ".".join(part.replace(" ", "_") for part in self.quantity)
 
 
 def differing(
     a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None = None, *, rounded: bool = False
 ) -> QuantityDifference | None:
-    """The first quantity, times left out, in which two messages on a channel differ, or None.
+    """The first quantity, except times, in which two messages on a channel differ; None if there is none.
 
-    A message is None where one run has none there; without the `arm` whose joints they are about, units are not known.
-    With `rounded`, last places of numbers are no difference.
+    A message is None if its run has none there. Without the `arm` whose joints the messages describe, units are
+    unknown. With `rounded`, differences in the last digits do not count.
     """
     message = a or b
     tell = None if message is None else _TELLERS.get(message.topic)
@@ -61,12 +63,12 @@ def differing(
 
 
 def has_quantities(message: RawMessage) -> bool:
-    """True if the values of a message have names."""
+    """True if the values in a message have names."""
     return message.topic in _TELLERS
 
 
 def differing_events(a: AnyEvent, b: AnyEvent) -> QuantityDifference | None:
-    """The first quantity in which two events of a kind differ, their times left out; None: none."""
+    """The first quantity, except times, in which two events of one kind differ; None if there is none."""
     plain = msgspec.to_builtins(a)
     found = next(_differing(_event(plain), _event(msgspec.to_builtins(b))), None)
     if found is None:
@@ -76,7 +78,7 @@ def differing_events(a: AnyEvent, b: AnyEvent) -> QuantityDifference | None:
 
 
 def _differing(a: Any, b: Any, name: tuple[str, ...] = ()) -> Iterator[Found]:
-    """Differences of two values made of dictionaries and lists, in the order of the first."""
+    """Differences of two values made of dictionaries and lists, in the order of the first value."""
     if isinstance(a, Mapping) or isinstance(b, Mapping):
         one, other = a or {}, b or {}
         for key in dict.fromkeys((*one, *other)):
@@ -133,7 +135,7 @@ def _marks(data: bytes) -> dict[str, Any]:
 
 
 def _event(event: dict[str, Any]) -> dict[str, Any]:
-    """The values of an event, by the names of the quantities; it is made of dictionaries and lists."""
+    """The values of an event (dictionaries and lists) by the names of the quantities."""
     if event["event"] == FrictionMeasured.__name__:
         joints = {each["joint"]["name"]: {"friction": each["friction"]} for each in event["joints"]}
         links = {f"{number}": {"weight": weight} for number, weight in enumerate(event.get("links", ()), 1)}
@@ -143,7 +145,7 @@ def _event(event: dict[str, Any]) -> dict[str, Any]:
 
 
 def _named(value: Any) -> Any:
-    """A place or a difference by the names of its parts; anything else as it is."""
+    """A position or difference by the names of its components; other values unchanged."""
     if not isinstance(value, list | tuple) or len(value) > len(_AXES):
         return value
     numbers = all(isinstance(each, int | float) for each in value)
@@ -152,7 +154,7 @@ def _named(value: Any) -> Any:
 
 _AXES: Final = ("x", "y", "z", "O", "A", "T")
 _RECORDED: Final = {FRAMES: 2.0**-22, HAND: 1.1 * 10.0**-PLACES, EVENTS: 1.1e-6}
-"""Last places of numbers as they are recorded: 24 binary digits, and decimals that a last place may turn over."""
+"""Resolution of recorded numbers: 24 binary digits, or decimals, with a margin for rounding."""
 _TELLERS: Final[Mapping[str, Callable[[bytes], dict[str, Any]]]] = {
     JOINTS: _joints,
     HAND: _hand,
@@ -242,7 +244,7 @@ _EVENTS: Final[Mapping[str, str]] = {
 
 
 def quantity_text(quantity: tuple[str, ...]) -> str:
-    """A quantity in words: `position of joint boom`, `place x of body base`, `value of the stop`."""
+    """A quantity in words, such as `position of joint boom`, `place x of body base` or `value of the stop`."""
     match quantity:
         case (("joint" | "body" | "link") as kind, name, *what):
             said = f"{' '.join(what)} of {kind} {name}"
@@ -258,7 +260,7 @@ def quantity_text(quantity: tuple[str, ...]) -> str:
 
 
 def values_text(found: QuantityDifference, measures: Measures = INCHES) -> tuple[str, str]:
-    """Both values in units of the period or (`measures`) of the task, with the decimals that tell them apart."""
+    """Both values in units of 1973, or in those of the task (`measures`), with enough decimals to distinguish them."""
     numbers = [value for value in (found.a, found.b) if _is_number(value)]
     told = iter(_numbers(numbers, found.unit, measures))
     one, other = (
@@ -273,7 +275,7 @@ def _is_number(value: Value) -> bool:
 
 
 def _numbers(values: list[Value], unit: str, measures: Measures) -> list[str]:
-    """Numbers in the displayed unit; in SI, to the last bit, if they would look the same."""
+    """Numbers in the displayed unit; in SI with all digits if they would look equal."""
     numbers = [float(value) for value in values if isinstance(value, int | float)]
     if all(isinstance(value, int) for value in values):
         return [f"{value}" for value in values]

@@ -1,4 +1,6 @@
-"""Reads traces from disk, and their plans. One that is not whole, not valid or not ours is refused in one sentence."""
+"""Reads traces and their plans from disk. A trace that is incomplete, invalid or of another program is refused with
+one sentence.
+"""
 
 import re
 from collections import Counter
@@ -27,12 +29,14 @@ TRACE: Final = Kind("trace", re.escape(MCAP0_MAGIC), ending=".mcap")
 
 
 def read_trace(path: Path, *, lenient: bool = False) -> Trace:
-    """The trace in a file; raises BadFile if it is not whole (unless `lenient`), valid, and of its plan."""
+    """Read a trace from a file; raises BadFile if the trace is incomplete (unless `lenient`), invalid, or does not
+    fit its plan.
+    """
     return read_trace_as(Trace, path, lenient=lenient)
 
 
 def read_trace_as(kind: type[AnyTrace], path: Path, *, lenient: bool = False) -> AnyTrace:
-    """The same, as an object of a class that adds to `Trace`."""
+    """Like `read_trace`, but returns an object of a subclass of `Trace`."""
     data = read_whole(path)
     try:
         plan, version, thinned = _identify(path, data)
@@ -70,7 +74,9 @@ def is_cut_short(path: Path) -> bool:
 
 
 def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
-    """The plan in a file that says it is a trace of ours, the version of its format, and whether it is thinned."""
+    """The plan in a file that is marked as a handeye trace, the version of the trace format, and whether the trace
+    is thinned.
+    """
     if not is_mcap(data):
         raise BadFile(f"{path} is not a trace: it is not an MCAP file")
     start = front(data)
@@ -89,13 +95,15 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
 
 
 def plan_of(trace: Trace) -> Plan:
-    """The plan that ran; raises InvalidInput if it is not valid, or the system follows none."""
+    """The plan of a recorded run; raises InvalidInput if the plan is invalid, or the system executes no plans of
+    motions.
+    """
     require(trace.head.system, "plans", trace.name)
     return decode(trace.plan, f"the plan in {trace.name}")
 
 
 def stage_names(trace: Trace) -> tuple[str, ...]:
-    """The stages of the program; of a system that follows no plan of motions, those that began."""
+    """The stages of the program; for a system without plans of motions, the stages that began."""
     if "plans" in entry_named(trace.head.system).can:
         return plan_of(trace).program.stages
     return tuple(dict.fromkeys(stage.name for stage in trace.stages))

@@ -1,4 +1,4 @@
-"""Records a run as it happens: every event, and the position of everything sixty times a second."""
+"""Records a run as it happens: every event, and the poses of all bodies sixty times per second."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -29,23 +29,24 @@ from handeye.vision.marks import Mark
 
 
 def part(path: Path) -> Path:
-    """Path of a growing trace that will be at `path` when it is whole."""
+    """Path of a trace while it grows; when it is complete, it is renamed to `path`."""
     return path.with_name(f"{path.name}.part")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSource:
-    """Pictures of a program and marks on them, asked for when an event is about one."""
+    """Pictures of a program and the marks on them, requested when an event concerns a picture."""
 
     picture: Callable[[str], Picture]  # the picture of a name, as it was taken last
     found: Callable[[], tuple[str, Sequence[Mark]]]  # picture and marks that the present step found
 
 
 class Recorder:
-    """Writes the trace of a run: what is undone is taken out again, so that the file holds what counted.
+    """Writes the trace of a run; messages about undone steps are removed, so that the file contains only what
+    counts.
 
-    A run that was interrupted and resumed any number of times leaves the same bytes as one that never was. A trace that
-    cannot be written raises CannotWrite once, and nothing more is written.
+    A run that was interrupted and resumed leaves the same bytes as an uninterrupted one. A write error raises
+    CannotWrite once, and nothing more is written.
     """
 
     def __init__(
@@ -58,9 +59,10 @@ class Recorder:
         old: bytes = b"",
         prefix: Sequence[Event] = (),
     ) -> None:
-        """Begin a trace; what another run left unfinished at its place is replaced.
+        """Begin a trace; an unfinished trace of another run at this path is replaced.
 
-        `plan` is the content of `plan.json`; `old` a trace to resume, whole or not, that begins with events `prefix`.
+        `plan` is the content of `plan.json`; `old` is a trace to resume, complete or not, that begins with the
+        events `prefix`.
         """
         self._path, self._frames, self._looks, self._plan = path, frames, looks, plan
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []
@@ -81,10 +83,10 @@ class Recorder:
         events: int,
         prefix: Sequence[Event],
     ) -> "Recorder":
-        """Resume the trace that a broken-off run left, after its event number `events`.
+        """Resume the trace of an interrupted run after its event number `events`.
 
-        Of `prefix`, the events so far, those that the trace has lost are written again, without what happened between
-        them; if it is the trace of another run, or there is none, that is all of them.
+        `prefix` are the events so far. Events that the trace has lost are written again, without the messages
+        between them; if there is no trace, or it belongs to another run, these are all events.
         """
         prefix = prefix[:events]
         left = [read_whole(file) for file in (part(path), path) if file.exists()]
@@ -95,13 +97,13 @@ class Recorder:
 
     @property
     def broken(self) -> bool:
-        """Something could not be written; the trace ends there."""
+        """True if a write has failed; the trace ends there."""
         return self._writing.file.broken
 
     # -- what happens -------------------------------------------------------------------------------
 
     def event(self, event: Event) -> None:
-        """Write an event; the first is RunStarted. `WentBack` has no place in a trace: see `cut`."""
+        """Write an event; the first event must be RunStarted. `WentBack` does not occur in a trace: see `cut`."""
         if isinstance(event, WentBack):
             return
         self._catch_up()
@@ -114,28 +116,31 @@ class Recorder:
         self._writing.event(event)
 
     def tick(self, period: ServoPeriod) -> None:
-        """Take down a servo period that has passed, and the frames.
+        """Record a servo period that has passed, with the poses of all bodies.
 
-        It is written before the next event, together with the periods around it: the simulation between two periods
-        takes the processor's memory from the recorder, and writing each by itself takes twice as long.
+        The period is written before the next event, together with the other periods since the last one, because
+        writing each period separately takes twice as long: the simulation displaces the recorder from the
+        processor's cache.
         """
         if self._writing.head is None:  # what was before the run is no part of it
             return
         self._waiting.append((period, self._frames.poses(), self._frames.there()))
 
     def flush(self) -> None:
-        """Put everything so far on the disk."""
+        """Flush everything recorded so far to the disk."""
         self._catch_up()
         self._writing.file.sync()
 
     def cut(self, events: int) -> None:
-        """Take out everything after the first `events` events."""
+        """Remove everything after the first `events` events."""
         if not self._writing.file.broken:
             self._rewrite(events)
         self._waiting.clear()
 
     def close(self) -> None:
-        """Put the trace in its place, whole. One that could not be written to its end stays where it grew."""
+        """Complete the trace and rename it to its final path. A trace that could not be completed keeps its
+        temporary name.
+        """
         if self._writing.file.released:
             return
         try:
@@ -159,14 +164,14 @@ class Recorder:
             self._writing.frames(period.sensed.time, poses, there)
 
     def _rewrite(self, events: int | None) -> None:
-        """Replace the file by a new one with its content up to event number `events`; None: with everything."""
+        """Replace the file by a new one with its content up to event number `events`, or with all of it if None."""
         old = self._writing
         old.file.sync()
         self._writing = self._copied(read_whole(old.file.file), events, old.head)
         old.file.release()
 
     def _copied(self, old: bytes, events: int | None, head: RunStarted | None) -> TraceWriter:
-        """Begin a new file with the content of an old one up to an event; it replaces the old one."""
+        """Begin a new file with the content of an old one up to an event; the new file replaces the old one."""
         file = GrowingFile(self._path.with_name(f".{self._path.name}.new"))
         writing = TraceWriter(file, self._frames, self._plan)
         try:

@@ -1,6 +1,7 @@
-"""Records of an MCAP file, and whether it is all there and as it was written.
+"""Records of an MCAP file, and checks that the file is complete and undamaged.
 
-The MCAP reader checks some of a file's check sums. Here all of them are, so that no bit can change unnoticed.
+The MCAP reader verifies only some check sums of a file. Here all are verified, so that no changed bit goes
+unnoticed.
 """
 
 import struct
@@ -32,7 +33,7 @@ Kind = TypeVar("Kind", Attachment, Chunk, Metadata)
 
 
 class DamagedTrace(Exception):
-    """A file is not as it was written; the words say how."""
+    """A file is damaged; the message says how."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,9 +64,9 @@ def is_ended(data: bytes) -> bool:
 
 
 def check(data: bytes) -> None:
-    """Raises DamagedTrace unless an MCAP file is whole, and every bit of it as it was written.
+    """Raises DamagedTrace unless an MCAP file is complete and every bit is as written.
 
-    Two check sums cover everything: one the records up to that of the end of the data, one those of the summary.
+    Two check sums cover the whole file: one covers the records up to the end of the data, the other the summary.
     """
     if not is_ended(data):
         raise DamagedTrace("is cut short")
@@ -81,7 +82,7 @@ def check(data: bytes) -> None:
 
 
 def front(data: bytes) -> Front:
-    """The trace's own metadata, empty if it has none, and its plan."""
+    """The trace's own metadata, empty if there are none, and its plan."""
     metadata: dict[str, str] = {}
     plan = None
     for opcode, body in _records(data):
@@ -97,7 +98,7 @@ def front(data: bytes) -> Front:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """Unpacked bytes; raises DamagedTrace if they are damaged, or would fill the memory."""
+    """Decompress bytes; raises DamagedTrace if they are damaged, or would fill the memory."""
     try:
         if not 0 <= frame_content_size(data) <= LARGEST:
             raise DamagedTrace("is damaged")
@@ -107,7 +108,9 @@ def _unpacked(data: bytes) -> bytes:
 
 
 def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]:
-    """The messages in whole chunks of a file; at a damaged one raises DamagedTrace, or ends if `lenient`."""
+    """The messages in complete chunks of a file; a damaged chunk raises DamagedTrace, or ends the messages if
+    `lenient`.
+    """
     topics: dict[int, str] = {}
     for opcode, body in _records(data):
         if opcode != Opcode.CHUNK:
@@ -126,7 +129,7 @@ def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]
 
 
 def _modest(chunk: Chunk) -> Chunk:
-    """A chunk that will not fill the memory. Raises DamagedTrace for another."""
+    """Check that a chunk will not fill the memory; raises DamagedTrace if it would."""
     packed = chunk.compression == "zstd"
     size = max(chunk.uncompressed_size, frame_content_size(chunk.data) if packed else len(chunk.data))
     if size > LARGEST or not (packed or chunk.compression == ""):
@@ -146,7 +149,7 @@ def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
 
 
 def _parsed(kind: type[Kind], body: bytes) -> Kind:
-    """A record of a kind. Raises DamagedTrace if it is none."""
+    """Parse a record of one kind; raises DamagedTrace if the bytes are none."""
     try:
         found: Kind = kind.read(ReadDataStream(BytesIO(body)))
     except _TROUBLE:
@@ -160,7 +163,7 @@ def event_data(event: Event) -> bytes:
 
 
 def until(messages: Iterable[RawMessage], events: int | None) -> Iterator[RawMessage]:
-    """The messages up to event number `events`; None: all."""
+    """The messages up to event number `events`, or all if None."""
     if events == 0:
         return
     count = 0
@@ -172,7 +175,7 @@ def until(messages: Iterable[RawMessage], events: int | None) -> Iterator[RawMes
 
 
 def known(data: bytes, events: Sequence[Event]) -> int:
-    """Number of these events, from the first on, that a trace holds as they are here."""
+    """Number of these events, from the first on, that a trace contains unchanged."""
     written = (message.data for message in read_messages(data, lenient=True) if message.topic == EVENTS)
     count = 0
     for event, there in zip(events, written, strict=False):

@@ -1,4 +1,4 @@
-"""A recorded run at any time, without simulating it again: motions, pictures, poses."""
+"""The state of a recorded run at any time, without simulation: motions, pictures, poses."""
 
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
@@ -30,7 +30,7 @@ class TakenPicture(Brief):
 
 
 def read_pictures(messages: Iterable[RawMessage]) -> Iterator[TakenPicture]:
-    """The pictures among messages, in order; the event that names one follows it."""
+    """The pictures in messages, in order; the name of a picture is in the event after it."""
     picture: Picture | None = None
     reader = EventReader()
     for message in messages:
@@ -51,7 +51,7 @@ def _levels(data: bytes) -> Picture:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Motion(Brief):
-    """Columns of n servo periods of an arm of m joints, by its sensors."""
+    """Joints of an arm over a run, by its sensors: arrays over n servo periods and m joints."""
 
     names: tuple[str, ...]  # names of the joints, in order
     times: Array  # ends of the periods on the cell's clock, shape (n,), s
@@ -62,7 +62,7 @@ class Motion(Brief):
 
 
 def read_motion(messages: Iterable[RawMessage]) -> Motion:
-    """The columns of messages about joints; raises ValueError if one is of another arm than the first."""
+    """The arrays from messages about joints; raises ValueError if a message is from another arm than the first."""
     times, rows, names = [], [], None
     for message in messages:
         joints = JointStates.FromString(message.data).joints
@@ -87,7 +87,7 @@ def read_motion(messages: Iterable[RawMessage]) -> Motion:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class ChannelCurve(Brief):
-    """One component of a channel against time."""
+    """One component of a channel over time."""
 
     name: str
     unit: str  # SI; empty: a switch or a count
@@ -96,7 +96,7 @@ class ChannelCurve(Brief):
 
 
 def read_channels(messages: Iterable[RawMessage]) -> tuple[ChannelCurve, ...]:
-    """The components of all channels of some messages, in order; raises DecodeError if one is no such message."""
+    """All components of the channels in messages, in order; raises DecodeError if a message is invalid."""
     found: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for message in messages:
         for channel in decoded_channels(message.data):
@@ -114,7 +114,7 @@ Pose7 = tuple[float, float, float, float, float, float, float]  # m in W, and un
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Moment(Brief):
-    """A moment of a run."""
+    """The state of a run at one moment."""
 
     time: float  # end of the servo period that is shown, s
     joints: Array  # positions by the sensors, shape (m,), rad and m
@@ -133,7 +133,7 @@ class _StageSpan:
 
 
 class Replay:
-    """A run prepared for looking at any time; it has one servo period at least."""
+    """A run prepared for access at any time; it has at least one servo period."""
 
     def __init__(
         self,
@@ -142,13 +142,15 @@ class Replay:
         events: Iterable[AnyEvent],
         pictures: Sequence[TakenPicture],
     ) -> None:
-        """Gather the poses in each servo period."""
+        """Collect the poses of each servo period."""
         self._motion, self._pictures = motion, pictures
         self._told = _tellings(events)
         self.names, self.poses = _placed(moves(messages), len(motion.times))
 
     def seek(self, time: float) -> Moment:
-        """The moment at a time (s); before the first servo period as at the first, after the last as at the last."""
+        """The state at a time (s); times before the first and after the last servo period give the first or the
+        last state.
+        """
         row = max(bisect_right(self._motion.times, time) - 1, 0)
         told = bisect_right(self._told, time, key=lambda telling: telling.time) - 1
         taken = bisect_right(self._pictures, time, key=lambda picture: picture.time) - 1
@@ -170,7 +172,9 @@ class Replay:
 
 
 def moves(messages: Iterable[RawMessage]) -> Iterable[tuple[int, dict[str, Pose7]]]:
-    """Frames as written: the number of their servo period (the first, if before it), and the pose of each."""
+    """The recorded poses: number of the servo period (0 before the first one), and the poses of the frames that
+    moved.
+    """
     row = -1
     for message in messages:
         if message.topic == JOINTS:
@@ -188,7 +192,9 @@ def _poses(data: bytes) -> dict[str, Pose7]:
 
 
 def _placed(moved: Iterable[tuple[int, dict[str, Pose7]]], rows: int) -> tuple[tuple[str, ...], Poses]:
-    """Names of the frames, and their poses in each servo period, shape (rows, frames, 7); NaN before one is seen."""
+    """Names of the frames, and their poses in each servo period, shape (rows, frames, 7); NaN before a frame first
+    appears.
+    """
     written = list(moved)
     names = tuple(dict.fromkeys(name for _, poses in written for name in poses))
     index = {name: number for number, name in enumerate(names)}

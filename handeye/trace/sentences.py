@@ -1,4 +1,4 @@
-"""Sentences about events, in the units of the arm language: inches, ounces, degrees."""
+"""Sentences for events, in the units of the arm language: inches, ounces, degrees."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -44,7 +44,7 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
 
 
 def level_of(event: Event) -> Log.Level.ValueType | None:
-    """Log level of an event; None if it is not worth logging."""
+    """Log level of an event; None if the event is not logged."""
     return _IMPORTANCE[event.importance] if isinstance(event, SystemEvent) else LEVELS.get(type(event))
 
 
@@ -70,13 +70,13 @@ _PLACES: Final = ("saved", "position")  # kinds of experiments whose values are 
 
 
 def measures_of(task: str) -> Measures:
-    """The displayed units of runs of a task, by its name; those of the arm language if it is not known here."""
+    """The display units for runs of a task, given by name; those of the arm language if the task is unknown here."""
     found = known_any(task)
     return INCHES if found is None else found.measures
 
 
 def inches(vector: Sequence[float], places: int = 2) -> str:
-    """A vector (m) as the language would write it."""
+    """A vector (m) as the language writes it, in inches."""
     return "(" + ", ".join(f"{c / INCH:z.{places}f}" for c in vector) + ") in"
 
 
@@ -89,7 +89,9 @@ def renderer_name(renderer: Renderer) -> str:
 
 
 def sentence(event: Event, measures: Measures = INCHES) -> str:
-    """An event as a sentence, without the time; `measures` are for the end of a step and the system's own events."""
+    """An event as a sentence, without the time; `measures` are used for the end of a step and for events of the
+    system.
+    """
     match event:
         case happened.RunStarted():
             pictures = "" if event.camera.method == "none" else f", pictures by {renderer_name(event.camera)}"
@@ -196,7 +198,7 @@ def _faint(event: happened.GuardFaint) -> str:
 
 
 def _beyond(said: str, si: float, unit: str) -> Callable[[happened.GuardTripped], str]:
-    """A sentence with what was felt, and what it is over."""
+    """A sentence with the sensed value and the limit that it exceeds."""
 
     def sentence(event: happened.GuardTripped) -> str:
         felt, limit = distinct_digits([event.value / si, event.limit / si], 1)
@@ -223,6 +225,6 @@ def _seen(event: happened.PartSeen) -> str:
 
 
 def _value(value: tuple[float, ...]) -> str:
-    """A difference or place, and after it the angles of a position."""
+    """A difference or position as text, with the angles of a position after it."""
     angles = "".join(f" {math.degrees(angle):.1f}" for angle in value[3:])
     return inches(value[:3], 3) + (f", angles{angles}" if angles else "")

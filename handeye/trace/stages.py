@@ -1,4 +1,4 @@
-"""The stages and steps of a run as executed."""
+"""The stages and steps of a run, as executed."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
@@ -26,20 +26,20 @@ CLOCKS = 1e-4  # s by which the rounded clock of events may be off that of servo
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """A time from when something began to when it ended, s."""
+    """A time span, from the beginning to the end of a stage or step, s."""
 
     begin: float
     end: float
 
     def rows(self, times: Array) -> slice:
-        """The servo periods of it, which end at some times, shape (n,)."""
+        """The servo periods within the span, as a slice of `times`, shape (n,), at which the periods end."""
         first, last = np.searchsorted(times, [self.begin + CLOCKS, self.end + CLOCKS]).tolist()
         return slice(first, last)
 
 
 @dataclass(slots=True)
 class DoneStep:
-    """A step as executed."""
+    """A step, as executed."""
 
     started: StepStarted
     events: list[AnyEvent] = field(default_factory=list)  # its end among them, if it ended
@@ -50,7 +50,7 @@ class DoneStep:
 
     @property
     def span(self) -> Span:
-        """The time it took; one that was interrupted ends with the run."""
+        """The duration of the step; a step that was interrupted lasts until the end of the run."""
         return Span(self.started.time, self.events[-1].time if self.finished else np.inf)
 
 
@@ -74,7 +74,7 @@ Status = Literal["done", "stopped", "skipped", "broken off", "turned"]  # `turne
 
 
 class Stage(Record, frozen=True, kw_only=True):
-    """A stage from its beginning to its end; one that was done again is another."""
+    """One execution of a stage, from beginning to end; a repeated stage has several."""
 
     name: str
     begin: float  # s
@@ -84,7 +84,7 @@ class Stage(Record, frozen=True, kw_only=True):
 
 
 def stages(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
-    """The stages in the order in which they were begun."""
+    """The stages, in the order in which they began."""
     found: list[Stage] = []
     begun: StageStarted | None = None
     time = 0.0
@@ -101,7 +101,7 @@ def stages(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
 
 
 def stages_both_ways(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
-    """The stages in the order in which the arm went through them, forwards or, undoing them, back."""
+    """The stages in the order in which the arm went through them, forwards or, while undoing, backwards."""
     walk, time = _Walk(), 0.0
     for event in events:
         time = event.time
@@ -139,14 +139,14 @@ class _Walk:
                 self.end(event.time, "done")
 
     def _turn(self, time: float, *, back: bool) -> None:
-        """The arm goes one way or the other from now on, if it did not."""
+        """Change the direction, forwards or backwards, in which the arm goes through stages."""
         if self._begun is not None and self._back != back:
             self.end(time, "turned")
         if self._begun is None:
             self._begun, self._back = time, back
 
     def end(self, time: float, status: Status) -> None:
-        """The way through the stage under way ends, if there is one."""
+        """End the present passage through a stage, if there is one."""
         if self._begun is not None and self._done:
             stage = Stage(name=self._done[-1], begin=self._begun, end=time, status=status, back=self._back)
             self.found.append(stage)

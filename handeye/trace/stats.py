@@ -1,4 +1,4 @@
-"""The figures of a run: where the time went, and what happened how often."""
+"""Statistics of a run: where the time went, and how often each kind of event happened."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ BROKEN_OFF = "interrupted"  # status of a stage whose end was not recorded
 
 
 class Figures(msgspec.Struct, kw_only=True):
-    """Figures of a part of a run."""
+    """Statistics of a part of a run."""
 
     seconds: float = 0.0  # simulated, s
     camera_s: float = 0.0  # share of these that the camera's mechanism took, s
@@ -47,14 +47,14 @@ class Figures(msgspec.Struct, kw_only=True):
 
 
 class StageFigures(Figures, kw_only=True):
-    """Figures of a stage; one that was done more than once is counted together."""
+    """Statistics of a stage; repetitions of a stage are added up."""
 
     stage: str
     status: str = BROKEN_OFF  # how it last ended: done, stopped, skipped, or interrupted
 
 
 class Statistics(msgspec.Struct, kw_only=True):
-    """The figures of a whole run."""
+    """Statistics of a whole run."""
 
     stages: list[StageFigures]
     total: Figures
@@ -64,7 +64,7 @@ class Statistics(msgspec.Struct, kw_only=True):
 
 
 def statistics(events: Sequence[AnyEvent], messages: dict[str, int]) -> Statistics:
-    """The figures of a run, with the number of `messages` on each channel of its trace."""
+    """Statistics of a run, with the number of `messages` on each channel of its trace."""
     total = Figures()
     for event in events:
         total.add(event)
@@ -102,7 +102,7 @@ def _stages(events: Sequence[AnyEvent]) -> list[StageFigures]:
 
 
 def statistics_table(figures: Statistics, columns: int) -> RenderableType:
-    """The figures for a terminal of that many columns; times in simulated seconds."""
+    """A table of the statistics for a terminal with `columns` columns; times in simulated seconds."""
     table = _table(figures) if columns >= NARROW else _lines(figures)
     told = f"operator called: {figures.operator}; experiments: {figures.experiments}"
     parts: list[RenderableType] = [table, Text(), Text(told)]
@@ -124,7 +124,9 @@ def _table(figures: Statistics) -> Table:
 
 
 def _lines(figures: Statistics) -> Group:
-    """A paragraph for each stage, and one for all: a table would break the names in the middle of words."""
+    """The statistics as a paragraph for each stage and one for the total, for narrow terminals in which a table
+    would break words.
+    """
     rows = [*((_name(stage), _cells(stage)) for stage in figures.stages), ("all", _cells(figures.total))]
     told = (
         (name, ", ".join(f"{cell} {head}" for head, cell in zip(_HEADS, cells, strict=True) if cell))

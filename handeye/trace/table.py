@@ -1,4 +1,4 @@
-"""A table: named columns with units, which shows itself, and converts to a DataFrame."""
+"""A table of named columns with units, which displays itself and converts to a DataFrame."""
 
 from dataclasses import dataclass, replace
 from math import isnan
@@ -29,7 +29,7 @@ class Column(Brief):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Table:
-    """A table; a column is an array, or a tuple of texts.
+    """A table; each column is an array, or a tuple of texts.
 
     >>> events = handeye.open(handeye.demo).table("events")
     >>> events["event"][0], len(events[10:20])
@@ -63,7 +63,7 @@ class Table:
         return found[which]
 
     def to_pandas(self) -> Any:
-        """Make a DataFrame of it, a column of it each.
+        """Convert the table to a pandas DataFrame, with the same columns.
 
         Raises:
             InvalidInput: pandas is not installed.
@@ -80,7 +80,7 @@ class Table:
         )
 
     def _repr_html_(self) -> str:
-        """The first rows; `table[100:110]` shows others."""
+        """The first rows as HTML; `table[100:110]` shows others."""
         columns = [column for column in self.columns if column.name != "data"]
         heads = [f"{each.name}, {each.unit}" if each.unit else each.name for each in columns]
         rows = zip(*(each.values[:SHOWN_ROWS] for each in columns), strict=True)

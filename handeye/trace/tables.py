@@ -1,4 +1,4 @@
-"""A trace as tables for programs that analyse data, and the folder in which they are exported."""
+"""A trace as tables for data analysis, and the folder to which they are exported."""
 
 import csv
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -26,14 +26,14 @@ NO_STEP: Final = -1  # instead of the number of a step, and of its line, where n
 
 
 def table(trace: Trace, name: str) -> Table:
-    """One of the tables of a run, by its name; raises NoSuchName if there is none."""
+    """One of the tables of a run, by name; raises NoSuchName if there is no table of that name."""
     if name not in _TABLES:
         raise NoSuchName(f"there is no table {name!r}; there are {', '.join(_TABLES)}")
     return _TABLES[name](trace)
 
 
 def tables(trace: Trace) -> tuple[Table, ...]:
-    """Joints, forces and events of a run, and the channels of its machines, if they have any."""
+    """The tables of a run: joints, forces, events and, if its machines have channels, the channels."""
     return tuple(make(trace) for name, make in _TABLES.items() if name != "channels" or trace.channels)
 
 
@@ -156,7 +156,7 @@ def _happening(events: Iterable[AnyEvent]) -> Iterator[_RunPosition]:
 
 
 def _under_way(trace: Trace, times: Array) -> tuple[Column, ...]:
-    """When servo periods ended, shape (n,), and which step was under way in each."""
+    """Columns with the end of each servo period, shape (n,), and the step in progress then."""
     happening = tuple(_happening(trace.events))
     begun = np.array([event.time for event in trace.events]) + CLOCKS
     rows = np.searchsorted(begun, times, side="right") - 1
@@ -195,7 +195,7 @@ EXPORT: Final = FolderKind(
 def export_tables(
     path: Path, trace: Callable[[], Trace], kind: Format, *, overwrite: bool
 ) -> tuple[Table, ...]:
-    """Write the tables of a trace, which is read once the folder has been checked; returns them."""
+    """Write the tables of a trace, which is read only after the folder has been checked; returns the tables."""
     check_folder(path, EXPORT, overwrite=overwrite)
     made = tables(trace())
     write_tables(path, made, kind)
@@ -203,13 +203,15 @@ def export_tables(
 
 
 def check_tables(path: Path, kind: Format) -> None:
-    """Raises CannotWrite or MissingExtra if tables cannot be written to a folder."""
+    """Raises CannotWrite or MissingExtra if tables of this kind cannot be written to a folder."""
     check_folder(path, EXPORT, overwrite=True)
     _WRITERS[kind](Table(name="", about="", columns=()))
 
 
 def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _SI) -> None:
-    """Write tables to a folder, replacing those there, with a README on their columns and (`units`) their units."""
+    """Write tables to a folder, replacing the tables in it, with a README about their columns and (`units`) their
+    units.
+    """
     check_folder(path, EXPORT, overwrite=True)
     written = _WRITERS[kind]
     files = {f"{table.name}.{kind}": written(table) for table in made}
@@ -218,7 +220,9 @@ def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _
 
 
 def csv_bytes(table: Table) -> bytes:
-    """A table as CSV: its columns' names, then a row a line; numbers as exact as they are, none an empty cell."""
+    """A table as CSV: the names of the columns, then one row per line; numbers have full precision, None and NaN
+    are empty cells.
+    """
     text = StringIO()
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow([column.name for column in table.columns])
@@ -234,7 +238,7 @@ def _cells(column: Column) -> Iterable[object]:
 
 
 def parquet_bytes(table: Table) -> bytes:
-    """A table as Parquet; units and meanings are metadata of its fields."""
+    """A table as Parquet, with units and meanings as metadata of the fields."""
     try:
         import pyarrow as pa
         from pyarrow import parquet

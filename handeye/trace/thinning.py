@@ -1,4 +1,4 @@
-"""Thinned traces: as few servo periods as show the run; the others lie nearly on the straight way between them."""
+"""Thinned traces: keep only the servo periods needed to show the run; all others can be interpolated linearly."""
 
 from collections.abc import Iterator
 from math import radians
@@ -32,13 +32,13 @@ FELT: Final = {
 }  # allowed deviation of the reading of a guard: N, N m, or switches
 LONGEST_GAP_S: Final = 10.0  # between two periods, even at rest: the second hand of a clock moves on
 _NOWHERE: Final = np.array([0, 0, -1e3, 1, 0, 0, 0], dtype=np.float64)
-"""Pose of an absent body, far from all others."""
+"""Pose for an absent body, far from all others."""
 
 
 def kept_periods(trace: Trace) -> Rows:
-    """Numbers of the servo periods that are enough, in order, of a run that has any.
+    """Numbers of the servo periods to keep, in order, for a run that has any.
 
-    Those in which a guard begins and ceases to watch are among them, and that in which its value is greatest.
+    The first and last period of each guard, and the period with its greatest value, are always kept.
     """
     times, forces = trace.times, trace.forces()
     offs = [*_bodies(times, trace.poses), _felt(times, forces)]
@@ -59,7 +59,7 @@ def _bodies(times: Array, poses: dict[str, Poses]) -> Iterator[Off]:
 
 
 def _felt(times: Array, forces: Forces) -> Off:
-    """Deviation of the values that guards look at."""
+    """A function for the deviation of the guards' values from interpolation."""
     allowed: NDArray[np.float64] = np.full(len(times), np.inf)
     for kind, most in FELT.items():
         allowed[forces.guard == kind] = most
@@ -67,7 +67,7 @@ def _felt(times: Array, forces: Forces) -> Off:
 
 
 def _watching(forces: Forces) -> Iterator[int]:
-    """First and last servo period of each guarded motion, and that in which the value was greatest."""
+    """First and last servo period of each guarded motion, and the period with the greatest value."""
     watched = np.concatenate([[False], forces.guard != "", [False]])
     borders = np.flatnonzero(watched[1:] != watched[:-1]).reshape(-1, 2).tolist()
     for first, after in borders:
@@ -76,14 +76,17 @@ def _watching(forces: Forces) -> Iterator[int]:
 
 
 STEP: Final = np.float32(2.0**-13)
-"""To which places (m) and parts of quaternions are rounded: an eighth of a millimetre, and .014 degrees at most."""
+"""Step to which positions (m) and quaternion components are rounded: an eighth of a millimetre, and at most .014
+degrees.
+"""
 
 
 def write_thinned(trace: Trace, path: Path) -> int:
-    """Write a thinned trace of a run; the number of servo periods that it keeps.
+    """Write a thinned trace of a run; returns the number of servo periods kept.
 
-    Left out are joints, hand and frames of the other periods, and the looks of the bodies, which other programs show.
-    Frames are rounded. All else is as it was, to the byte. Raises Refused if it is already thinned or holds no motion.
+    Joints, hand and frames of all other periods are left out, and the shapes of the bodies, which only other
+    programs use. Frames are rounded. Everything else is unchanged, byte for byte. Raises Refused if the trace is
+    already thinned or contains no motion.
     """
     if trace.thinned:
         raise Refused(f"{trace.name} is already thinned")
@@ -108,7 +111,7 @@ def write_thinned(trace: Trace, path: Path) -> int:
 
 
 def _messages(trace: Trace, kept: frozenset[int]) -> Iterator[RawMessage]:
-    """The messages of the thinned trace. Where everything was stands behind the joints of a period that is kept."""
+    """The messages of the thinned trace. In a kept period, the poses follow the message about joints."""
     frames, row = _Frames(trace), -1
     for message in trace.messages:
         row += message.topic == JOINTS
@@ -122,7 +125,7 @@ def _messages(trace: Trace, kept: frozenset[int]) -> Iterator[RawMessage]:
 
 
 class _Frames:
-    """Poses as messages about the bodies that have moved since the last one."""
+    """Poses, as messages about the bodies that have moved since the last message."""
 
     def __init__(self, trace: Trace) -> None:
         self._poses = np.rint(np.stack(list(trace.poses.values()), axis=1) / STEP) * STEP

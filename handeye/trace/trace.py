@@ -1,4 +1,4 @@
-"""A trace that was read: what happened in a run, and what was recorded between the events."""
+"""A trace read from a file: the events of a run, and the recordings between the events."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -40,10 +40,11 @@ Read = TypeVar("Read")
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trace:
-    """A trace that was read, and found valid. What is computed from its messages is computed once.
+    """The recording of a run, read from a file and checked. Values computed from the recording are computed once
+    and kept.
 
-    Times are s since the program began, everywhere. Reading raises `InvalidInput` if a message
-    is not what its channel says.
+    Times are in seconds since the program began. Reading raises `InvalidInput` if a message does not match its
+    channel.
     """
 
     name: str  # the file it was read from
@@ -59,12 +60,12 @@ class Trace:
 
     @cached_property
     def stages(self) -> tuple[Stage, ...]:
-        """The stages as executed, in order."""
+        """The stages, as executed, in order."""
         return Several(stages(self.events))
 
     @cached_property
     def stages_both_ways(self) -> tuple[Stage, ...]:
-        """The same, with those through which the arm went back to undo what it did."""
+        """Like `stages`, but also with the stages through which the arm went back to undo its work."""
         return Several(stages_both_ways(self.events))
 
     @cached_property
@@ -76,51 +77,51 @@ class Trace:
 
     @property
     def times(self) -> Array:
-        """Ends of the servo periods, shape (n,), s."""
+        """Ends of the servo periods, s, shape (n,)."""
         return self.motion.times
 
     @property
     def joints(self) -> Array:
-        """Positions of the joints by the sensors, shape (n, m), rad and (prismatic joints) m."""
+        """Sensed joint positions, shape (n, m): rad, or m for prismatic joints."""
         return self.motion.joints
 
     @property
     def rates(self) -> Array:
-        """Rates of the joints by the sensors, shape (n, m), rad/s and m/s."""
+        """Sensed joint rates, shape (n, m): rad/s, or m/s for prismatic joints."""
         return self.motion.rates
 
     @property
     def efforts(self) -> Array:
-        """Torques that the program put out, shape (n, m), N m and (prismatic joints) N; zero under the brakes."""
+        """Commanded joint torques, shape (n, m): N m, or N for prismatic joints; zero under the brakes."""
         return self.motion.efforts
 
     @property
     def gaps(self) -> Array:
-        """Opening of the fingers by the sensor, shape (n,), m."""
+        """Sensed opening of the fingers, m, shape (n,)."""
         return self.motion.gaps
 
     @property
     def poses(self) -> dict[str, Poses]:
-        """Poses of each body by name, shape (n, 7): place in W (m), then a unit quaternion w, x, y, z.
+        """Poses of all bodies by name, shape (n, 7) each: position in W (m), then a unit quaternion w, x, y, z.
 
-        NaN while a body did not exist, like the carrier of a screw before it is driven.
+        NaN while a body does not exist, such as the carrier of a screw before the screw is driven.
         """
         return Named(zip(self._replay.names, self._replay.poses.swapaxes(0, 1), strict=True))
 
     @cached_property
     def motion(self) -> Motion:
-        """Motion of the joints in the whole run."""
+        """Motion of the joints during the whole run."""
         return self._read(lambda messages: read_motion(m for m in messages if m.topic == JOINTS))
 
     def forces(self, line: int | str | None = None) -> Forces:
-        """Force of the hand on its surroundings, in the whole run or during a line of the script.
+        """The force of the hand on its surroundings, in the whole run or during one line of the script.
 
         Args:
-            line: its number in the script, or `"pins.al:12"` in a file that the script requires; each time it was
-                executed counts. A motion counts by its own line, not by that of its `STOP`.
+            line: number of the line in the script, or `"pins.al:12"` for a line of a required file; all executions
+                of the line are included. A motion belongs to its own line, not to the line of its `STOP`.
 
         Raises:
-            InvalidInput: no such line ran.
+            InvalidInput: no such line was executed.
         """
         if line is None:
             return self._forces
@@ -131,7 +132,7 @@ class Trace:
         return self._forces.within(spans)
 
     def _line_below(self, place: str) -> str:
-        """Report the next line that ran: that of the motion, where `place` is that of its `STOP`."""
+        """A hint with the next executed line, which is that of the motion if `place` is the line of its `STOP`."""
         file, _, number = place.rpartition(":")
         started = [step.started for step in done_steps(self.events) if step.started.file == file]
         below = [step for step in started if number.isdecimal() and step.line > int(number)]
@@ -142,7 +143,7 @@ class Trace:
 
     @cached_property
     def channels(self) -> tuple[ChannelCurve, ...]:
-        """Readings of the machines' own channels, each component against time; empty for a planned program."""
+        """Readings of the machines' own channels, each component over time; empty for a planned program."""
         return self._read(lambda messages: read_channels(m for m in messages if m.topic == MACHINES))
 
     @cached_property
@@ -153,10 +154,11 @@ class Trace:
     # -- at a moment -------------------------------------------------------------------------------------
 
     def at(self, time: float) -> Moment:
-        """The run as it was at a time (s).
+        """The state of the run at a time (s).
 
         Raises:
-            InvalidInput: it is no time, it is outside what was recorded, or nothing was recorded between the events.
+            InvalidInput: the time is no number or lies outside the recording, or nothing was recorded between the
+                events.
         """
         if not isinstance(time, (int, float, np.number)):
             raise BadArgument(f"a time is a number of seconds, not {time!r}")
@@ -169,19 +171,20 @@ class Trace:
         self, time: float, camera: str | None = None, *, width: int = 1280, height: int = 960,
         fine: bool = False, film: str | None = None, exposures: int | None = None,
     ) -> NDArray[np.uint8]:  # fmt: skip
-        """Photograph of the cell as it was at a time (s), shape (height, width, 3), red, green, blue.
+        """A photograph of the cell at a time (s), shape (height, width, 3), red, green, blue.
 
-        Nothing is simulated. It takes OpenGL.
+        It is drawn from the recording, without simulation, and needs OpenGL.
 
         Args:
-            camera: one of the scene's cameras; by default the one that shows all of it.
-            fine: average many exposures in a light of their own: soft shadows, depth of field, smooth edges.
-            film: of a fine photograph: `"colour"` or `"1973"`, black and white.
-            exposures: of a fine photograph: how many, 24 by default. With this or `film` it is a fine one.
+            camera: one of the scene's cameras; by default the one that shows the whole cell.
+            fine: average many exposures with special lighting: soft shadows, depth of field, smooth edges.
+            film: film of a fine photograph: `"colour"`, or `"1973"` for black and white.
+            exposures: number of exposures of a fine photograph, 24 by default. Giving `exposures` or `film` implies
+                `fine`.
 
         Raises:
-            InvalidInput: as `at`; the size or number of exposures is out of range; there is no such camera or film, or
-                no OpenGL here.
+            InvalidInput: for the reasons given at `at`; or the size or number of exposures is out of range, there
+                is no such camera or film, or OpenGL is missing.
         """
         from handeye.cell.exposures import exposing, photographed
         from handeye.cell.posed import posed
@@ -193,10 +196,10 @@ class Trace:
 
     @cached_property
     def scene(self) -> Any:
-        """Model of the scene of its world at the start.
+        """The MuJoCo model of the run's scene in its initial state.
 
         Raises:
-            InvalidInput: what it was drawn by is not known here.
+            InvalidInput: the run's task is unknown here.
         """
         from handeye.tasks import any_task
 
@@ -204,7 +207,7 @@ class Trace:
 
     @property
     def overview(self) -> str:
-        """The camera of its scene that shows all of it."""
+        """The camera of the run's scene that shows the whole cell."""
         from handeye.tasks import any_task
 
         return any_task(self.head.task).camera
@@ -222,12 +225,13 @@ class Trace:
         return f"<Trace of {self.head.program}, {self.head.world}: {told}, {self.begins:.2f} to {last:.2f} s>"
 
     def table(self, name: str = "events") -> "Table":
-        """One of its tables: `joints` and `forces` by servo periods, or `events`: what happened, when, in which line.
+        """One of the tables of the run: `joints` and `forces` have one row per servo period; `events` has time,
+        line and text of each event.
 
-        A notebook shows it; `["time"]` is a column, `to_pandas()` a DataFrame.
+        A notebook shows the table; `["time"]` gives a column, `to_pandas()` a DataFrame.
 
         Raises:
-            InvalidInput: there is no such table, or a message is not what its channel says.
+            InvalidInput: there is no such table, or a message does not match its channel.
         """
         from handeye.trace.tables import table
 
@@ -237,10 +241,10 @@ class Trace:
 
     @cached_property
     def unseen(self) -> int:
-        """Events before the first of which more was recorded than that they happened.
+        """Number of events before recordings begin between the events.
 
-        More than the start of the run and of its first stage, if it was resumed from a checkpoint. None of a system
-        that moves no arm.
+        It is greater than that of the start of the run and of its first stage if the run was resumed from a
+        checkpoint. 0 for a system that moves no arm.
         """
         if not self.head.arm:
             return 0
@@ -253,12 +257,12 @@ class Trace:
 
     @property
     def begins(self) -> float:
-        """When its motions begin to be recorded, s: 0, except for a run resumed from a checkpoint."""
+        """Time at which the recording of motions begins, s: 0, except for a run resumed from a checkpoint."""
         return self.events[max(self.unseen - 1, 0)].time
 
     @property
     def covers(self) -> tuple[float, float]:
-        """From when to when its motions are recorded, s.
+        """Begin and end of the recording of motions, s.
 
         Raises:
             InvalidInput: nothing was recorded between the events.
@@ -268,7 +272,7 @@ class Trace:
         return self.begins, max(float(self.times[-1]), self.events[-1].time)
 
     def _read(self, make: Callable[[Iterator[RawMessage]], Read]) -> Read:
-        """Make something of the messages."""
+        """Compute a value from the messages; raises BadFile if a message is invalid."""
         handed = self.messages[:1]
 
         def hand_out() -> Iterator[RawMessage]:

@@ -1,4 +1,4 @@
-"""Converts events and servo periods to the messages of a trace, in the order in which they stand in it."""
+"""Converts events and servo periods to the messages of a trace, in the order in which the trace stores them."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -39,10 +39,11 @@ BOUNDARIES: Final = (RunStarted, StageFinished)  # events after which a run may 
 
 
 class TraceWriter:
-    """Writes messages to a file.
+    """Writes the messages of a trace to a file.
 
-    All it remembers can be read off the file: messages copied from another file can be continued. What comes with an
-    event (sentence, picture, frames) stands before it, so that a trace can be cut after any event.
+    The writer's state can be derived from the file, so that messages copied from another file can be continued.
+    Messages that belong to an event (sentence, picture, frames) precede it, so that a trace can be cut after any
+    event.
     """
 
     def __init__(self, file: GrowingFile, frames: Frames, plan: bytes) -> None:
@@ -60,12 +61,12 @@ class TraceWriter:
         self._frames_message = messages.FramesMessage(frames.names)
 
     def begin(self, head: RunStarted) -> None:
-        """Write what stands before all messages."""
+        """Write everything that precedes the messages."""
         self.head, self._measures = head, measures_of(head.task)
         self.file.begin(head, self._plan)
 
     def event(self, event: Event) -> None:
-        """Write an event, and before it its sentence."""
+        """Write an event, preceded by its sentence."""
         time = nanoseconds(event.time)
         if isinstance(event, RunStarted) and self.head is None:
             self.begin(event)
@@ -82,7 +83,7 @@ class TraceWriter:
         self.events += 1
 
     def picture(self, event: PictureTaken, picture: Picture) -> None:
-        """Write a picture, as yet without marks; its event follows."""
+        """Write a picture, without marks yet; the picture's event follows."""
         time = nanoseconds(event.time)
         self.file.write(PICTURE, time, messages.picture(time, picture))
         self.file.write(
@@ -90,11 +91,11 @@ class TraceWriter:
         )  # else those of the picture before would stay on it
 
     def found(self, time: float, picture: str, marks: Sequence[Mark]) -> None:
-        """Write the marks of what was found in a picture; its event follows."""
+        """Write the marks for the findings in a picture; the event of the finding follows."""
         self.file.write(ANNOTATIONS, nanoseconds(time), annotations(self._taken[picture], marks))
 
     def period(self, period: ServoPeriod) -> None:
-        """Write what was sensed after a servo period and put out in it, and what the hand felt."""
+        """Write the readings and commands of a servo period, and the force on the hand."""
         time = nanoseconds(period.sensed.time)
         self.file.write(JOINTS, time, self._joint_message.filled(time, period.sensed, period.effort))
         self.file.write(HAND, time, hand_message(period))
@@ -102,10 +103,10 @@ class TraceWriter:
             self.file.write(MACHINES, time, channels_message(period.sensed))
 
     def frames(self, time: float, poses: Poses, there: Mask, *, anew: bool = False) -> None:
-        """Write the frames that moved since they were last written, and those that appeared; `anew`: all there are.
+        """Write the poses of the frames that moved or appeared since they were last written; `anew`: of all frames.
 
-        Bodies that are put away are written only with all: their place does not matter. A body that is no longer
-        there, as a screw in its thread when it has been driven out, is put away in the trace.
+        Bodies that are put away are written only with `anew`, because their poses do not matter. A body that ceases
+        to exist, such as the carrier of a screw that has been turned out, counts as put away in the trace.
         """
         sent = self._sent
         gone = ~there & ~np.isnan(sent[:, 0])
@@ -127,7 +128,7 @@ class TraceWriter:
             self._taken[event.picture] = nanoseconds(event.time)
 
     def copy(self, message: RawMessage) -> None:
-        """Write a message of another file."""
+        """Write a message copied from another file."""
         event = self._reader.read(message.data) if message.topic == EVENTS else None
         self.file.write(message.topic, message.time, message.data, boundary=isinstance(event, BOUNDARIES))
         if event is not None:

@@ -1,4 +1,4 @@
-"""Whole runs and statistics over them: where concrete cells, plans and referees are put together."""
+"""Whole runs, and statistics over many runs."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +9,7 @@ __all__ = ["assemble_each"]
 
 
 def __getattr__(name: str) -> Any:
-    """Import `assemble_each` when it is asked for: it is seldom wanted where something in this folder is."""
+    """Import `assemble_each` on first use, because most importers of this package do not need it."""
     if name != "assemble_each":
         raise AttributeError(name)
     from handeye.trials.results import assemble_each

@@ -1,4 +1,4 @@
-"""One whole run: a drawn world, a calibrated camera, a plan executed, a referee's verdict."""
+"""One whole run: a world, a calibrated camera, an executed plan, and the referee's verdict."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ from handeye.runs.snapshot import Checkpoint
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FinishedRun:
-    """A run that has ended: its result, and the runner as it was left."""
+    """A run that has ended: its result, and its runner in the final state."""
 
     result: Result
     runner: Runner
@@ -44,14 +44,16 @@ def run_plan(
     without: tuple[str, ...] = (),
     operator: Operator = NOBODY,
 ) -> FinishedRun:
-    """Execute a plan in a world, and have it judged.
+    """Execute a plan in a world, and have the referee judge the result.
 
     Args:
-        meter: measures what the run costs the host; by default from now on.
-        viewed: called as the camera is calibrated, with the number of a view, and of how many.
-        halt: the panic button, asked at every servo period.
+        meter: measures the host time of the run; by default from now on.
+        viewed: called for each view of the camera calibration with the number of the view and the number of all
+            views.
+        halt: the panic button, polled in every servo period.
 
-    Raises InvalidInput if arm, limits or camera do not fit, and Halted if the button was hit before the working phase.
+    Raises InvalidInput if arm, limits or camera do not fit, and Halted if the panic button is pressed before the
+    working phase.
     """
     setup = Setup(
         plan=plan,
@@ -80,7 +82,7 @@ def run_on(
     halt: Callable[[], bool] = lambda: False,
     operator: Operator = NOBODY,
 ) -> FinishedRun:
-    """Carry a run out from its beginning or from a state that was kept, and have it judged; see `run_plan`."""
+    """Execute a run from its beginning or from a kept state, and have the referee judge it; see `run_plan`."""
     metered = meter or Meter()
     runner = Runner(
         start,
@@ -96,7 +98,7 @@ def run_on(
 
 
 def brakes_hold(cell: SimulatedCell) -> bool:
-    """True if the brakes are on and commanded to stay on, and no motor of the arm has a torque."""
+    """True if the brakes are on and commanded to stay on, and no motor of the arm has a torque command."""
     state = cell.truth.states[cell.arm.name]
     assert isinstance(state, ArmState)
     return state.braked and state.command is None and not cell.truth.data.ctrl[cell.arm.motors].any()

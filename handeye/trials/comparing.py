@@ -1,4 +1,4 @@
-"""Batches of one kind in the same worlds, compared pair by pair."""
+"""Compares batches of one kind in the same worlds, trial by trial."""
 
 from collections.abc import Mapping, Sequence
 from statistics import median
@@ -15,16 +15,16 @@ Key = tuple[str, int, int]  # Condition, seed, and which of the trials in that w
 
 
 class Difference(Record, frozen=True, kw_only=True):
-    """The difference of a measure over the pairs in which both trials are right."""
+    """The difference of a measure over the pairs in which both trials succeeded."""
 
     pairs: int
     more: float  # Median of how much more it is in this batch than in the first
     p: float
-    """Two-sided, of Wilcoxon's signed-rank test: how likely such differences are if both are alike."""
+    """Two-sided p of Wilcoxon's signed-rank test: the probability of such differences if both batches are equal."""
 
 
 class PairedBatch(Record, frozen=True, kw_only=True):
-    """A batch beside the first, over the trials that both have."""
+    """A batch compared with the first batch, over the trials that both contain."""
 
     name: str
     pairs: int
@@ -48,7 +48,7 @@ class PairedTrial(NamedTuple):
 
 
 def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[PairedBatch, ...]:
-    """Each batch beside the first one; raises InvalidInput if one is of other worlds or of another kind."""
+    """Each batch compared with the first one; raises InvalidInput if a batch is of other worlds or of another kind."""
     first_head = batches[0][0]
     for name, (head, _) in zip(names, batches, strict=True):
         if head.kind != first_head.kind:
@@ -71,7 +71,7 @@ def _trials(head: Head, rows: Sequence[TrialRow]) -> dict[Key, PairedTrial]:
 
 
 def beside(name: str, first: Mapping[Key, PairedTrial], other: Mapping[Key, PairedTrial]) -> PairedBatch:
-    """A batch beside another; raises InvalidInput if they have no trial in common."""
+    """A batch compared with another; raises InvalidInput if they have no common trials."""
     pairs = [(first[key], this) for key, this in other.items() if key in first]
     if not pairs:
         raise Refused(

@@ -1,4 +1,6 @@
-"""Trials on workers of dask: processes here, or of a cluster whose scheduler listens somewhere."""
+"""Runs trials on workers of dask: processes on this computer, or those of a cluster, given by the address of its
+scheduler.
+"""
 
 from collections.abc import Generator, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
@@ -13,16 +15,17 @@ HOST: Final = "127.0.0.1"  # Workers here listen on this computer alone
 
 
 def dask_workers(count: int, scheduler: str | None) -> Engine:
-    """Workers of dask: those of the scheduler at an address, or `count` that are begun here."""
+    """Workers of dask: those of the scheduler at an address, or `count` new ones on this computer."""
     return lambda work, cases: _answers(work, cases, count, scheduler)
 
 
 def _answers(
     work: GuardedWork[Any], cases: Sequence[Case], count: int, scheduler: str | None
 ) -> Generator[Answer[Case, list[Any]], None, None]:
-    """Answers for each case, in the order they end; raises InvalidInput if dask or its workers cannot be used.
+    """Answers for all cases, in the order in which they end; raises InvalidInput if dask or its workers cannot be
+    used.
 
-    A trial whose worker is killed is begun once more by the scheduler, which does not tell.
+    The scheduler repeats a trial once if its worker is killed, without reporting it.
     """
     try:
         from distributed import KilledWorker, as_completed
@@ -44,7 +47,7 @@ def _answers(
 
 
 def _tried(work: GuardedWork[Any], code: str, case: Case) -> list[Any]:
-    """Execute a case on a worker; raises InvalidInput if that has another handeye."""
+    """Execute a case on a worker; raises InvalidInput if the worker has another version of handeye."""
     if code_digest() != code:
         raise Refused(
             "a worker has another version of handeye than this computer; install the same version on all"
@@ -67,7 +70,7 @@ def _client(count: int, scheduler: str | None) -> Iterator[Any]:
 
 @contextmanager
 def _cluster(count: int) -> Iterator[str]:
-    """Workers here; the address of their scheduler."""
+    """Start workers on this computer; yields the address of their scheduler."""
     import dask
     from distributed import LocalCluster
 

@@ -1,4 +1,4 @@
-"""Reversals of disturbed work: does a guard stop the arm before harm is done?"""
+"""Trials of reversal after a disturbance: whether a guard stops the arm before it does harm."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -42,12 +42,12 @@ class DisturbanceResult(Record, frozen=True, kw_only=True):
 
     @property
     def harmless(self) -> bool:
-        """True if it was stopped in time."""
+        """True if the arm was stopped in time."""
         return self.stopped and self.moved <= MOVED and self.felt <= FORCE
 
 
 class DisturbanceRow(TrialRow, frozen=True, kw_only=True):
-    """One disturbance, which is the condition, tried once."""
+    """The trial of one disturbance; the disturbance is the condition."""
 
     tried: DisturbanceResult | None = None  # None: it did not finish
 
@@ -70,21 +70,21 @@ class DisturbanceRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DisturbanceWork:
-    """Has what a plan builds disturbed and undone, once for each case."""
+    """Executes a plan, disturbs its product and has the arm undo the work, once for each case."""
 
     plan: Plan
     world: WorldSpec  # World of every case, without its seed
     camera: str
 
     def __call__(self, case: Case) -> list[DisturbanceRow]:
-        """Try one."""
+        """Try one disturbance."""
         world = replace(self.world, seed=case.seed)
         tried = disturbed(self.plan, world, self.camera, case.condition)
         return [DisturbanceRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
 
 def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> DisturbanceResult:
-    """Build, disturb, reverse, and judge once."""
+    """Execute the plan, disturb its product, undo the work, and judge the result."""
     change = next(each for each in task(plan.task).disturbances() if each.name == name)
     runner = Runner(Checkpoint(setup=Setup(plan=plan, world=world, camera=camera, judged=True)))
     if not _built(runner, plan, change):
@@ -113,7 +113,7 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturban
 
 
 def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
-    """Carry the plan out as far as the disturbance needs it."""
+    """Execute the plan as far as the disturbance requires; True if that succeeded."""
     stages = plan.program.stages
     number = len(stages) if change.after is None else change.after
     pause = advance(
@@ -123,7 +123,9 @@ def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
 
 
 def _moved(runner: Runner) -> tuple[float, str]:
-    """Do a step; how far the part moved most, mm, that the hand holds neither before nor behind it."""
+    """Execute a step; returns the greatest displacement, mm, of a part that the hand holds neither before nor after
+    the step, and the part's name.
+    """
     work = task(runner.setup.task)
     before = work.bystanders(runner.cell.truth)
     runner.step()

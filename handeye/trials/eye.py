@@ -1,4 +1,4 @@
-"""Trials of a task that execute no program, such as those of its eye: several in each world."""
+"""Trials of a task that execute no program, such as those of vision: several attempts per world."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -16,7 +16,7 @@ class EyeRow(TrialRow, frozen=True, kw_only=True):
     """One attempt."""
 
     attempt: dict[str, Any] = msgspec.field(default_factory=dict)
-    """The record of the attempt, whose class is the trial's own."""
+    """The record of the attempt, whose class belongs to the trial."""
     came: str = "missed"
     told: str = ""
 
@@ -38,11 +38,11 @@ EYE: Final = Sweep(
     sentence=lambda row: f"seed {row.seed:4}  {row.detail}",
     shared_worlds=True,
 )
-"""Attempts at something in many worlds; `eye_sweep` counts those of one trial of a task."""
+"""Sweep of attempts in many worlds; `eye_sweep` makes the sweep of one trial of a task."""
 
 
 def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
-    """The sweep of a trial of a task, by its name."""
+    """The sweep of a task's trial, given by name."""
 
     def attempts(rows: Sequence[EyeRow]) -> list[Attempt]:
         found = [msgspec.convert(row.attempt, trial.attempt) for row in rows if row.attempt]
@@ -64,7 +64,7 @@ def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EyeWork:
-    """Attempts at a trial of a task, by their names; the attempts of a case share a world and its calibration."""
+    """Makes attempts at a trial of a task; the attempts of a case share a world and its calibration."""
 
     task: str
     trial: str
@@ -87,5 +87,5 @@ class EyeWork:
 
 
 def eye_cases(seed: int, number: int, worlds: int) -> list[Case]:
-    """Attempts spread over worlds as evenly as can be: attempt k in the world of `seed` + k % `worlds`."""
+    """Distribute attempts evenly over worlds: attempt k is in the world of `seed` + k % `worlds`."""
     return [Case(trials=tuple(range(k, number, worlds)), seed=seed + k) for k in range(min(number, worlds))]

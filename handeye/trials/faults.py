@@ -1,4 +1,4 @@
-"""Runs with one fault each: where it is noticed, by which error, and whether that is its right name."""
+"""Runs with one fault each: whether the fault is noticed, in which stage, and whether the error names it correctly."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -26,9 +26,14 @@ from handeye.trials.sound_run import sound_run, with_faults
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
 Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "silent"]
-"""The outcome of a run with a fault: with a right pump, as it may; stopped, with brakes on, by an error that names the
-fault, in a stage where that is right; likewise by another one, or in another stage; with a right pump, although the
-fault should have been noticed; stopped, and the brakes were not on; with a wrong pump that the program took for right.
+"""The outcome of a run with a fault.
+
+- recovered: the pump is right, which the fault permits
+- stopped: brakes on, with an error that names the fault, in a correct stage
+- misnamed: stopped, but by another error or in another stage
+- unnoticed: the pump is right, but the fault should have been noticed
+- unbraked: stopped, but the brakes were not on
+- silent: the pump is wrong, but the program took it for right
 """
 
 UNDETECTED: tuple[Outcome, ...] = ("unnoticed", "unbraked", "silent")
@@ -41,11 +46,11 @@ PANIC: Final = FaultKind(
     usual_stage=4,
     expected=ExpectedDetection(calls=("stopped by the panic button; the brakes are set",)),
 )
-"""Not a fault of a cell: the panic button."""
+"""The panic button, which is listed here although it is no fault of a cell."""
 
 
 def with_panic(catalogue: Catalogue) -> Catalogue:
-    """The faults of a task, and the panic button."""
+    """The faults of a task, with the panic button added."""
     return Catalogue(*catalogue.kinds.values(), PANIC, matrix=(*catalogue.matrix, PANIC.name))
 
 
@@ -53,21 +58,21 @@ SOON: Final = 120  # Servo periods of a stage, two seconds, after which the butt
 
 
 class PanicInStage(Observer):
-    """Hits the button once, a number of servo periods into a stage."""
+    """Presses the panic button once, a number of servo periods after the beginning of a stage."""
 
     def __init__(self, stage: int, periods: int = SOON) -> None:
-        """Wait for a stage, by its index."""
+        """Wait for a stage, given by its index."""
         self._stage, self._left = stage, periods
         self._runner: Runner | None = None
         self._under_way = self._hit = False
 
     def watching(self, runner: Runner) -> Sequence[Observer]:
-        """Look at a run; it is the only one who does."""
+        """Observe a run; returns this object as the only observer."""
         self._runner = runner
         return [self]
 
     def down(self) -> bool:
-        """True once the button is hit, and only the first time it is asked."""
+        """True once, at the first poll after the button is due."""
         hit = self._under_way and self._left <= 0 and not self._hit
         self._hit = self._hit or hit
         return hit
@@ -93,7 +98,7 @@ class FaultTrial(Record, frozen=True, kw_only=True):
 
 
 class FaultRow(TrialRow, frozen=True, kw_only=True):
-    """One trial with a fault, which is its condition."""
+    """The trial of one fault; the fault is the condition."""
 
     tried: FaultTrial | None = None  # None: it did not finish
 
@@ -116,24 +121,28 @@ class FaultRow(TrialRow, frozen=True, kw_only=True):
 
 
 def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
-    """The faults of some names and groups, else those of the matrix; raises InvalidInput for an unknown name."""
+    """The faults with these names or in these groups, by default those of the matrix; raises InvalidInput for an
+    unknown name.
+    """
     found = [kind for name in names or catalogue.matrix for kind in catalogue.select(name)]
     return list({kind.name: kind for kind in found}.values())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FaultWork:
-    """Carries a plan out once with each of some faults; the condition of a case is the fault, as it would be typed."""
+    """Executes a plan once with each of some faults; the condition of a case is the fault, as it is typed."""
 
     plan: Plan
     world: WorldSpec  # World of every case, without its seed and fault
     faults: Mapping[str, Fault]
     camera: str
     sound: Path | None = None
-    """Folder of the fault-free runs from which faults of a later stage start; None: every run is complete."""
+    """Folder of the fault-free runs from which runs with faults of a later stage start; None: every run is
+    complete.
+    """
 
     def __call__(self, case: Case) -> list[FaultRow]:
-        """Run once with the fault, or with the panic button pressed."""
+        """Run once with the fault, or with the panic button."""
         fault = self.faults[case.condition]
         world = msgspec.structs.replace(self.world, seed=case.seed)
         catalogue = with_panic(task(self.plan.task).faults(world))
@@ -147,7 +156,7 @@ class FaultWork:
         return [FaultRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
     def _start(self, world: WorldSpec, faults: tuple[Fault, ...], stage: int | None) -> Checkpoint:
-        """The beginning of a run with these faults: that of the stage with which they set in, where it is kept."""
+        """The start of a run with these faults: a kept state before the stage in which they begin, if there is one."""
         setup = Setup(plan=self.plan, world=world, camera=self.camera)
         if self.sound is None or stage is None:
             return Checkpoint(
@@ -159,7 +168,7 @@ class FaultWork:
 def usual(
     catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None, stages: int
 ) -> dict[str, Fault]:
-    """Faults at their usual sizes, as they are typed; those that can set in late do so at `stage`, of `stages`."""
+    """Faults at their usual sizes, as they are typed; faults that can begin later begin at `stage`, of `stages`."""
     first = [None if kind.from_start else stage or min(kind.usual_stage or 0, stages) for kind in kinds]
     found = [kind.usual(each or None) for kind, each in zip(kinds, first, strict=True)]
     return {catalogue.written(fault): fault for fault in found}
@@ -168,7 +177,7 @@ def usual(
 def trial_of(
     fault: Fault, catalogue: Catalogue, result: Result, events: Sequence[AnyEvent], *, braked: bool
 ) -> FaultTrial:
-    """Result of a run with a fault, from its result and events."""
+    """The result of a run with a fault, from the run's result and events."""
     begun = [event for event in events if isinstance(event, StepStarted)]
     stopped = not result.completed and begun
     complaints = (check.told for check in result.referee.values() if check.refuses)
@@ -184,7 +193,7 @@ def trial_of(
 
 
 def outcome(expected: ExpectedDetection, result: Result, *, braked: bool) -> Outcome:
-    """The outcome of a run with a fault; `braked`: the brakes were on at its end."""
+    """The outcome of a run with a fault; `braked`: the brakes were on at the end."""
     if result.exit_code == 3:
         return "silent"
     if result.exit_code == 0:
@@ -195,14 +204,14 @@ def outcome(expected: ExpectedDetection, result: Result, *, braked: bool) -> Out
 
 
 def _named(expected: ExpectedDetection, result: Result) -> bool:
-    """See whether a run stopped by something that calls the fault by its right name."""
+    """True if a run was stopped by an error or call that names the fault correctly."""
     if result.error is not None:
         return result.error in expected.errors
     return expected.at_setup if result.stopped_at is None else expected.called(result.message)
 
 
 def _placed(expected: ExpectedDetection, result: Result) -> bool:
-    """See whether a run stopped where that name is the right one."""
+    """True if a run stopped in a stage in which that name is correct."""
     return not expected.stages or result.stopped_at is None or result.stopped_at in expected.stages
 
 
@@ -240,4 +249,4 @@ FAULTS: Final = Sweep(
     summary=_summary,
     more=_more,
 )  # fmt: skip
-"""A plan executed with one fault each."""
+"""Sweep of a plan executed with one fault each."""

@@ -1,4 +1,6 @@
-"""Figures of any sweep, from its rows: how often, how sure that is, what was measured, and what failed where."""
+"""Statistics of a sweep, from its rows: success rates with confidence bounds, measures, and failures by place and
+cause.
+"""
 
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -13,16 +15,17 @@ CONFIDENCE: Final = 0.95
 
 
 class Rate(Record, frozen=True, kw_only=True):
-    """Successes among independent trials, with what they say about the probability of success."""
+    """Successes among independent trials, with confidence bounds of the probability of success."""
 
     successes: int
     trials: int
     rate: float | None  # Successes over trials; None, as the bounds: nothing was tried
     wilson95: tuple[float, float] | None
-    """Wilson's score interval: it holds the probability in about 95 of 100 batches."""
+    """Wilson's score interval: it contains the true probability in about 95 of 100 batches."""
     p_s: float | None
-    """Lower bound of the probability, 95 % one-sided: the least p for which this many successes have a chance
-    of 5 %. It is the exact bound of Clopper and Pearson."""
+    """Lower confidence bound of the probability, 95 % one-sided (Clopper and Pearson): the least p at which this
+    many successes or more have a probability of 5 %.
+    """
 
 
 def rate(successes: int, trials: int) -> Rate:
@@ -43,7 +46,7 @@ def rate(successes: int, trials: int) -> Rate:
 
 
 def mcnemar(only_first: int, only_second: int) -> float:
-    """Two-sided p of McNemar's exact test: how likely pairs that differ fall so unevenly if neither is better."""
+    """Two-sided p of McNemar's exact test: the probability of pairs so unevenly divided if neither batch is better."""
     from scipy.stats import binomtest
 
     differ = only_first + only_second
@@ -51,7 +54,9 @@ def mcnemar(only_first: int, only_second: int) -> float:
 
 
 def signed_rank(differences: Sequence[float]) -> float:
-    """Two-sided p of Wilcoxon's signed-rank test: how likely pairs differ so far to one side if both are alike."""
+    """Two-sided p of Wilcoxon's signed-rank test: the probability of such one-sided differences if both batches are
+    equal.
+    """
     from scipy.stats import wilcoxon
 
     return float(wilcoxon(differences).pvalue) if any(differences) else 1.0
@@ -67,7 +72,7 @@ class Spread(Record, frozen=True, kw_only=True):
 
 
 class ConditionFigures(Record, frozen=True, kw_only=True):
-    """Trials of one condition."""
+    """Statistics of the trials under one condition."""
 
     condition: str
     n: int  # Trials that count
@@ -79,7 +84,7 @@ class ConditionFigures(Record, frozen=True, kw_only=True):
 
 
 class Failure(Record, frozen=True, kw_only=True):
-    """A trial that did not end as it should."""
+    """A failed trial."""
 
     trial: int
     seed: int
@@ -93,7 +98,7 @@ class Failure(Record, frozen=True, kw_only=True):
 
 
 class Cause(Record, frozen=True, kw_only=True):
-    """Failures in the same stage for the same cause."""
+    """Failures in the same stage with the same cause."""
 
     stage: str
     cause: str
@@ -102,14 +107,14 @@ class Cause(Record, frozen=True, kw_only=True):
 
 
 class Figures(Record, frozen=True, kw_only=True):
-    """Figures of a sweep. Equal sweeps have equal figures, except for computing time."""
+    """Statistics of a sweep. Equal sweeps have equal statistics, except for computing time."""
 
     kind: str
     n: int  # Trials that count
     right: int
     silent_failures: int  # Failures that were taken for a success
     failed: int
-    """Trials that did not finish: by an exception, at a limit, or because their process was killed twice."""
+    """Trials that did not finish: because of an exception, a limit, or a process that was killed twice."""
     uncounted: int
     killed: int  # How often the process of a trial was killed
     wilson95: tuple[float, float] | None  # Wilson's interval of the probability that a trial is right
@@ -124,14 +129,14 @@ class Figures(Record, frozen=True, kw_only=True):
 
     @property
     def exit_code(self) -> int:
-        """3: a failure was taken for a success; 1: no trial finished; else 0."""
+        """Exit code of the command: 3, a failure was taken for a success; 1, no trial finished; else 0."""
         return 3 if self.silent_failures else int(0 < self.failed == self.n)
 
 
 def figures(
     sweep: Sweep[R], rows: Sequence[R], command: Callable[[R], str] = lambda _: "", *, wall_s: float = 0.0
 ) -> Figures:
-    """The figures of some rows; `command` carries the trial of one out again."""
+    """Compute the statistics of rows; `command` gives the command that repeats the trial of a row."""
     standings = Counter(sweep.standing(row) for row in rows)
     counted = [row for row in rows if sweep.standing(row) != "uncounted"]
     failures = tuple(_failure(row, command) for row in counted if sweep.standing(row) != "right")
@@ -180,7 +185,7 @@ def _of_condition(sweep: Sweep[R], name: str, rows: Sequence[R]) -> ConditionFig
 
 
 def spread(values: Sequence[float]) -> Spread:
-    """The distribution of one or more values."""
+    """The distribution of at least one value."""
     median, p95, most = np.percentile(values, [50, 95, 100]).round(6).tolist()
     return Spread(n=len(values), median=median, p95=p95, most=most)
 

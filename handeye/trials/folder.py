@@ -1,4 +1,4 @@
-"""The folder of a batch: its kind, by name, what else it is, its plan, and a line for each trial that has ended."""
+"""The folder of a batch: a head with its settings, its plan, and one line for each finished trial."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -31,7 +31,7 @@ _OURS: Final = {
 
 
 def sweep_of(kind: str) -> Sweep[Any]:
-    """The kind of sweep that the folder of a batch says; raises InvalidInput if there is none here."""
+    """The kind of sweep in the folder of a batch; raises InvalidInput if the kind is unknown here."""
     name = kind.partition(" ")[0]
     places = {name: place for entry in entries().values() for name, place in entry.sweeps.items()} | _OURS
     if name not in places:
@@ -52,7 +52,7 @@ _NAMES: Final = {
     "on_stop": "answers of the operator",
     "simulated_limit_s": "limit of simulated time", "versions": "versions", "code": "program",
 }  # fmt: skip
-"""Words for the parts of a head."""
+"""Words for the fields of a head."""
 
 
 class Head(Record, frozen=True, kw_only=True):
@@ -62,7 +62,7 @@ class Head(Record, frozen=True, kw_only=True):
     version: Literal[2] = 2
     kind: str
     world: WorldSpec
-    """The world of trial 0; that of trial k has a seed greater by k, unless `seeds` has it or trials share worlds."""
+    """The world of trial 0. The seed of trial k is greater by k, unless `seeds` gives it, or trials share worlds."""
     seeds: tuple[Seed, ...] = ()  # Of the trials, if they do not follow each other
     plan: str = ""  # Digest of the plan; empty: there is none
     program: str = ""
@@ -71,7 +71,7 @@ class Head(Record, frozen=True, kw_only=True):
     on_stop: str = "abort"  # How calls of the operator are answered
     simulated_limit_s: float | None = None
     settings: dict[str, str] = msgspec.field(default_factory=dict)
-    """Further settings that decide the trials, by their displayed names."""
+    """Further settings that determine the trials, by their display names."""
     versions: dict[str, str]
     code: str  # Digest of handeye and its scenes
 
@@ -82,7 +82,7 @@ class Head(Record, frozen=True, kw_only=True):
         return self.seeds[trial] if trial < len(self.seeds) else None
 
     def differs(self, other: "Head") -> list[str]:
-        """Names of fields that differ in another one."""
+        """Names of the fields in which two heads differ."""
         names = [told for name, told in _NAMES.items() if getattr(self, name) != getattr(other, name)]
         both = dict.fromkeys([*self.settings, *other.settings])
         return names + [name for name in both if self.settings.get(name) != other.settings.get(name)]
@@ -95,7 +95,7 @@ def head_of(
     settings: Mapping[str, str] | None = None,
     **more: Any,
 ) -> Head:
-    """The head of a batch whose trial 0 is in this world; raises InvalidInput if the installation is incomplete."""
+    """The head of a batch with trial 0 in this world; raises InvalidInput if the installation is incomplete."""
     if plan is not None:
         more |= {"plan": plan_digest(plan), "program": plan.program.name}
     more |= {"settings": dict(settings or {}), "versions": versions(), "code": code_digest()}
@@ -103,12 +103,12 @@ def head_of(
 
 
 class BatchFolder(Generic[R]):
-    """A folder that trials are written to as they end."""
+    """A folder to which trials are written as they end."""
 
     def __init__(
         self, path: Path, sweep: Sweep[R], head: Head, plan: Plan | None = None, *, anew: bool = False
     ) -> None:
-        """Begin a batch, continue with it, or (`anew`) drop it first; raises InvalidInput."""
+        """Begin a batch, continue it, or with `anew` delete it first; raises InvalidInput."""
         self.path, self._sweep = path, sweep
         _check(path, sweep, head, plan, anew=anew)
         try:
@@ -117,7 +117,7 @@ class BatchFolder(Generic[R]):
             raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
         self._file = LineFile(path / TRIALS, "another command", again=not anew)
         self.rows: dict[tuple[str, int], R] = {}
-        """Trials that have ended, by condition and number, except for those to be repeated."""
+        """Finished trials, by condition and number, except those that must be repeated."""
         try:
             self._begin(head, plan)
         except BaseException:
@@ -126,11 +126,11 @@ class BatchFolder(Generic[R]):
 
     @property
     def unlocked(self) -> str:
-        """Why other commands are not kept from writing to it, if they are not."""
+        """The reason why other commands cannot be kept from writing to the folder; empty if they are."""
         return self._file.unlocked
 
     def append(self, row: R) -> None:
-        """Keep a trial; raises InvalidInput if there is no room."""
+        """Write a trial; raises InvalidInput if the disk is full."""
         self._file.append(msgspec.json.encode(row) + b"\n")
         self.rows[row.key] = row
 
@@ -150,7 +150,9 @@ class BatchFolder(Generic[R]):
 
 
 def read_batch(path: Path) -> tuple[Head, tuple[Any, ...]]:
-    """Head of the batch in a folder, and its rows by condition and number; raises InvalidInput if there is none."""
+    """The head of the batch in a folder, and its rows by condition and number; raises InvalidInput if there is
+    none.
+    """
     check_exists(path)
     file = path / TRIALS
     if not file.is_file():
@@ -178,7 +180,7 @@ def _decoded(line: bytes, kind: type[T], file: Path, number: int) -> T:
 
 
 def _same_batch(path: Path, sweep: Sweep[R], head: Head, plan: Plan | None) -> tuple[R, ...]:
-    """The trials of a batch that a folder holds; raises InvalidInput if it is another one."""
+    """The trials of the batch in a folder; raises InvalidInput if it is another batch."""
     file = path / TRIALS
     first, *lines = read_whole(file).split(b"\n")[:-1] or [b""]
     begun = _decoded(first, Head, file, 1)
@@ -195,7 +197,7 @@ def _same_batch(path: Path, sweep: Sweep[R], head: Head, plan: Plan | None) -> t
 
 
 def _check(path: Path, sweep: Sweep[Any], head: Head, plan: Plan | None, *, anew: bool) -> None:
-    """Raises InvalidInput if the contents of a folder forbid writing to it; nothing there is touched."""
+    """Raises InvalidInput if the contents of a folder forbid writing to it; the folder is not changed."""
     if not path.exists():
         return
     if (path / TRIALS).is_file() and (path / TRIALS).stat().st_size:

@@ -1,7 +1,7 @@
-"""Insertion bench: one pin put into one hole, in many worlds and with many errors of the hole's place.
+"""Insertion bench: inserts one pin into one hole, in many worlds and with many errors of the hole's position.
 
-A trial begins where the program has fetched the pin and holds it over the hole, and is what follows: search, insertion,
-check. What is fetched in one world is the beginning of several trials, each with another hole.
+A trial begins when the program holds the pin over the hole, and consists of search, insertion and check. The pin is
+fetched once per world; this state is the start of several trials, each with another hole.
 """
 
 import math
@@ -41,19 +41,19 @@ TASK: Final = "insertion"
 TRIALS_A_WORLD: Final = 10  # Trials that share one fetched pin; fetching takes a second of a processor
 _WRITTEN_STEP: Final = "SEARCH  .07"
 _STEP_SHARE: Final = 0.92
-"""Share taken of the coarsest step that catches every hole: .07 in for Factory's hole."""
+"""Fraction used of the greatest search step that catches every hole: .07 in for Factory's hole."""
 _PLACE: Final = 0.005  # in, to which it is rounded down
 
 
 def bench() -> InsertionTask:
-    """The task of the bench."""
+    """The task of the insertion bench."""
     found = task(TASK)
     assert isinstance(found, InsertionTask)
     return found
 
 
 class Condition(Record, frozen=True, kw_only=True):
-    """Hole, error of its place, and search."""
+    """The condition of a trial: hole, error of its position, and search."""
 
     clearance: float = CLEARANCE  # Clearance of the hole in diameter, mm
     chamfer: float = CHAMFER  # mm
@@ -62,29 +62,29 @@ class Condition(Record, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """Its displayed name."""
+        """Display name of the condition."""
         search = "" if self.search == "gentle" else f", {self.search}"
         return f"{self.clearance:g} mm, chamfer {self.chamfer:g}, sd {self.sd:g}{search}"
 
     @property
     def step(self) -> float:
-        """Step of the search, in: by the rule that the worst place between four of them is still caught."""
+        """Step of the search, in: the hole is still caught from the worst place between four search places."""
         caught = bench().caught(self.clearance * MILLIMETRE, self.chamfer * MILLIMETRE)
         return max(1, math.floor(_STEP_SHARE * math.sqrt(2) * caught / INCH / _PLACE)) * _PLACE
 
     @property
     def hole(self) -> dict[str, float]:
-        """Quantities of a world with its hole, where it was taught."""
+        """Quantities of a world with the hole of this condition, at its taught position."""
         return bench().hole(self.clearance * MILLIMETRE, self.chamfer * MILLIMETRE)
 
     @property
     def plan(self) -> Plan:
-        """The plan that is executed."""
+        """The plan that the trial executes."""
         return _plan(self.search, self.step)
 
 
 def grid(search: Search) -> list[Condition]:
-    """Conditions around Factory's setting, which is first, with one value changed at a time."""
+    """Conditions around Factory's setting, which comes first; the others differ from it in one value."""
     return [
         Condition(search=search),
         *(Condition(search=search, clearance=clearance) for clearance in (0.05, 0.3, 1.0)),
@@ -100,18 +100,20 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
     number: int  # Number of the trial in that world, from 0
     error: tuple[float, float] = (0.0, 0.0)  # Where the hole was, x and y against the pin's end, mm
     outcome: Literal["seated", "told", "silent"] = "told"
-    """The pin is in its hole, and the program says so; it called the operator; it said done, and was wrong."""
+    """`seated`: the pin is in its hole, and the program says so; `told`: the program called the operator; `silent`:
+    the program reported success wrongly.
+    """
     places: int = 0
     peak: float = 0.0  # Greatest force between pin and plate, N, by the truth of each physics step
     felt: float = 0.0  # Greatest force that the hand felt, N
     seconds: float | None = None
-    """From the first contact of pin and plate until the pin was seated, of the cell's clock; None: it never was."""
+    """Time on the cell's clock, s, from the first contact of pin and plate until the pin was seated; None: never."""
     whole: float = 0.0  # Seconds of the cell's clock that all of it took
     told: str = ""
 
 
 class _ForcePeak(Observer):
-    """Keeps the greatest force that the hand felt, N."""
+    """Records the greatest force sensed at the hand, N."""
 
     def __init__(self) -> None:
         self.most = 0.0
@@ -122,7 +124,7 @@ class _ForcePeak(Observer):
 
 
 class InsertionRow(TrialRow, frozen=True, kw_only=True):
-    """One trial under a condition; ten share a world, in which the pin is fetched once."""
+    """One trial under a condition; ten trials share a world, in which the pin is fetched once."""
 
     tried: InsertionTrial | None = None  # None: it did not finish
     step_in: float = 0.0  # Step of the search
@@ -153,12 +155,12 @@ class InsertionRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionWork:
-    """Tries conditions, by their names."""
+    """Executes trials of conditions, given by name."""
 
     conditions: Mapping[str, Condition]
 
     def __call__(self, case: Case) -> list[InsertionRow]:
-        """Fetch the pin once, and run the trials of the case from there."""
+        """Fetch the pin once, and execute the trials of the case from there."""
         condition = self.conditions[case.condition]
         last = InsertionTrial(seed=case.seed, number=len(case.trials) - 1)
         found = zip(case.trials, trials_in_world(condition, last), strict=True)
@@ -175,7 +177,9 @@ class InsertionWork:
 
 
 def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[Case]:
-    """Trials of each condition, ten in each world from a seed on; raises InvalidInput if one cannot be tried."""
+    """Cases with `n` trials of each condition, ten per world from a seed on; raises InvalidInput if a condition is
+    impossible.
+    """
     for condition in conditions:
         bench().variation().check(WorldSpec(seed=seed, overrides=Overrides(set=condition.hole)))
     return [
@@ -190,13 +194,13 @@ def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[
 
 
 def trials_in_world(condition: Condition, last: InsertionTrial) -> list[InsertionTrial]:
-    """The trials of a condition in a world, up to the last one."""
+    """The trials of a condition in one world, up to the last one."""
     begun = fetched(condition.plan, last.seed)
     return [tried(condition, begun, replace(last, number=number)) for number in range(last.number + 1)]
 
 
 def fetched(plan: Plan, seed: int) -> Runner:
-    """A run in the world of a seed, at the start of its second stage unless it stopped before."""
+    """A run in the world of a seed, at the beginning of its second stage, unless the run stopped earlier."""
     world = WorldSpec(seed=seed, overrides=Overrides(set=Condition().hole))
     setup = Setup(plan=plan, world=world, camera="ray")
     runner = Runner(Checkpoint(setup=setup))
@@ -208,7 +212,7 @@ def fetched(plan: Plan, seed: int) -> Runner:
 def tried(
     condition: Condition, begun: Runner, trial: InsertionTrial, plan: Plan | None = None
 ) -> InsertionTrial:
-    """A trial that continues where the pin has been fetched, by a plan that begins as the condition's does."""
+    """Execute a trial from the state with the fetched pin, by a plan with the same first stage as the condition's."""
     if begun.ended:
         return replace(trial, told=_told(begun))
     drawn = random_numbers(trial.seed, f"insertion.error.{trial.number}").standard_normal(2) * condition.sd
@@ -222,7 +226,7 @@ def tried(
 
 
 def _seen(trial: InsertionTrial, runner: Runner) -> InsertionTrial:
-    """The trial with what the witness saw and the program reported."""
+    """The trial completed by the witness's record and the program's report."""
     seen, done = bench().witnessed(runner.arm_cell), runner.call is None and runner.trouble is None
     return replace(
         trial,
@@ -235,9 +239,9 @@ def _seen(trial: InsertionTrial, runner: Runner) -> InsertionTrial:
 
 
 def _beginning(condition: Condition, begun: Runner, trial: InsertionTrial, plan: Plan) -> Checkpoint:
-    """The state in which a trial begins: that of what was fetched, with another plate and another noise.
+    """The start of a trial: the state with the fetched pin, but with another plate and other noise.
 
-    The plate is laid by where the pin's end truly is, so that the error is the drawn one and nothing else.
+    The plate is placed relative to the true position of the pin's end, so that the error is exactly the drawn one.
     """
     start = begun.checkpoint()
     assert start.snapshot is not None
@@ -254,7 +258,7 @@ def _beginning(condition: Condition, begun: Runner, trial: InsertionTrial, plan:
 
 
 def _told(runner: Runner) -> str:
-    """The call of the operator."""
+    """The text of the call of the operator."""
     if runner.call is None:
         return runner.trouble or ""
     return call_sentence(runner.call.message, runner.call.error, runner.call.cause)
@@ -262,7 +266,7 @@ def _told(runner: Runner) -> str:
 
 @cache
 def _plan(search: Search, step: float) -> Plan:
-    """The plan of a program of the bench, with a step of its search (in)."""
+    """The plan of a program of the bench, with a given search step (in)."""
     file = plans() / bench().programs[search]
     written = read_source(file)
     source = Source(name=written.name, text=written.text.replace(_WRITTEN_STEP, f"SEARCH  {step:g}"))
@@ -275,7 +279,7 @@ GENTLE: Final = 20.0  # N that a peak is held against
 
 
 class Setting(Record, frozen=True, kw_only=True):
-    """A condition, and how gently its pins went in."""
+    """A condition with its search step, and the number of pins inserted gently."""
 
     condition: str
     step_in: float | None  # Step of the search

@@ -31,13 +31,13 @@ _TOLD: Final = 2  # Findings that a row tells
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Results(Sequence[Result]):
-    """Results in the order of their worlds; `print` and notebooks show them as a table."""
+    """Results in the order of their worlds; `print` and notebooks show a table."""
 
     each: tuple[Result, ...]
 
     @property
     def assembled(self) -> int:
-        """Number of worlds in which the referee found everything right."""
+        """Number of worlds in which the referee accepts the work."""
         return sum(result.assembled is True for result in self.each)
 
     @overload
@@ -66,7 +66,7 @@ class Results(Sequence[Result]):
         return page(table(("world", "verdict", "working phase, s", ""), rows), heading(self._count()))
 
     def table(self) -> Table:
-        """All of it as a table, a row a world: verdict, times, and the value of each finding of the referee."""
+        """The results as a table, one row per world: verdict, times, and the value of each finding of the referee."""
         findings = {name: each for result in self.each for name, each in result.referee.items()}
         columns = (
             Column(name="seed", about="of the world", values=np.array([each.seed for each in self.each])),
@@ -93,17 +93,17 @@ def assemble_each(
     referee: Referee | Limits | None = None,
     jobs: int = 1,
 ) -> Results:
-    """Run a script in each of some worlds, and have each result judged.
+    """Run a script in several worlds, and have the referee judge each result.
 
     Args:
-        worlds: seeds, or worlds.
-        script: what `handeye.plan` takes; by default that of the water pump.
-        taught: as for `handeye.plan`.
-        camera: how pictures are made: `auto`, `gl` or `ray`.
-        search: as for `handeye.begin`.
-        referee: as for `handeye.begin`.
-        jobs: processes at a time; with more than 1 a program must be guarded by `if __name__ == "__main__":`, and
-            limits are possible, but no code that replaces a part.
+        worlds: seeds or worlds.
+        script: a script or plan, as for `handeye.plan`; by default the script of the water pump.
+        taught: taught positions, as for `handeye.plan`.
+        camera: renderer of the TV camera: `auto`, `gl` or `ray`.
+        search: search pattern, as for `handeye.begin`.
+        referee: referee or limits, as for `handeye.begin`.
+        jobs: number of parallel processes. With more than 1, the calling program must be guarded by `if __name__ ==
+            "__main__":`, and `search` and `referee` cannot be Python code; limits are possible.
 
     Returns:
         a table of results in the order of the worlds.
@@ -135,7 +135,7 @@ def _result(record: Plan, camera: str, limits: Limits | None, world: WorldSpec) 
 
 
 def why(result: Result) -> str:
-    """Why a result is not as it should be, the first findings of many; empty if it is."""
+    """The reason why a result is not right, with the first of several findings; empty if it is right."""
     if not result.completed:
         return f"{result.stopped_at or ''}: {result.message}"
     wrong = [each.told for each in result.referee.values() if each.refuses]

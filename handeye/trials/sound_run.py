@@ -1,4 +1,4 @@
-"""Sound runs: one of each world, with checkpoints close to each other, from which trials begin."""
+"""Fault-free runs, one per world, with closely spaced checkpoints, from which trials start."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ _WHOLE: Final = "whole"  # A file that says that the run reached its end
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SoundRun:
-    """A run in which nothing is broken."""
+    """A run without faults."""
 
     world: WorldSpec
     store: CheckpointStore
@@ -37,7 +37,7 @@ class SoundRun:
     stages: tuple[int, ...]  # Numbers, from 1, of the stages that these begin in
 
     def at(self, position: int) -> Checkpoint:
-        """The state at or before a number of steps; raises InvalidInput if there is none."""
+        """The kept state at, or last before, a number of steps; raises InvalidInput if there is none."""
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
             raise Refused(
@@ -46,7 +46,9 @@ class SoundRun:
         return found
 
     def before(self, stage: int) -> Checkpoint:
-        """The state before the first step of a stage, by its number from 1; raises InvalidInput if there is none."""
+        """The kept state before the first step of a stage, given by its number from 1; raises InvalidInput if there
+        is none.
+        """
         begun = [start for start, number in zip(self.starts, self.stages, strict=True) if number == stage]
         if not begun:
             raise Refused(f"the program has no stage {stage}")
@@ -54,12 +56,16 @@ class SoundRun:
 
 
 def sound_runs(of: Setup, folder: Path, worlds: Sequence[WorldSpec], jobs: int) -> Iterator[SoundRun]:
-    """The fault-free runs of some worlds, in the order they end; a folder keeps them, and those it lacks run now."""
+    """The fault-free runs of some worlds, in the order in which they are ready. They are kept in a folder; missing
+    ones are executed now.
+    """
     yield from in_processes(partial(sound_run, folder, of), worlds, jobs)
 
 
 def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
-    """The fault-free run of a world, executed now unless the folder has it; raises InvalidInput for a wrong folder."""
+    """The fault-free run of a world, executed now unless the folder contains it; raises InvalidInput for a wrong
+    folder.
+    """
     store = CheckpointStore(folder / f"{world.seed}-{world.level}")
     setup = msgspec.structs.replace(of, world=world)
     store.check(setup)
@@ -81,9 +87,9 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
 
 
 def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Steps done where a schedule can begin, and the number of the stage.
+    """Numbers of steps after which a schedule can begin, each with the number of the stage.
 
-    In a program of one stage none begins near the end: a resumed run may be reversed, if that is its job.
+    In a program with one stage, none is near the end, because a resumed run may have to undo its work.
     """
     heads = [head for _, head in store.heads()]
     last = max(head.position for head in heads) - (NEAR_END if len(stages) < 2 else 0)
@@ -93,7 +99,9 @@ def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int,
 
 
 def with_faults(start: Checkpoint, faults: Sequence[Fault]) -> Checkpoint:
-    """A state of a fault-free run as that of one with faults that have yet to begin; raises InvalidInput."""
+    """The state of a fault-free run, changed to that of a run with faults that begin later; raises InvalidInput if
+    that is impossible.
+    """
     if not faults:
         return start
     snapshot, world = start.snapshot, msgspec.structs.replace(start.setup.world, faults=tuple(faults))

@@ -1,9 +1,9 @@
-"""A sweep: trials of one kind in many worlds, each kept as it ends, and all of them counted.
+"""A sweep: trials of one kind in many worlds, each saved when it ends, and statistics over all of them.
 
-A kind is a value, `Sweep`: what is kept of a trial, how its outcomes count, and which tables are made of many. All else
-is the same for every kind: the folder in which a sweep continues where it was interrupted (`folder`), figures with
-their intervals (`figures`), the terminal (`text`), the page (`page`), tables (`tables`), and comparing two
-(`comparing`).
+A kind is a value of type `Sweep`: the record of a trial, the class of each outcome, and the tables made from many
+trials. Everything else is common to all kinds: the folder, in which an interrupted sweep continues (`folder`),
+statistics with their intervals (`figures`), the terminal (`text`), the page (`page`), tables (`tables`), and the
+comparison of batches (`comparing`).
 """
 
 from collections.abc import Callable, Generator, Mapping, Sequence
@@ -24,18 +24,19 @@ if TYPE_CHECKING:
 Ended = Literal[
     "ended", "raised", "machine", "killed", "simulated limit", "processor limit", "wall limit", "not built"
 ]
-"""A trial's end: by itself; by an exception; because this computer had no memory or no file for it; because its process
-was killed; at a limit of simulated seconds, of seconds of the processor, or (in older batches) of the wall clock;
-before there was anything to try it on."""
+"""The end of a trial: by itself; by an exception; because this computer lacked memory or could not open a file;
+because its process was killed; at a limit of simulated time, of CPU time, or (in older batches) of wall-clock time;
+or before there was anything to try.
+"""
 Standing = Literal["right", "wrong", "silent", "uncounted"]
-"""The class of an outcome: a success; a failure; a failure that was taken for a success; not at all."""
+"""The class of an outcome: success; failure; failure that was taken for a success; not counted."""
 
 FAILED: Final = "failed"  # Outcome of a trial that did not finish
 GRACE: Final = 1.1
-"""Multiple of the limit of processor time at which a process ends: it hangs where nothing looks at the limit."""
+"""Multiple of the CPU time limit at which a process is ended, because it hangs where the limit is not checked."""
 _CAME_TO_AN_END: Final = ("ended", "not built")
 _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
-"""Ends that need not happen again: they are this computer's, not the program's."""
+"""Ends that depend on this computer and not on the program, so that a repetition may end differently."""
 _BROKEN_OFF: Final[Mapping[str, str]] = {
     "killed": "its process was killed twice",
     "simulated limit": "reached the limit of simulated time",
@@ -52,7 +53,7 @@ class Case(Record, frozen=True, kw_only=True):
     condition: str = ""  # Condition under which they run; empty: there is only one
 
     def __post_init__(self) -> None:
-        """Raises BadArgument if there is no such seed."""
+        """Raises BadArgument if the seed is out of range."""
         checked_seed(self.seed)
 
 
@@ -70,27 +71,27 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def key(self) -> tuple[str, int]:
-        """Condition and number, which no other trial of a sweep has."""
+        """Condition and number, which together identify a trial of a sweep."""
         return self.condition, self.trial
 
     @property
     def broken_off(self) -> bool:
-        """True if it did not end by itself."""
+        """True if the trial did not end by itself."""
         return self.ended not in _CAME_TO_AN_END
 
     @property
     def to_be_tried_again(self) -> bool:
-        """True if this computer broke it off, which says nothing about the program."""
+        """True if the trial was ended by this computer, which says nothing about the program."""
         return self.ended in _OF_THE_MACHINE
 
     @property
     def verdict(self) -> str:
-        """Its outcome, a key of `Sweep.outcomes`, or `failed`."""
+        """Outcome of the trial, a key of `Sweep.outcomes`, or `failed`."""
         return FAILED if self.broken_off else self.outcome
 
     @property
     def outcome(self) -> str:
-        """Outcome of a trial that ended by itself; each kind defines its own."""
+        """Outcome of a trial that ended by itself; defined by each kind."""
         raise NotImplementedError
 
     @property
@@ -100,27 +101,27 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def line(self) -> str | None:
-        """Line of the script where the program stopped."""
+        """Line of the script at which the program stopped."""
         return None
 
     @property
     def cause(self) -> str:
-        """Why it failed, in equal words for equal causes."""
+        """Cause of the failure; equal causes have equal words."""
         return self.detail
 
     @property
     def detail(self) -> str:
-        """Why it failed, with figures."""
+        """Cause of the failure, with figures."""
         return self.raised or _BROKEN_OFF.get(self.ended, "")
 
     @property
     def measures(self) -> Mapping[str, float]:
-        """Measured values by name and unit, as `peak, N`; none where there is no value."""
+        """Measured values by name and unit, such as `peak, N`; missing values are left out."""
         return {}
 
     @property
     def facts(self) -> Mapping[str, float]:
-        """Values that only the table of trials shows, in the same form."""
+        """Values that only the table of trials shows, by name and unit."""
         return {}
 
 
@@ -129,29 +130,31 @@ R = TypeVar("R", bound=TrialRow)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Details:
-    """A table that a kind of sweep adds to its figures: on the terminal, the page, as CSV, and in the JSON."""
+    """A table that a kind of sweep adds to its statistics: on the terminal, on the page, as CSV and in the JSON."""
 
     name: str  # Name of the table and of its key in the JSON
     title: str
     rows: Sequence[Record]
-    """Flat records; their fields are the columns. Fields that end in `_share` are shares of 1, in `_s` seconds."""
+    """Flat records, whose fields are the columns. Fields that end in `_share` are fractions of 1, fields in `_s`
+    are seconds.
+    """
     heads: tuple[str, ...]
     span: tuple[str, str, str] | None = None
-    """Fields that are drawn as a bar with a dot in it: its low end, the dot, its high end."""
+    """Fields drawn as a bar with a dot: low end, dot, high end."""
 
     def cells(self) -> list[tuple[str, ...]]:
-        """The rows as shown."""
+        """The rows as displayed."""
         names = self.rows[0].__struct_fields__ if self.rows else ()
         return [tuple(told(name, getattr(row, name)) for name in names) for row in self.rows]
 
     def number(self, column: int) -> bool:
-        """A column has numbers."""
+        """True if a column has numbers."""
         row = self.rows[0]
         return not isinstance(getattr(row, row.__struct_fields__[column]), str)
 
 
 def told(name: str, value: object) -> str:
-    """A value of a field as shown."""
+    """The value of a field, as displayed."""
     if value is None:
         return ""
     if isinstance(value, float):
@@ -166,7 +169,7 @@ def told(name: str, value: object) -> str:
 
 
 def percent(*parts: float | None) -> str:
-    """Parts of one as percentages: `88.6 to 99.1 %`."""
+    """Fractions of one as percentages, such as `88.6 to 99.1 %`."""
     return f"{' to '.join(f'{100 * part:.1f}' for part in parts if part is not None)} %"
 
 
@@ -180,16 +183,16 @@ class Sweep(Generic[R]):
     success: str  # The word for trials that are right
     noun: str = "trial"
     sentence: Callable[[R], str] | None = None
-    """Text printed as each trial ends, if not empty. None: failures are listed at the end."""
+    """The text printed as each trial ends, unless empty. None: failures are listed at the end."""
     narrated: bool = False  # Each trial is noted on standard error with the rate so far
     summary: Callable[[Sequence[R]], Sequence[str]] = field(default=lambda _: ())
     more: Callable[[Sequence[R]], Mapping[str, object]] = field(default=lambda _: {})
-    """Further entries of the JSON."""
+    """Further entries for the JSON."""
     details: Callable[[Sequence[R]], Sequence[Details]] = field(default=lambda _: ())
     work: "Callable[[Case], Sequence[R]] | None" = None
-    """Runs the trials of a case, if it takes no options: such a kind has a command for nothing."""
+    """Executes the trials of a case, if that takes no options; such a kind needs no command of its own."""
     shared_worlds: bool = False
-    """Several trials share a world: a seed is not that of trial 0 and the number of the trial."""
+    """True if several trials share a world, so that the seed of a trial does not follow from its number."""
 
     def standing(self, row: R) -> Standing:
         """The class of a trial's outcome."""
@@ -197,18 +200,18 @@ class Sweep(Generic[R]):
 
 
 Work = Callable[[Case], Sequence[R]]
-"""Runs the trials of a case. It is sent to other processes; what it raises is kept as how the trials ended."""
+"""Executes the trials of a case. It is sent to other processes; an exception is recorded as the end of the trials."""
 
 
 @dataclass(frozen=True, slots=True)
 class GuardedWork(Generic[R]):
-    """Work whose exceptions are results: of a thousand trials, none is worth the others."""
+    """Work whose exceptions become results, so that a failed trial does not end the sweep."""
 
     work: Work[R]
     row: type[R]
 
     def __call__(self, case: Case) -> list[R]:
-        """Run the trials of a case."""
+        """Execute the trials of a case."""
         timer = HostTimer()
         try:
             rows = list(self.work(case))
@@ -220,19 +223,20 @@ class GuardedWork(Generic[R]):
 
 
 def lost(row: type[R], case: Case, **fields: object) -> list[R]:
-    """Rows of a case with lost trials: only how they ended is known."""
+    """Rows for the lost trials of a case; only how they ended is known."""
     return [row(trial=k, seed=case.seed, condition=case.condition, **fields) for k in case.trials]  # type: ignore[arg-type]
 
 
 Engine = Callable[[GuardedWork[Any], Sequence[Case]], Generator[Answer[Case, list[Any]], None, None]]
-"""Executes cases in any order; one whose process is lost is tried once more."""
+"""Executes cases in any order; a case whose process is lost is repeated once."""
 
 
 def processes(jobs: int, cpu_limit_s: float | None = None) -> Engine:
-    """Processes on this computer, kept from case to case; this one, if one is enough and nothing limits its time.
+    """Execute cases in processes on this computer, each used for many cases; with one job and no time limit, in
+    this process.
 
     Args:
-        cpu_limit_s: seconds of the processor after which a case has taken too long.
+        cpu_limit_s: CPU time limit of a case, s.
     """
 
     def carry_out(
@@ -246,7 +250,7 @@ def processes(jobs: int, cpu_limit_s: float | None = None) -> Engine:
 
 
 def cases(seed: int, numbers: Sequence[int], conditions: Sequence[str] = ("",)) -> list[Case]:
-    """One trial a world under each condition: trial k in the world of `seed` + k."""
+    """One trial per world under each condition: trial k is in the world of `seed` + k."""
     return [Case(trials=(k,), seed=seed + k, condition=each) for each in conditions for k in numbers]
 
 
@@ -259,7 +263,9 @@ def carry_out(
     folder: "BatchFolder[R] | None" = None,
     told: Callable[[R], None] = lambda _: None,
 ) -> tuple[R, ...]:
-    """Rows of the trials of some cases, in their order, each `told` once it is kept; a folder's are not tried again."""
+    """Execute trials and return their rows in the order of the cases; `told` is called for each row after it is
+    kept. Trials already in the folder are not repeated.
+    """
     rows: dict[tuple[str, int], R] = {} if folder is None else dict(folder.rows)
     todo = [case for case in cases if any((case.condition, number) not in rows for number in case.trials)]
     with closing(engine(GuardedWork(work, sweep.row), todo)) as carried_out:
@@ -273,7 +279,7 @@ def carry_out(
 
 
 def rows_of(sweep: Sweep[R], answer: Answer[Case, list[R]]) -> list[R]:
-    """Rows of a case, also of one that was lost with its process; raises what failed outside of the trials."""
+    """Rows of a case, also of a case lost with its process; raises errors from outside the trials."""
     if answer.error is not None:
         raise answer.error
     if answer.value is not None:

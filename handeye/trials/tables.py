@@ -1,4 +1,4 @@
-"""The figures of a sweep as tables for other programs."""
+"""The statistics of a sweep as tables for other programs."""
 
 from collections.abc import Sequence
 from typing import Any, Final
@@ -15,7 +15,7 @@ ROWS: Final = Kind("table of trials", b"trial,seed,condition,", ending=".csv")
 
 
 def tables(sweep: Sweep[R], rows: Sequence[R], found: Figures, camera: str = "") -> tuple[Table, ...]:
-    """A table a subject: trials, those of the kind, measures, conditions, failures; empty ones are left out."""
+    """One table per subject: trials, those of the kind, measures, conditions, failures; empty ones are left out."""
     made = [trials(sweep, rows, camera)]
     made += [_of_records(each.name, each.title, each.rows) for each in sweep.details(rows) if each.rows]
     flat: dict[str, Sequence[Record]] = {"conditions": found.conditions, "failures": found.failures}
@@ -28,7 +28,9 @@ def tables(sweep: Sweep[R], rows: Sequence[R], found: Figures, camera: str = "")
 
 
 def trials(sweep: Sweep[R], rows: Sequence[R], camera: str = "") -> Table:
-    """A row a trial: how it ended, why it failed, and all that was measured; with a camera, also its renderer."""
+    """A table with one row per trial: how it ended, why it failed, and all measured values; with a camera, also the
+    renderer.
+    """
     failed = [sweep.standing(row) != "right" for row in rows]
     columns = [
         column("trial", "number of the trial", [row.trial for row in rows]),
@@ -67,7 +69,7 @@ def _of_records(name: str, about: str, records: Sequence[Record]) -> Table:
 
 
 def column(name: str, about: str, values: Sequence[Any], unit: str = "") -> Column:
-    """A column of words or of numbers; None is an empty word, or no number."""
+    """A column of words or numbers; None becomes an empty word or NaN."""
     if any(isinstance(value, str) for value in values):
         return Column(
             name=name, about=about, values=tuple("" if value is None else str(value) for value in values)

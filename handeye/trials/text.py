@@ -1,4 +1,4 @@
-"""The figures of a sweep for a terminal."""
+"""The statistics of a sweep for a terminal."""
 
 from collections.abc import Iterator, Sequence
 from typing import Final
@@ -14,7 +14,7 @@ from handeye.trials.figures import ConditionFigures, Figures
 from handeye.trials.sweep import R, Sweep, percent
 
 NARROWEST: Final = 80
-"""Columns that a table of figures takes: a narrower terminal breaks its lines, and loses nothing of them."""
+"""Width of the tables, in columns; a narrower terminal wraps lines without losing text."""
 
 
 class PlainTable(Table):
@@ -36,7 +36,7 @@ class PlainTable(Table):
 
 
 def page(sweep: Sweep[R], rows: Sequence[R], found: Figures) -> RenderableType:
-    """Summary printed at the end of a sweep."""
+    """The summary printed at the end of a sweep."""
     tables = [table for table in _tables(sweep, rows, found) if table.rows]
     spaced = [part for table in tables for part in (table, Text())]
     lines = [] if sweep.sentence else [*failures(found)]
@@ -86,12 +86,12 @@ def _measures(figures: "Sequence[ConditionFigures | Figures]") -> PlainTable:
 
 
 def sure(wilson95: tuple[float, float] | None, p_s: float | None) -> tuple[str, str]:
-    """Interval and lower bound of a rate; empty if nothing was tried."""
+    """Interval and lower bound of a rate, as text; empty if there were no trials."""
     return ("", "") if wilson95 is None or p_s is None else (percent(*wilson95), percent(p_s))
 
 
 def failures(found: Figures) -> Iterator[str]:
-    """The failures, each with the command that carries it out again, and their causes counted."""
+    """The failures, each with the command that repeats it, and counts of their causes."""
     for failure in found.failures:
         place = _place(failure.stage, failure.line)
         condition = f", {failure.condition}" if failure.condition else ""
@@ -125,13 +125,13 @@ def verdict(sweep: Sweep[R], found: Figures) -> str:
 
 
 def _place(stage: str, line: str | None = None) -> str:
-    """The place of a failure, ready to be joined to its cause; empty if unknown."""
+    """The place of a failure as a prefix to its cause; empty if unknown."""
     named = f"“{stage}”" if stage not in ("", "referee") else stage
     return f"{named}{f', line {line}' if line else ''}: " if named else ""
 
 
 def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
-    """Batches beside the first one: how often they are right, and what differs where both are."""
+    """Batches compared with the first one: success rates, and differences where both succeeded."""
     rates = PlainTable(
         (f"compared with {first}",),
         "right",
@@ -156,7 +156,7 @@ def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
 
 
 def told_so_far(sweep: Sweep[R], rows: Sequence[R]) -> str:
-    """The rate of the trials that have ended: `3 of 4 assembled (30.1 to 95.4 %)`."""
+    """The success rate so far, such as `3 of 4 assembled (30.1 to 95.4 %)`."""
     from handeye.trials.figures import rate
 
     known = [row for row in rows if sweep.standing(row) != "uncounted"]
@@ -166,5 +166,5 @@ def told_so_far(sweep: Sweep[R], rows: Sequence[R]) -> str:
 
 
 def kept(rows: int, out: object) -> str:
-    """The sentence on a batch that is interrupted."""
+    """A sentence about an interrupted batch: how many trials are kept, and how to continue."""
     return f"{counted(rows, 'trial')} kept in {out}; the same command continues from there"

@@ -1,4 +1,4 @@
-"""Processes that are kept from trial to trial, and that may be lost: each then costs the trial it was at."""
+"""Worker processes that execute many trials each; the loss of a process costs only its present trial."""
 
 import os
 import signal
@@ -26,7 +26,7 @@ SHORTEST_LIMIT_S: Final = 1e-6  # Shortest that it knows from none
 
 
 class WorkerLost(HandeyeError):
-    """The process of a trial was killed, and again when the trial was tried once more."""
+    """The process of a trial was killed, and killed again when the trial was repeated."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,15 +42,15 @@ class Answer(Generic[Item, T]):
 
     @property
     def lost(self) -> bool:
-        """Its process was killed under it; it may be tried once more."""
+        """True if the process of the item was killed; the item may be repeated once."""
         return self.value is None and self.error is None and not self.overdue
 
 
 class Worker:
-    """A process that runs one trial after the other."""
+    """A process that executes one trial after another."""
 
     def __init__(self, trial: Callable[[Any], Any], limit_s: float | None = None) -> None:
-        """Begin the process. Ctrl-C at the terminal is for us: it does not hear it."""
+        """Start the process. It ignores Ctrl-C at the terminal, which the parent process handles."""
         self.here, there = get_context("spawn").Pipe()
         self.process = get_context("spawn").Process(target=_serve, args=(there, limit_s), daemon=True)
         with deaf_to_interrupts():
@@ -62,12 +62,12 @@ class Worker:
         )  # not with the process: the starter of one writes for ever if it is killed meanwhile
 
     def give(self, given: "_Assignment[Any]") -> None:
-        """Let it run a trial."""
+        """Send a trial to the process."""
         self.given, given.timer = given, HostTimer()
         self._send(given.item)
 
     def end(self) -> None:
-        """End the process, whatever it is at."""
+        """Kill the process, even during a trial."""
         self.here.close()
         self.process.kill()
         self.process.join()
@@ -89,10 +89,10 @@ class _Assignment(Generic[Item]):
 def answers(
     trial: Callable[[Item], T], items: Sequence[Item], count: int, *, limit_s: float | None = None
 ) -> Generator[Answer[Item, T], None, None]:
-    """Answers for each item, in the order they end, from processes, which end with the caller.
+    """Answers for all items, in the order in which they end, from worker processes that end with the caller.
 
-    A trial whose process is killed is begun once more in a new one; one that takes `limit_s` seconds of the processor
-    is ended. Time in which the process is paused, or another has the processor, is not counted.
+    A trial whose process is killed is repeated once in a new process; a trial that uses more than `limit_s` seconds
+    of CPU time is ended. Time in which the process is paused or waits for the processor does not count.
     """
     todo = deque(_Assignment[Item](item=item) for item in items)
     workers: list[Worker] = []
@@ -118,7 +118,7 @@ def answers(
 
 
 def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) -> Iterator[T]:
-    """Values for many items, in the order they end; raises WorkerLost, or what a trial raised."""
+    """Values for many items, in the order in which they are ready; raises WorkerLost, or the exception of a trial."""
     for answer in answers(trial, worlds, jobs):
         if answer.error is not None:
             raise answer.error
@@ -132,10 +132,11 @@ def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) 
 
 @contextmanager
 def deaf_to_interrupts() -> Iterator[None]:
-    """While processes are begun that shall not hear Ctrl-C at the terminal: we do, and end them without their words.
+    """In this context, processes are started that ignore Ctrl-C at the terminal; the parent handles it and ends
+    them silently.
 
-    Threads that begin here, and the processes that those begin, are deaf for good. We ourselves are interrupted when
-    all have begun: half begun, one would not be known, and complain.
+    Threads started here, and processes started by them, ignore Ctrl-C permanently. An interrupt of the parent is
+    delayed until all processes have started, because a partly started process would be unknown and print an error.
     """
     if not hasattr(signal, "pthread_sigmask"):  # as on Windows
         yield
@@ -165,7 +166,7 @@ def _heard(workers: list[Worker]) -> list[Worker]:
 
 
 def _answer(worker: Worker) -> Answer[Any, Any]:
-    """The answer of a worker, which is idle afterwards unless it is lost."""
+    """The answer of a worker, which is then idle unless it is lost."""
     given = worker.given
     assert given is not None
     wall_s = given.timer.wall_s
@@ -184,7 +185,7 @@ def _answer(worker: Worker) -> Answer[Any, Any]:
 
 
 def _serve(there: Connection, limit_s: float | None) -> None:
-    """Run what arrives, until nothing more does."""
+    """Execute trials as they arrive, until the connection is closed."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
     try:
         trial = there.recv()
@@ -199,7 +200,7 @@ def _serve(there: Connection, limit_s: float | None) -> None:
 
 @contextmanager
 def _limited(limit_s: float | None) -> Iterator[None]:
-    """During a trial: let the system end this process when it has used this much CPU time."""
+    """In this context, the system ends this process when it has used this much more CPU time."""
     if limit_s is None or not hasattr(signal, "setitimer"):  # as on Windows
         yield
         return
@@ -218,7 +219,7 @@ def _tried(trial: Callable[[Any], Any], item: Any) -> tuple[Any, BaseException |
 
 
 def _end_with_parent() -> None:
-    """End this process when the one that began it is gone, also where that was killed."""
+    """End this process when its parent process has ended, even if the parent was killed."""
     parent = parent_process()
     assert parent is not None
     connection.wait([parent.sentinel])

@@ -1,1 +1,1 @@
-"""Schedules of faults, interruptions and answers, drawn from a seed and checked against what must always hold."""
+"""Chaos trials: schedules of faults, interruptions and answers, drawn from a seed, and checked against invariants."""

@@ -1,4 +1,6 @@
-"""Executes a schedule: interrupted where it says so, resumed from disk, and ended by its operator."""
+"""Executes a schedule: interrupts the run where the schedule says so, resumes it from disk, and lets its operator
+end it.
+"""
 
 import subprocess
 import sys
@@ -28,7 +30,7 @@ LIMIT: Final = 300.0  # s after which a process is taken to hang
 
 
 class ReachedPosition(StopCondition, frozen=True, kw_only=True):
-    """Pause once a number of steps are done."""
+    """Pause when a number of steps is done."""
 
     position: int
 
@@ -38,19 +40,19 @@ class ReachedPosition(StopCondition, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class Answers:
-    """An operator who gives one answer after the other and then aborts."""
+    """An operator who gives a list of answers, one per call, and then aborts."""
 
     answers: Sequence[Answer]
     before: int  # Answers that were given before the schedule began
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """The answer to a call; a refused answer counts as abort."""
+        """The answer to a call; if the previous answer was refused, abort."""
         given = sum(isinstance(event, OperatorAnswered) for event in runner.events) - self.before
         return "abort" if refused or given >= len(self.answers) else self.answers[given]
 
 
 class Button(Observer):
-    """A panic button that is hit after a number of servo periods; None: never."""
+    """A panic button that is pressed after a number of servo periods; None: never."""
 
     def __init__(self, after: int | None) -> None:
         self._left = after
@@ -65,7 +67,7 @@ class Button(Observer):
 
 @dataclass(slots=True)
 class ScheduleRun:
-    """A schedule executed."""
+    """An executed schedule."""
 
     folder: Path
     runner: Runner
@@ -75,7 +77,7 @@ class ScheduleRun:
 
 
 class ScheduleRunner:
-    """A schedule under way, in a folder of its own."""
+    """A schedule in progress, in a separate folder."""
 
     def __init__(self, schedule: Schedule, start: Checkpoint, folder: Path) -> None:
         before = sum(isinstance(event, OperatorAnswered) for event in start.events)
@@ -87,7 +89,7 @@ class ScheduleRunner:
         self._lost: list[str] = []
 
     def carry_out(self, stops: Sequence[StopCondition], *, broken: bool) -> ScheduleRun:
-        """All of it, until one of the stops; without its interruptions if it is not to be broken."""
+        """Execute the whole schedule until one of `stops`; its interruptions are left out unless `broken`."""
         runner = pause = None
         for interruption in self._schedule.breaks if broken else ():
             runner, pause = self._interrupted(interruption, stops)
@@ -107,13 +109,13 @@ class ScheduleRunner:
         return ScheduleRun(self._place, runner, pause, self._unbraked, self._lost)
 
     def _waits(self, pause: Pause) -> bool:
-        """The pause is that of an interruption, and not one at which the schedule ends."""
+        """True if the pause is that of an interruption, and does not end the schedule."""
         return isinstance(pause.met, Interruption)
 
     def _interrupted(
         self, interruption: Break, stops: Sequence[StopCondition]
     ) -> tuple[Runner | None, Pause | None]:
-        """Continue until an interruption, or until the run pauses by itself before it."""
+        """Continue until an interruption, or until the run pauses earlier for another reason."""
         if interruption.kind == "kill":
             self._folder.close()
             kill_resumed(self._place, interruption.after)
@@ -147,11 +149,13 @@ class ScheduleRunner:
 
 
 class Interruption(ReachedPosition, frozen=True, kw_only=True):
-    """Pause for an interruption."""
+    """Pause at an interruption."""
 
 
 def kill_resumed(folder: Path, events: int) -> None:
-    """Resume a run in a process of its own, and kill that once it has written a number of events, unless it ended."""
+    """Resume a run in a separate process, and kill the process when the run has written a number of events, unless
+    the run has ended.
+    """
     journal = folder / EVENTS
     enough = _lines(journal) + events + 1  # and the one that tells that it was resumed
     process = subprocess.Popen(  # noqa: S603 - our own program

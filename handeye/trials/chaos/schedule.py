@@ -1,6 +1,7 @@
-"""A schedule: where in a run it begins, what is broken, what interrupts the run, and what the operator answers.
+"""A schedule: where a run begins, which faults and interruptions it has, and which answers the operator gives.
 
-As text it is words `NAME=VALUE` with blanks between them; what is left out is none, or as small as it can be.
+As text, a schedule consists of words `NAME=VALUE` separated by blanks; a word that is left out means none, or the
+least possible value.
 """
 
 import random
@@ -18,8 +19,9 @@ from handeye.core.variation import Level, checked_seed
 from handeye.core.world_options import by_number, faults
 
 BreakKind = Literal["panic", "pause", "back", "kill"]
-"""Panic button after N servo periods; pause after N steps, resumed from disk; the same, going back by half of them;
-process killed after N events."""
+"""Kinds of interruptions: panic button after N servo periods; pause after N steps, and resumption from disk; the
+same, but going back by half of the steps; process killed after N events.
+"""
 Answer = Literal["retry", "skip", "proceed", "abort"]
 Count = Annotated[int, msgspec.Meta(ge=1, le=9999)]
 
@@ -62,14 +64,14 @@ class Schedule(Record, frozen=True, kw_only=True):
         return " ".join(f"{name}={value}" for name, value in words.items() if value)
 
     def without(self) -> Iterator["Schedule"]:
-        """Schedules like this one with one element removed."""
+        """This schedule with one element removed, for each element."""
         for name in ("faults", "breaks", "answers"):
             things = getattr(self, name)
             for number in range(len(things)):
                 yield msgspec.structs.replace(self, **{name: (*things[:number], *things[number + 1 :])})
 
     def given(self, catalogue: Catalogue) -> tuple[Fault, ...]:
-        """Its faults; raises InvalidInput if one is unknown, or begins with no stage."""
+        """The faults of the schedule; raises InvalidInput if a fault is unknown, or begins without a stage."""
         found = faults(catalogue, self.faults, by_number)
         for fault in found:
             if fault.stage is None:
@@ -78,7 +80,7 @@ class Schedule(Record, frozen=True, kw_only=True):
 
 
 def parse_schedule(text: str) -> Schedule:
-    """The schedule that a text tells; raises InvalidInput if it tells none."""
+    """Parse a schedule; raises InvalidInput if the text is none."""
     words = dict(re.findall(r"(\w+)=(\S+)", text))
     known = {*Schedule.__struct_fields__}
     if (
@@ -98,7 +100,7 @@ def parse_schedule(text: str) -> Schedule:
 
 
 def is_count(text: str) -> bool:
-    """A text is a whole number of a length that a number here has."""
+    """True if a text is a whole number of at most 18 digits."""
     return re.fullmatch("[0-9]{1,18}", text) is not None
 
 
@@ -115,7 +117,7 @@ def draw(
     number: int, seed: int, worlds: Sequence[tuple[int, Level]], starts: Sequence[Sequence[int]], catalogue: Catalogue,
     stage_of: Sequence[Sequence[int]],
 ) -> Schedule:  # fmt: skip
-    """The schedule of a number among those of a seed; `starts` and `stage_of` are those of each world."""
+    """Draw the schedule with a number in the series of a seed; `starts` and `stage_of` are given for each world."""
     chance = random.Random(f"{seed} {number}")  # noqa: S311 - choices, not secrets
     which = chance.randrange(len(worlds))
     place = chance.randrange(len(starts[which]))
@@ -136,7 +138,7 @@ def draw(
 
 
 def _fault(chance: random.Random, kind: FaultKind, stage: int) -> Fault:
-    """A fault of a kind that begins with a stage, at its usual size or at another."""
+    """A fault of a kind that begins with a stage, at its usual size or at another size."""
     usual = kind.usual(stage)
     if kind.size is None or chance.random() < 0.5:
         return usual

@@ -1,4 +1,6 @@
-"""Schedules tried: what must hold after each, and those that fail shrunk to the fewest things with which they do."""
+"""Executes schedules and checks invariants after each; failing schedules are reduced to the fewest elements that
+still fail.
+"""
 
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -33,7 +35,7 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 
 
 def on_disk(carried: ScheduleRun) -> Iterator[str]:
-    """Sentences on what is lost or unsound on disk."""
+    """Sentences on lost or invalid files on disk."""
     yield from carried.lost
     yield from CheckpointStore(carried.folder / CHECKPOINTS).damaged()
     try:
@@ -45,7 +47,7 @@ def on_disk(carried: ScheduleRun) -> Iterator[str]:
 
 
 def in_trace(carried: ScheduleRun) -> Iterator[str]:
-    """Sentences that say what is inconsistent in the trace."""
+    """Sentences on inconsistencies in the trace."""
     try:
         trace = read_trace(carried.folder / TRACE)
     except InvalidInput as fault:
@@ -58,7 +60,7 @@ def in_trace(carried: ScheduleRun) -> Iterator[str]:
 
 
 def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]:
-    """Differences of a run that was interrupted from the same without interruptions, a sentence each."""
+    """Differences between an interrupted run and the same run without interruptions, one sentence each."""
     if carried.runner.events != unbroken.runner.events:
         yield "events differ from those without interruptions"
     if _bytes(carried.folder) != _bytes(unbroken.folder):
@@ -70,7 +72,9 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
-    """Findings that fail although they hold once `done` stages are: all after the last, some by `holds_from` before."""
+    """Failed findings that must hold after `done` of the stages: all findings after the last stage, some
+    (`holds_from`) before.
+    """
     return [
         f"{name}: {finding.subject} {finding.value:.3g} {finding.unit}"
         for name, finding in findings.items()
@@ -92,7 +96,7 @@ def _plain(snapshot: Snapshot) -> bytes:
 
 
 class EndOfStage(StopCondition, frozen=True, kw_only=True):
-    """Pause between two stages, past a number of steps."""
+    """Pause between two stages, after a number of steps."""
 
     after: int
 
@@ -119,12 +123,12 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
 
     @property
     def names(self) -> frozenset[str]:
-        """Names of the invariants that did not hold."""
+        """Names of the violated invariants."""
         return frozenset(each.invariant for each in self.broken)
 
 
 def try_schedule(schedule: Schedule, sound: SoundRun) -> ScheduleResult:
-    """Carry a schedule out, and check what must hold; raises InvalidInput for an unknown fault or start."""
+    """Execute a schedule and check the invariants; raises InvalidInput for an unknown fault or start."""
     begun = sound.at(schedule.start)
     start = with_faults(begun, schedule.given(any_task(begun.setup.task).faults(begun.setup.world)))
     ended, broken = "error", list[Violation]()
@@ -154,7 +158,7 @@ def _named(invariant: str, sentences: Iterator[str]) -> Iterator[Violation]:
 
 
 def _sound(carried: ScheduleRun) -> Iterator[Violation]:
-    """Violations of what holds for every run, stopped or not."""
+    """Violations of the invariants that hold for all runs, stopped or not."""
     yield from _named("brakes", iter(carried.unbraked))
     yield from _named("trace", in_trace(carried))
     yield from _named("disk", on_disk(carried))
@@ -166,8 +170,8 @@ def _sound(carried: ScheduleRun) -> Iterator[Violation]:
 def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
     """Failed findings on work that the program considers right.
 
-    A stage that the program has done is judged by the findings that must hold from its end on. If one does not, the
-    program continues, for a later check may notice: it is silent only if the program ends with a wrong pump.
+    A completed stage is judged by the findings that must hold from its end on. If one does not hold, the run
+    continues, because a later check may notice: the failure is silent only if the program ends with a wrong pump.
     """
     happened = carried.runner.events[len(start.events) :]
     overruled = any(isinstance(event, OperatorAnswered) and event.choice != "retry" for event in happened)
@@ -190,7 +194,7 @@ def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
 def shrunk(
     failing: ScheduleResult, schedule: Schedule, fails: Callable[[Schedule], ScheduleResult]
 ) -> tuple[Schedule, ScheduleResult]:
-    """Shrink a failing schedule by removing one event at a time while it still fails."""
+    """Reduce a failing schedule: remove one element at a time while the schedule still fails."""
     for fewer in schedule.without():
         tried = fails(fewer)
         if tried.names & failing.names:
@@ -202,11 +206,11 @@ LEVELS: Final[tuple[Level, ...]] = ("nominal", "low", "high")
 
 
 class ChaosRow(TrialRow, frozen=True, kw_only=True):
-    """One schedule, which is the condition, tried."""
+    """The trial of one schedule; the schedule is the condition."""
 
     drawn: ScheduleResult | None = None  # Its result; None: it did not finish
     shrunk: ScheduleResult | None = None
-    """The same trial, reduced to the fewest disturbances with which it still fails; None if it does not fail."""
+    """The same trial, reduced to the fewest elements that still fail; None if it does not fail."""
 
     @property
     def outcome(self) -> str:
@@ -219,13 +223,13 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChaosWork:
-    """Tries schedules on the fault-free runs of a folder."""
+    """Executes schedules on the fault-free runs in a folder."""
 
     setup: Setup  # The setup of the runs without their worlds
     folder: Path
 
     def __call__(self, case: Case) -> list[ChaosRow]:
-        """Try one; if it fails, find the fewest things with which it does."""
+        """Execute a schedule; if it fails, reduce it to the fewest elements that still fail."""
         schedule = parse_schedule(case.condition)
         sound = sound_run(self.folder, self.setup, WorldSpec(seed=schedule.seed, level=schedule.level))
         drawn = try_schedule(schedule, sound)
@@ -238,13 +242,15 @@ class ChaosWork:
 
 
 def worlds(seed: int, count: int, *, levels: bool = True) -> list[WorldSpec]:
-    """Worlds for the schedules of a seed: its own and those after it, one level after the other if there are levels."""
+    """Worlds for the schedules of a seed: those of the seed and of the following seeds; with `levels`, the levels
+    take turns.
+    """
     chosen = LEVELS if levels else LEVELS[:1]
     return [WorldSpec(seed=seed + number, level=chosen[number % len(chosen)]) for number in range(count)]
 
 
 def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: AnyTask) -> Iterator[Schedule]:
-    """The first schedules of a seed."""
+    """The first schedules in the series of a seed."""
     for number in range(count):
         yield draw(
             number,
@@ -257,7 +263,7 @@ def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: AnyTask) ->
 
 
 def _sentence(row: ChaosRow) -> str:
-    """The violations of a failing schedule, and the command that reproduces it."""
+    """The violations of a failing schedule, and the command that reproduces them."""
     if row.drawn is None:
         return f"{row.condition}: {row.detail}"
     if row.shrunk is None:

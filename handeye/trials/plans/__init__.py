@@ -1,1 +1,1 @@
-"""Trials of planned programs: assembled, or assembled and taken apart again, in many worlds."""
+"""Trials of planned programs in many worlds: assembly, or assembly followed by dismantling."""

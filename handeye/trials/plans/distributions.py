@@ -1,4 +1,4 @@
-"""Distributions of quantities over trials: times of stages, places of searches, margins to the referee's limits."""
+"""Distributions over trials: times of stages, numbers of search places, margins to the referee's limits."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
@@ -15,7 +15,7 @@ ALIKE: Final = 1e-3  # Part of their mean by which margins may vary and still co
 
 
 class StageTime(Record, frozen=True, kw_only=True):
-    """Arm time (s) of a stage in the trials that came through it."""
+    """Arm time (s) of a stage, in the trials that completed the stage."""
 
     stage: str
     n: int
@@ -25,7 +25,7 @@ class StageTime(Record, frozen=True, kw_only=True):
 
 
 class SearchPlaces(Record, frozen=True, kw_only=True):
-    """Places that searches around one position have tried."""
+    """Numbers of places tried by the searches around one position."""
 
     at: str
     n: int
@@ -36,7 +36,7 @@ class SearchPlaces(Record, frozen=True, kw_only=True):
 
 
 class Margin(Record, frozen=True, kw_only=True):
-    """Margin of a finding to its limit over the judged trials, in its unit."""
+    """Margin of a finding to its limit over the judged trials, in the finding's unit."""
 
     finding: str
     unit: str
@@ -46,11 +46,13 @@ class Margin(Record, frozen=True, kw_only=True):
     worst: float  # Negative: beyond the limit
     worst_seed: int
     deviations: float | None
-    """Mean margin in standard deviations: the finding with the fewest is the next to fail. None: they hardly vary."""
+    """Mean margin in standard deviations: the finding with the smallest value is the most likely to fail next.
+    None: the values hardly vary.
+    """
 
 
 class OperationRate(Record, frozen=True, kw_only=True):
-    """Success of a contact operation: the program went on behind it."""
+    """Success rate of a contact operation; success means that the program continued after the operation."""
 
     operation: str
     successes: int
@@ -62,7 +64,7 @@ class OperationRate(Record, frozen=True, kw_only=True):
 
 
 def operations(rows: Sequence[Row]) -> Iterator[OperationRate]:
-    """Success of each contact operation."""
+    """Success rates of all contact operations."""
     done: dict[str, list[bool]] = {}
     for contact in (contact for row in rows for contact in row.contacts):
         done.setdefault(contact.operation, []).append(contact.done)
@@ -76,7 +78,7 @@ def operations(rows: Sequence[Row]) -> Iterator[OperationRate]:
 
 
 def stage_times(rows: Sequence[Row]) -> Iterator[StageTime]:
-    """Times of the stages, in the order of the program."""
+    """Times of the stages, in program order."""
     results = [row.result for row in rows if row.result is not None]
     for name in dict.fromkeys(stage.name for result in results for stage in result.stages):
         seconds = [
@@ -88,7 +90,7 @@ def stage_times(rows: Sequence[Row]) -> Iterator[StageTime]:
 
 
 def search_places(rows: Sequence[Row]) -> Iterator[SearchPlaces]:
-    """Places tried, by the position that was searched around."""
+    """Numbers of places tried, by the position around which was searched."""
     ends = [end for row in rows for end in row.searches]
     for at in dict.fromkeys(end.at for end in ends):
         here = [end for end in ends if end.at == at]
@@ -120,7 +122,9 @@ def details(rows: Sequence[Row]) -> tuple[Details, ...]:
 
 
 def margin_details(rows: Sequence[Row]) -> Details:
-    """The table of margins to the limits of the referee: the finding with the fewest deviations is the next to fail."""
+    """The table of margins to the referee's limits; the finding with the smallest margin in standard deviations is
+    the most likely to fail next.
+    """
     return Details(
         name="margins", title="Margins to the referee’s limits, the smallest first", rows=margins(rows),
         heads=("margin to the limit of", "unit", "trials", "median", "5 %", "worst", "seed", "deviations"),
@@ -129,7 +133,7 @@ def margin_details(rows: Sequence[Row]) -> Details:
 
 
 def margins(rows: Sequence[Row]) -> tuple[Margin, ...]:
-    """Margins of all findings, the next to fail first."""
+    """Margins of all findings, those most likely to fail first."""
     judged = [(row.seed, row.result.referee) for row in rows if row.result is not None and row.result.referee]
     names = dict.fromkeys(name for _, referee in judged for name in referee)
     found = [
@@ -140,7 +144,7 @@ def margins(rows: Sequence[Row]) -> tuple[Margin, ...]:
 
 
 def margin_of(check: Check) -> float:
-    """Margin of a finding to its limit, in its unit; negative beyond it."""
+    """Margin of a finding to its limit, in the finding's unit; negative beyond the limit."""
     return check.limit - check.value if check.relation == "at most" else check.value - check.limit
 
 

@@ -1,4 +1,4 @@
-"""The record of one trial of a planned program, with its contact operations and searches included."""
+"""The record of one trial of a planned program, with its contact operations and searches."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
@@ -14,7 +14,7 @@ from handeye.trials.sweep import Standing, TrialRow
 
 
 class Contact(Record, frozen=True, kw_only=True):
-    """One contact operation: from the motion to where it happens until the hand goes somewhere else."""
+    """One contact operation, from the motion to its position until the hand goes to another position."""
 
     operation: str
     at: str  # The position
@@ -22,7 +22,7 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class SearchEnd(Record, frozen=True, kw_only=True):
-    """One search."""
+    """One search of a trial."""
 
     at: str  # The position that it is around
     places: int  # tried, the first included
@@ -32,7 +32,7 @@ class SearchEnd(Record, frozen=True, kw_only=True):
 def contacts(
     program: Program, events: Sequence[AnyEvent], where: Mapping[str, tuple[str, ...]], *, completed: bool
 ) -> Iterator[Contact]:
-    """The contact operations begun, in order; `where`: their positions by their names."""
+    """The contact operations of a trial, in order; `where` has their positions by the name of the operation."""
     names = {position: name for name, positions in where.items() for position in positions}
     here = ""
     for goal in _goals(program, events):
@@ -44,7 +44,7 @@ def contacts(
 
 
 def searches(program: Program, events: Sequence[AnyEvent]) -> Iterator[SearchEnd]:
-    """The searches in which the hand went anywhere, in their order."""
+    """The searches in which the hand moved to a place, in order."""
     under_way: SearchEnd | None = None
     for event in events:
         if isinstance(event, StepStarted):
@@ -71,7 +71,7 @@ def _ended(search: SearchEnd | None) -> Iterator[SearchEnd]:
 
 
 def _goals(program: Program, events: Sequence[AnyEvent]) -> Iterator[str]:
-    """The positions that the hand went to."""
+    """The positions to which the hand moved."""
     for event in events:
         if isinstance(event, StepStarted):
             operation = program.steps[event.step].operation
@@ -80,11 +80,15 @@ def _goals(program: Program, events: Sequence[AnyEvent]) -> Iterator[str]:
 
 
 OUTCOMES: Final[Mapping[str, Standing]] = {"assembled": "right", "silent": "silent", "stopped": "wrong"}
-"""The referee found all right; the program said done and it was not; the program called for help."""
+"""Outcomes of an assembly: the referee accepts the work; the program reported success but the work is wrong; the
+program called the operator.
+"""
 APART: Final[Mapping[str, Standing]] = {
     "apart": "right", "silent": "silent", "stopped": "wrong", "not built": "uncounted",
 }  # fmt: skip
-"""Everything was where the run had found it; and there was something to take apart."""
+"""Outcomes of a dismantling: everything is back in place; the program reported success but it is not; the program
+called the operator; nothing had been built.
+"""
 
 
 class Row(TrialRow, frozen=True, kw_only=True):
@@ -96,10 +100,10 @@ class Row(TrialRow, frozen=True, kw_only=True):
     contacts: tuple[Contact, ...] = ()
     searches: tuple[SearchEnd, ...] = ()
     force: float | None = None
-    """Greatest force that the hand met while it undid, N; None: nothing was undone."""
+    """Greatest force on the hand during the undoing, N; None: nothing was undone."""
 
     def __post_init__(self) -> None:
-        """Raises ValueError if there is no result, and nothing that says why."""
+        """Raises ValueError if there is neither a result nor a reason for its absence."""
         if self.result is None and not self.broken_off:
             raise ValueError(f"a trial that counts as {self.ended!r} has no result")
 

@@ -1,4 +1,4 @@
-"""One trial of a planned program, or of taking apart what it built, from a seed to the row that is kept of it."""
+"""One trial of a planned program, or of dismantling its product, from the seed to the row that is kept."""
 
 import hashlib
 from collections.abc import Callable, Sequence
@@ -34,19 +34,21 @@ CPU_LIMIT_S: Final = 1800.0  # Of a processor: thirty times what a whole pump ta
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trial:
-    """Runs trials of one plan."""
+    """Executes trials of one plan."""
 
     plan: Plan
     world: WorldSpec  # The worlds without their seeds
     camera: str = "auto"
     without: tuple[str, ...] = ()
     on_stop: str = "abort"
-    """The policy that answers calls of the operator, as `parse_policy` reads it; it must not ask a person."""
+    """The rule that answers calls of the operator, in the words that `parse_policy` reads; it must not ask a
+    person.
+    """
     simulated_limit_s: float = SIMULATED_LIMIT_S
     cpu_limit_s: float = CPU_LIMIT_S
 
     def head(self, sweep: Sweep[Row], seeds: tuple[int, ...] = ()) -> Head:
-        """The head of a batch of them; `seeds` are those of the trials, if they do not follow each other."""
+        """The head of a batch of these trials; `seeds` are their seeds, if they are not consecutive."""
         return head_of(
             sweep, self.world, self.plan, self.settings, camera=self.camera, without=self.without,
             on_stop=self.on_stop, simulated_limit_s=self.simulated_limit_s, seeds=seeds,
@@ -58,7 +60,7 @@ class Trial:
         return {}
 
     def __call__(self, case: Case) -> list[Row]:
-        """Carry one out."""
+        """Execute one trial."""
         timer, watch = HostTimer(), Watch(simulated_s=self.simulated_limit_s, cpu_s=self.cpu_limit_s)
         (number,), world = case.trials, msgspec.structs.replace(self.world, seed=case.seed)
         try:
@@ -70,7 +72,7 @@ class Trial:
         return [Row(trial=number, seed=case.seed, condition=case.condition, **found)]  # type: ignore[arg-type]
 
     def _facts(self, world: WorldSpec, timer: HostTimer, watch: "Watch") -> dict[str, object]:
-        """The fields of a trial that raised no exception."""
+        """The fields of the row of a trial that raised no exception."""
         done = run_plan(
             self.plan,
             world=world,
@@ -89,7 +91,7 @@ class Trial:
 
 
 def events_digest(events: list[AnyEvent]) -> str:
-    """Sixteen hexadecimal digits that identify the events."""
+    """Sixteen hexadecimal digits that identify the events of a run."""
     digest = hashlib.sha256()
     for event in events:
         digest.update(to_line(event))
@@ -97,7 +99,7 @@ def events_digest(events: list[AnyEvent]) -> str:
 
 
 def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
-    """The fields that the row of any run has."""
+    """The fields that are common to the rows of all runs."""
     steps = [event for event in done.runner.events if isinstance(event, StepStarted)]
     return {
         "ended": ended,
@@ -109,7 +111,9 @@ def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
 
 @dataclass(slots=True, kw_only=True)
 class Watch:
-    """Ends a run that takes too long, as the panic button does. A paused or slow computer does not make it longer."""
+    """Ends a run that takes too long, in the way of the panic button. Only simulated time and CPU time count, so
+    that a paused or slow computer does not matter.
+    """
 
     simulated_s: float
     cpu_s: float  # Seconds of the processor
@@ -118,12 +122,12 @@ class Watch:
     clock: Callable[[], float] = lambda: 0.0
 
     def looking_on(self, runner: Runner) -> tuple[Observer, ...]:
-        """Read the clock of a run from now on; adds no observers."""
+        """Use the clock of a run from now on; adds no observers."""
         self.clock = lambda: runner.time
         return ()
 
     def over(self) -> bool:
-        """True if it has taken too long."""
+        """True if the run has taken too long."""
         if self.clock() > self.simulated_s:
             self.ended = "simulated limit"
         elif self.timer.cpu_s > self.cpu_s:
@@ -132,7 +136,7 @@ class Watch:
 
 
 def answered(rows: Sequence[Row]) -> int:
-    """Trials in which calls of the operator were answered, however they ended."""
+    """Number of trials in which calls of the operator were answered, however the trials ended."""
     return sum(row.result is not None and bool(row.result.interventions) for row in rows)
 
 
@@ -151,12 +155,14 @@ ASSEMBLY: Final = Sweep(
     more=lambda rows: {"answered": answered(rows)},
     details=details,
 )
-"""Programs run and judged."""
+"""Sweep of programs that are executed and judged."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DismantlingTrial(Trial):
-    """Builds by a plan, has the arm undo all of it, and asks the referee whether everything is where it was."""
+    """Executes a plan, has the arm undo all its work, and lets the referee judge whether everything is back in
+    place.
+    """
 
     to: str = ""  # The stage after which it begins to undo; empty: after the last
 
@@ -188,4 +194,4 @@ DISMANTLING: Final = Sweep(
     narrated=True,
     details=lambda rows: (margin_details([row for row in rows if row.verdict != "not built"]),),
 )
-"""Programs run and undone by the arm."""
+"""Sweep of programs that are executed and then undone by the arm."""

@@ -29,8 +29,8 @@ DRIVE_FIRST: Final = "drive the first two screws"
 DRIVE_LAST: Final = "drive the last four screws"
 
 ASTRAY: Final = "{what}: THE BASE IS LOST, OR A JOINT READS WRONG"
-"""Calls for a joint that was off from the beginning. The joint's two sensors agree, and the camera is calibrated
-with the joint, so only the parts in the cell reveal the error, but not the table and the blocks.
+"""Calls for a joint that was off from the beginning; they name neither table nor blocks. The joint's two sensors
+agree, and the camera is calibrated with the joint, so that only the parts in the cell reveal the error.
 """
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
 """Calls for a place that is not where it should be or was found before, and for a hole or pin that is not found:
