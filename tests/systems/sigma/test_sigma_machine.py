@@ -75,35 +75,6 @@ def test_in_the_hand_over_the_arms_are_never_both_at_the_assembly_place() -> Non
     assert (ran.fault, ran.printed[0].split()[1], round(nearest)) == ("", "4", 500)
 
 
-def _uniform(first: int, axis: int, steps: int, moves: int) -> str:
-    """A task that moves an axis back and forth."""
-    way, name = f"D{axis}", f"N{axis}"
-    return (
-        f"{first} {way} = {steps * 0.0375}\n{first + 1} FOR {name} = 1 TO {moves}\n{first + 2} MOVE X{axis} BY {way}\n"
-        f"{first + 3} {way} = - {way}\n{first + 4} NEXT {name}\n"
-    )
-
-
-@pytest.mark.slow
-@pytest.mark.sigma_row(36)
-@pytest.mark.parametrize(
-    ("steps", "tasks", "moves", "seconds", "rate", "saturation"),
-    [(915, 1, 751, 167.0, 4.5, 0.045), (579, 1, 328, 56.0, 5.86, 0.059), (651, 2, 197, 36.0, 10.94, 0.109),
-     (1804, 2, 800, 260.0, 6.15, 0.062)],
-    ids=["ORD", "SCP1B", "SCP2B", "PRCO"],
-)  # fmt: skip
-def test_table_1_comes_out_of_uniform_programs(
-    steps: int, tasks: int, moves: int, seconds: float, rate: float, saturation: float
-) -> None:
-    one, other = _uniform(10, 1, steps, moves), _uniform(30, 2, steps, moves)
-    ran = carried_out(one if tasks == 1 else f"5 START OTHER\n{one}20 TASK OTHER\n{other}", statement_us=0)
-    per_second = ran.vm.memory.commands / ran.vm.time
-    assert ran.vm.memory.commands == moves * tasks
-    assert ran.vm.time == pytest.approx(seconds, rel=0.01)
-    assert per_second == pytest.approx(rate, rel=0.01)
-    assert per_second / 100 == pytest.approx(saturation, abs=0.00051)  # to its last digit
-
-
 @pytest.mark.sigma_row(39)
 def test_an_abort_without_a_handler_stops_the_program_with_axis_cause_and_position() -> None:
     ran = carried_out("10 ORIGIN X1\n20 MOVE X1 BY 700\n30 PRINT 1")

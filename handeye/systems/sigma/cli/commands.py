@@ -30,6 +30,7 @@ from handeye.runs.observer import Observer
 from handeye.systems.sigma.cli.axis import axis
 from handeye.systems.sigma.cli.bus import bus
 from handeye.systems.sigma.cli.crash import crash
+from handeye.systems.sigma.cli.table1 import table1
 from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, ArmName
@@ -244,7 +245,7 @@ def console(
     return 0 if terminal else code
 
 
-_COMMANDS: Final = (run, check, words, axis, bus, crash)
+_COMMANDS: Final = (run, check, words, axis, bus, crash, table1)
 sigma.default(console)
 for _command in _COMMANDS:
     sigma.command(_command)

@@ -1,0 +1,23 @@
+"""The command that reproduces table 1 of the paper."""
+
+from handeye.cli.common import Json, put_json, say
+
+
+def table1(*, json: Json = False) -> int:
+    """Compare four programs with table 1 of the paper: commands, seconds, load of the bus, idle time.
+
+    Layer 1 repeats one move. Layer 2 runs programs like those of the paper, `table1_*.mal` in `plans`. All motors are
+    perfect.
+
+    Exit code 0: all claims of the paper hold; 1: one does not; 2: bad input.
+    """
+    from handeye.systems.sigma.table1 import lines
+    from handeye.systems.sigma.table1 import table1 as measured
+
+    found = measured()
+    if json:
+        put_json({"holds": found.holds, "table": found})
+    else:
+        for line in lines(found):
+            say(line, whole=True)
+    return 0 if found.holds else 1
