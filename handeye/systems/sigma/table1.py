@@ -10,10 +10,11 @@ from typing import Final
 from handeye.core.record import Record
 from handeye.core.resources import plans
 from handeye.core.source import read_source
+from handeye.ports.microbus import COMMAND_BYTES
 from handeye.systems.sigma.machine.perfect import BYTE_US, PerfectMotors
 from handeye.systems.sigma.mal.compiler import program_of
 from handeye.systems.sigma.mal.virtual_machine import STATEMENT_US, VirtualMachine
-from handeye.systems.sigma.protocol import COMMAND_BYTES, STEP_MM
+from handeye.systems.sigma.protocol import STEP_MM
 
 MOST: Final = 1_000_000 // (COMMAND_BYTES * BYTE_US)  # commands that the bus carries in a second
 BUSIEST: Final = 0.005  # share of the bus that no real program needs

@@ -1,0 +1,61 @@
+"""What the instructions that calculate do with the numbers on the stack."""
+
+import math
+import operator
+from collections.abc import Callable
+from typing import Final
+
+from handeye.core.errors import HandeyeError
+
+
+class Trap(HandeyeError):
+    """A statement cannot be executed."""
+
+
+def _divided(left: float, right: float) -> float:
+    if not right:
+        raise Trap("this divides by zero")
+    return left / right
+
+
+def _root(value: float) -> float:
+    if value < 0:
+        raise Trap(f"SQR takes no negative number, and this is {value:g}")
+    return math.sqrt(value)
+
+
+BINARY: Final[dict[str, Callable[[float, float], float]]] = {
+    "ADD": operator.add,
+    "SUB": operator.sub,
+    "MUL": operator.mul,
+    "DIV": _divided,
+    "EQ": operator.eq,
+    "NE": operator.ne,
+    "LT": operator.lt,
+    "GT": operator.gt,
+    "LE": operator.le,
+    "GE": operator.ge,
+    "AND": lambda left, right: left != 0 and right != 0,
+    "OR": lambda left, right: left != 0 or right != 0,
+}
+UNARY: Final[dict[str, Callable[[float], float]]] = {
+    "NOT": lambda value: value == 0,
+    "NEG": operator.neg,
+    "ABS": abs,
+    "INT": math.floor,
+    "SGN": lambda value: (value > 0) - (value < 0),
+    "SQR": _root,
+}
+
+
+def checked(value: float) -> float:
+    """A number that can be kept; raises Trap if it is not finite."""
+    if not math.isfinite(value):
+        raise Trap("this is beyond the largest number")
+    return float(value)
+
+
+def shown(value: float) -> str:
+    """A number as PRINT shows it."""
+    whole = value == int(value) and abs(value) < 1e15
+    return f"{value:.0f}" if whole else f"{value:.6g}"
