@@ -1,9 +1,9 @@
-"""Makes the run that `handeye report --demo` shows: its thinned trace, its result, and a picture of its end.
+"""Make the run that `handeye report --demo` shows: its thinned trace, its result, and a picture of its end.
 
 python docs/make_demo.py [DIR]
 
-DIR holds the run, kept by `handeye assemble --seed 15 --camera gl --out DIR`; without it, it is carried out first. It
-takes OpenGL.
+DIR holds the run, kept by `handeye assemble --seed 15 --camera gl --out DIR`. Without DIR, the command first makes the
+run. It needs OpenGL.
 """
 
 import sys
@@ -25,7 +25,7 @@ SIZE = (960, 720)
 
 
 def make(run: Path) -> None:
-    """All of it."""
+    """Make all files."""
     (DEMO / "pictures").mkdir(parents=True, exist_ok=True)
     write_thinned(handeye.open(run), DEMO / "trace.mcap")
     (DEMO / "result.json").write_bytes((run / "result.json").read_bytes())

@@ -1,4 +1,4 @@
-"""Writes the tables in docs/error_sources.md from the pump's quantities; what stands above them is written by people.
+"""Write the tables in docs/error_sources.md from the pump's quantities; the text above them is written by hand.
 
 python docs/make_error_sources.py
 """
@@ -47,7 +47,7 @@ def _rows(quantities: list[Quantity]) -> Iterator[list[Quantity]]:
 
 
 def _names(those: list[Quantity]) -> str:
-    """The group of some quantities and their number, or the name of one."""
+    """The group of some quantities and how many they are, or the name of a single one."""
     if len(those) == 1:
         return f"`{those[0].name}`"
     words = zip(*(quantity.name.split(".") for quantity in those), strict=False)

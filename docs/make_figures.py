@@ -1,4 +1,4 @@
-"""Writes the tables of docs/figures.md from the rigs in tests/tasks/water_pump; what stands around them people write.
+"""Write the tables of docs/figures.md from the rigs in tests/tasks/water_pump; the text around them is written by hand.
 
 python docs/make_figures.py
 """
@@ -59,14 +59,14 @@ def page(tables: str) -> str:
 
 
 def _forces(force: Force, places: int) -> list[str]:
-    """Cells of what is reckoned and simulated, to the given decimals of newtons."""
+    """Cells with the calculated and the simulated force, to the given decimals of newtons."""
     places += 2 * (force.unit == "N m")
     reckoned, simulated = f"{force.reckoned:.{places}f} {force.unit}", f"{force.simulated:.{places}f}"
     return [force.rig, force.what, reckoned, simulated, _percent(force.simulated, force.reckoned)]
 
 
 def _felt(force: Force) -> list[str]:
-    """Cells of what the hand feels, if it does."""
+    """Cells with the force that the hand feels, if it feels one."""
     if force.felt is None:
         return []
     return [f"{force.felt:.{3 if force.unit == 'N m' else 1}f}", _percent(force.felt, force.reckoned)]

@@ -1,8 +1,9 @@
-"""Makes the notebooks: the .ipynb beside each percent script in `notebooks/`, with what its cells show.
+"""Make the notebooks: next to each percent script in `notebooks/`, its .ipynb with the output of its cells.
 
 python docs/make_notebooks.py [NAME ...]
 
-NAME is a piece of the name of a notebook; without one, all are made. It takes OpenGL, and the extra `notebooks`.
+NAME is a piece of the name of a notebook; without one, the command makes all. It needs OpenGL and the extra
+`notebooks`.
 """
 
 import os
@@ -27,12 +28,12 @@ COLOURS = 256
 
 
 def scripts() -> list[Path]:
-    """The percent scripts, in their order."""
+    """The percent scripts, in order."""
     return sorted(NOTEBOOKS.glob("*.py"))
 
 
 def notebook(script: Path) -> NotebookNode:
-    """The notebook of a script, not yet carried out; the same each time."""
+    """The notebook of a script, before its cells have run; it is the same each time."""
     made = jupytext.read(script)
     made.metadata = {"kernelspec": made.metadata["kernelspec"], "language_info": {"name": "python"}}
     for number, cell in enumerate(made.cells):
@@ -41,10 +42,10 @@ def notebook(script: Path) -> NotebookNode:
 
 
 def carried_out(made: NotebookNode, folder: Path) -> NotebookNode:
-    """The notebook with what its cells show; runs are left in the folder.
+    """The notebook with the output of its cells; its runs stay in the folder.
 
     Raises:
-        CellExecutionError: a cell fails that is not marked to.
+        CellExecutionError: a cell fails that is not marked as failing.
     """
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     client = NotebookClient(
@@ -56,7 +57,7 @@ def carried_out(made: NotebookNode, folder: Path) -> NotebookNode:
 
 
 def made_small(made: NotebookNode) -> NotebookNode:
-    """The notebook with its pictures in few colours: a third of the bytes, without visible loss."""
+    """The notebook with pictures in few colours: a third of the bytes, without visible loss."""
     for data in (
         output.data for cell in made.cells for output in cell.get("outputs", []) if "data" in output
     ):
@@ -71,7 +72,7 @@ def made_small(made: NotebookNode) -> NotebookNode:
 
 
 def make(script: Path) -> Path:
-    """Carry a notebook out, and write it; its file."""
+    """Run a notebook and write it; return its file."""
     with tempfile.TemporaryDirectory() as folder:
         made = made_small(carried_out(notebook(script), Path(folder)))
     file = script.with_suffix(".ipynb")

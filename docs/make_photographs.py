@@ -39,7 +39,7 @@ DONE: Final[dict[str, tuple[str, dict[str, Any]]]] = {
 
 
 def make(trace: "handeye.Trace") -> None:
-    """All of them; the page then names the moment at which the screw is driven."""
+    """Make all photographs; the page then names the moment at which the screw is driven."""
     started = [event for event in trace.events if isinstance(event, StepStarted)]
     tools = [event.time for event in started if event.text.startswith("TOOL")]
     moment = round(tools[SECOND] + AFTER, 1)

@@ -1,11 +1,11 @@
-"""Makes the pictures of docs/, except those of README (`make_readme_pictures.py`), `pipeline.svg`, drawn by hand,
-`report.webp` (`make_report_picture.py`), and `apart.webp` and `palletiser*.webp`, made as docs/dismantling.md and
-docs/trig.md say.
+"""Make the pictures of docs/, with these exceptions. `make_readme_pictures.py` makes those of the README, and
+`make_report_picture.py` makes `report.webp`. `pipeline.svg` is drawn by hand. docs/dismantling.md and docs/trig.md say
+how to make `apart.webp` and `palletiser*.webp`.
 
 python docs/make_pictures.py [DIR]
 
-DIR holds the run that is shown, kept by `handeye assemble --seed 15 --camera gl --out DIR`; without it, it is carried
-out first. It takes OpenGL.
+DIR holds the run to show, kept by `handeye assemble --seed 15 --camera gl --out DIR`. Without DIR, the command first
+makes the run. It needs OpenGL.
 """
 
 import sys
@@ -32,13 +32,13 @@ BIG, SEEN = (1120, 840), (666, 512)
 
 
 def kept(name: str, picture: Path, size: tuple[int, int]) -> None:
-    """A picture of the run, smaller."""
+    """A picture that the run has kept, made smaller."""
     image = cv2.resize(cv2.imread(str(picture)), size, interpolation=cv2.INTER_AREA)
     cv2.imwrite(str(PICTURES / name), image, [cv2.IMWRITE_PNG_COMPRESSION, 9])
 
 
 def photographed(name: str, trace: "handeye.Trace", camera: str) -> None:
-    """The cell as the run has left it."""
+    """A photograph of the cell at the end of the run."""
     width, height = BIG
     picture = trace.frame(trace.times[-1], camera, width=width, height=height, fine=True)
     cv2.imwrite(str(PICTURES / name), picture[:, :, ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 9])
@@ -51,7 +51,7 @@ def drawn(name: str, stage: int) -> None:
 
 
 def make(run: Path) -> None:
-    """All of them."""
+    """Make all pictures."""
     trace = handeye.open(run)
     photographed("workcell.png", trace, "studio")
     photographed("pump.png", trace, "pump")
@@ -62,7 +62,7 @@ def make(run: Path) -> None:
 
 
 def main(words: list[str]) -> None:
-    """Make them of the run that is named, or of one that is carried out for them."""
+    """Make the pictures of the named run, or of a new run."""
     if words:
         make(Path(words[0]))
         return

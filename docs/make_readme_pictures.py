@@ -1,9 +1,9 @@
-"""Makes README's pictures: the film, a mistake that is found, a run that is replayed, what each sense is worth.
+"""Make the README's pictures: the film, a mistake that the checker finds, a replayed run, the worth of each sense.
 
 python docs/make_readme_pictures.py [NAME ...]
 
-NAME is `film`, `program`, `replay` or `senses`; without one, all are made. Film and replay are of the run of `handeye
-demo` and take OpenGL; the replay takes a Chromium, too, as docs/make_report_picture.py does.
+NAME is `film`, `program`, `replay` or `senses`; without one, the command makes all. Film and replay show the run of
+`handeye demo` and need OpenGL. The replay also needs Chromium, as docs/make_report_picture.py does.
 """
 
 import re
@@ -68,7 +68,7 @@ REPLAY: Final = (72, 555, 1094, 1285)
 
 
 def program() -> str:
-    """A program in an editor, with the diagnostic that its check gives."""
+    """A program in an editor, with the diagnostic of its check."""
     try:
         handeye.plan(SCRIPT, taught=TAUGHT)
     except handeye.ScriptError as error:
@@ -126,7 +126,7 @@ def film() -> None:
 
 
 def replay() -> np.ndarray:
-    """The player of a report, beside the program."""
+    """The player of a report, next to the program."""
     from make_report_picture import screenshot
 
     from handeye.cli.reports import write_report

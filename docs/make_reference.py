@@ -1,4 +1,4 @@
-"""Writes the names in docs/python.md from their docstrings; what stands above them there is written by people.
+"""Write the names in docs/python.md from their docstrings; the text above them is written by hand.
 
 python docs/make_reference.py
 """
@@ -113,7 +113,7 @@ GROUPS: Final = {
 
 
 def reference() -> str:
-    """All names with what is said of them."""
+    """All names with their descriptions."""
     out = []
     for name in ("scripts", "demo"):
         out += [*paragraph(f"`handeye.{name}`: {sentence(PACKAGE[f'api.provided.{name}'])}"), ""]
@@ -172,7 +172,7 @@ def described(name: str, place: str) -> Iterator[str]:
 
 
 def members(name: str, named: griffe.Class) -> Iterator[str]:
-    """What a class has: attributes as a list, those that are asked for last, then methods."""
+    """The members of a class: attributes as a list, with properties last, then methods."""
     own = {
         each: member
         for each, member in (abstract(named) | named.members).items()
@@ -192,7 +192,7 @@ def members(name: str, named: griffe.Class) -> Iterator[str]:
 
 
 def abstract(named: griffe.Class) -> dict[str, griffe.Object]:
-    """What a class has of an abstract base beside it, or of a base of its own name."""
+    """The members of a class that come from an abstract base in the same module, or from a base of the same name."""
     beside = (named.parent.members.get(str(base)) for base in named.bases)
     bases = (base for base in beside if base is not None and not base.is_alias)
     found = {k: v for base in bases if "ABC" in map(str, base.bases) for k, v in base.members.items()}
@@ -201,7 +201,7 @@ def abstract(named: griffe.Class) -> dict[str, griffe.Object]:
 
 
 def signature(name: str, function: griffe.Function) -> Iterator[str]:
-    """How a function is called, without what its arguments are: the text says so."""
+    """How to call a function, without the types of its arguments, which the text describes."""
     shown: list[str] = []
     for each in function.parameters:
         if each.name in ("self", "cls"):
@@ -214,7 +214,7 @@ def signature(name: str, function: griffe.Function) -> Iterator[str]:
 
 
 def default(value: str | griffe.Expr) -> str:
-    """A default as a person would write it: a constant of the package by its value."""
+    """A default value as a person would write it: a constant of the package appears as its value."""
     named = isinstance(value, griffe.ExprName | griffe.ExprAttribute)
     if named and value.canonical_path.startswith("handeye."):
         value = PACKAGE[value.canonical_path.removeprefix("handeye.")].value
@@ -222,7 +222,7 @@ def default(value: str | griffe.Expr) -> str:
 
 
 def told(named: griffe.Object) -> Iterator[str]:
-    """A docstring as paragraphs: what it is, arguments, what comes back, what is raised, an example."""
+    """A docstring as paragraphs: the description, the arguments, the result, the errors, an example."""
     for section in parsed(named):
         match section:
             case griffe.DocstringSectionText(value=text):
@@ -244,7 +244,7 @@ def parsed(named: griffe.Object) -> list[griffe.DocstringSection]:
 
 
 def prose(text: str) -> Iterator[str]:
-    """Paragraphs, and the example that ends them."""
+    """The paragraphs, and the example that ends them."""
     said, mark, example = text.partition(">>> ")
     for block in re.split(r"\n\n", said.strip()):
         yield from (*paragraph(block), "") if block else ()
@@ -259,7 +259,7 @@ def listed(entries: Iterator[tuple[str, str]]) -> Iterator[str]:
 
 
 def sentence(named: griffe.Object) -> str:
-    """What is said of an attribute in one line, with what it raises; of a field without a docstring, the comment."""
+    """An attribute described in one line, with the errors it raises; without a docstring, the comment of a field."""
     said = [] if named.docstring or not named.is_attribute else [comment(named)]
     for section in parsed(named):
         if isinstance(section, griffe.DocstringSectionText):
@@ -270,7 +270,7 @@ def sentence(named: griffe.Object) -> str:
 
 
 def comment(named: griffe.Attribute) -> str:
-    """What the comment behind a field says, as a sentence."""
+    """The comment after a field, as a sentence."""
     line = named.filepath.read_text(encoding="utf-8").splitlines()[named.endlineno - 1]
     said = line.partition("  # ")[2]
     first = said.partition(" ")[0].rstrip(";:,.")
@@ -279,7 +279,7 @@ def comment(named: griffe.Attribute) -> str:
 
 
 def paragraph(text: str, indent: str = "") -> list[str]:
-    """Text in lines as long as the pages have them."""
+    """The text, wrapped at the line length of the pages."""
     return textwrap.wrap(" ".join(text.split()), 120, subsequent_indent=indent, break_on_hyphens=False)
 
 

@@ -1,8 +1,8 @@
-"""Makes the picture of docs/report.md: the page of `handeye report --demo` in a browser.
+"""Make the picture of docs/report.md: the page of `handeye report --demo` in a browser.
 
 python docs/make_report_picture.py
 
-It takes OpenGL, and a Chromium as `python3 run.py test browser` does.
+It needs OpenGL, and Chromium, as `python3 run.py test browser` does.
 """
 
 import sys
@@ -28,7 +28,7 @@ VIEW = "work"
 
 
 def screenshot(page: Path, folder: Path) -> bytes:
-    """The top of a report at a moment, as a PNG file."""
+    """Save the top of a report, at one moment of its replay, as a PNG file."""
     with Browser.started(folder / "profile") as browser:
         seen = browser.page(page, width=WIDTH, height=HEIGHT)
         seen.wait("document.querySelector('#run.drawn') !== null")

@@ -1,4 +1,4 @@
-"""Writes the tables of docs/figures.md on speed and growth from what the commands have measured.
+"""Write the tables of docs/figures.md on speed and growth, from what the benchmarks have measured.
 
 python -m benchmarks speed --seed 1 --worlds 2 --camera gl --json > speed.json
 python -m benchmarks growth --json > growth.json
@@ -31,7 +31,7 @@ def page(text: str, tables: str) -> str:
 
 
 def speed(found: dict[str, Any]) -> str:
-    """Tables of what runs have cost."""
+    """Tables of the cost of runs."""
     return "\n".join((_worlds(found), _stages(found), _totals(found)))
 
 
@@ -97,14 +97,14 @@ def _totals(found: dict[str, Any]) -> str:
 
 
 def growth(found: dict[str, Any]) -> str:
-    """Tables of how cost grows."""
+    """Tables of how the cost grows."""
     grown = found["grown"]
     counted = dict.fromkeys(each["of"] for each in grown)
     return "\n".join(_grown(of, [each for each in grown if each["of"] == of]) for of in counted)
 
 
 def _grown(of: str, grown: Sequence[dict[str, Any]]) -> str:
-    """A table of what was measured at the same sizes, with what one more costs from the least to the largest."""
+    """A table of measurements at the same sizes; the last column is the cost of each further one."""
     head = [of, *(f"{size:,}" for size in grown[0]["sizes"]), "power", "for each more"]
     return _table(head, [_one(each) for each in grown])
 
@@ -122,7 +122,7 @@ def _one(each: dict[str, Any]) -> list[str]:
 
 
 def _small(value: float, unit: str) -> str:
-    """A share of a CPU second, or of a MiB."""
+    """A small number of CPU seconds, or of MiB."""
     if unit == "cpu_s":
         return f"{value * 1e6:,.0f} µs" if value < 0.01 else f"{value * 1e3:,.0f} ms"
     return f"{value * 2**10:,.1f} KiB" if value < 1 else f"{value:.0f} MiB"

@@ -1,12 +1,12 @@
-"""Writes the table of docs/figures.md on trials of the pump from the files in docs/trials/, and makes such files.
+"""Write the table of docs/figures.md on trials of the pump from the files in docs/trials/, and make these files.
 
-python docs/make_trials.py                                  # the table
-python docs/make_trials.py NAME COMMIT DIR                  # the file of the batch in DIR, and the table
+python docs/make_trials.py                       # the table
+python docs/make_trials.py NAME COMMIT DIR       # the file of the batch in DIR, and the table
 
-DIR is what `handeye trials assembly --out DIR` has left; of an interrupted batch, the trials before the first
-missing one count. A file has a line for each trial, and above them command, commit, digests of code and plan, worlds,
-versions, and (since it is recorded) the renderer of its pictures. Batches of one plan, one kind of worlds, the same
-code, scenes among it, and one renderer are added up.
+DIR is the output folder of `handeye trials assembly --out DIR`. Of an interrupted batch, the trials before the first
+missing one count. A file has a line for each trial. Above them are the command, the commit, digests of code and plan,
+the worlds, the versions, and (since it is recorded) the renderer of the pictures. The table adds up batches of one
+plan, one kind of worlds, one renderer and the same code, which includes the scenes.
 """
 
 import csv
@@ -57,7 +57,7 @@ BatchKind = tuple[str, str, str, str]  # plan, worlds, code and renderer
 
 @dataclass(frozen=True, slots=True)
 class Batch:
-    """A batch as its file has it."""
+    """A batch, as its file describes it."""
 
     name: str
     facts: Mapping[str, str]
@@ -65,7 +65,7 @@ class Batch:
 
     @property
     def kind(self) -> BatchKind:
-        """Plan, worlds, code and renderer: batches of one kind are added up."""
+        """Plan, worlds, code and renderer; the table adds up batches of one kind."""
         return self.facts["plan"], self.facts["worlds"], self.facts["code"], self.facts.get("renderer", "")
 
     @property
@@ -74,7 +74,7 @@ class Batch:
 
     @property
     def whole(self) -> bool:
-        """The task's own program, with all its senses, in worlds of a level as they are."""
+        """Whether the batch runs the task's own program, with all its senses, in unchanged worlds of a level."""
         return self.facts["worlds"] == self.level and "--plan" not in self.facts["command"]
 
     @property
@@ -109,12 +109,12 @@ def file_of(head: Head, rows: Sequence[Row], commit: str) -> bytes:
 
 
 def worlds(head: Head) -> str:
-    """The level of a batch's worlds, and all options besides: batches that are equal in them are added up."""
+    """The level of a batch's worlds and all its other options; the table adds up batches for which these are equal."""
     return shlex.join([head.world.level, *_options(head)])
 
 
 def renderers(rows: Sequence[Row]) -> str:
-    """How the pictures of a batch were made, by its trials: `OpenGL (EGL)`."""
+    """The renderers of the pictures of a batch, as its trials record them: `OpenGL (EGL)`."""
     return ", ".join(sorted({row.result.camera.renderer for row in rows if row.result is not None}))
 
 
@@ -129,7 +129,7 @@ def _options(head: Head) -> list[str]:
 
 
 def _command(head: Head, n: int) -> str:
-    """The command that runs a batch; a plan that is not the task's own is made by `handeye plan`."""
+    """The command that runs a batch; if its plan is not the task's own, `handeye plan` makes it first."""
     level = [] if head.world.level == "nominal" else ["--level", head.world.level]
     plan = [] if head.program == PROGRAM else ["--plan", f"{head.program}.plan.json"]
     seeds = (
@@ -164,7 +164,7 @@ def read(file: Path) -> Batch:
 
 
 def table(batches: Sequence[Batch]) -> str:
-    """Batches one by one, those of one kind together; pairs of them world by world; and what failed."""
+    """Batches one by one, batches of one kind together, pairs of batches world by world, and the failures."""
     kinds = dict.fromkeys(batch.kind for batch in batches)
     return "\n".join((_rows(batches, kinds), *_pairs(batches), *_failures(batches)))
 
@@ -201,7 +201,7 @@ def _row(trials: Sequence[Mapping[str, str]], kind: BatchKind, command: str, com
 
 
 def _pairs(batches: Sequence[Batch]) -> Iterator[str]:
-    """Batches beside one of the task's program with all its senses, of the same code and level."""
+    """Each batch next to a batch of the task's program with all its senses, of the same code and level."""
     lines = [
         _pair(first, other) for first in batches if first.whole for other in batches if _alike(first, other)
     ]
@@ -230,7 +230,7 @@ def _pair(first: Batch, other: Batch) -> str:
 
 
 def _failures(batches: Sequence[Batch]) -> Iterator[str]:
-    """A table of what failed, batch by batch and stage by stage."""
+    """A table of the failures, batch by batch and stage by stage."""
     lines = [line for batch in batches for line in _failed(batch)]
     if lines:
         yield FAILURES
@@ -261,7 +261,7 @@ def page(text: str, made: str) -> str:
 
 
 def main(words: Sequence[str]) -> None:
-    """Make a file, if one is asked for, and the table."""
+    """Make a file, if the command asks for one, and the table."""
     if len(words) not in (0, 3):
         raise SystemExit(__doc__)
     if words:

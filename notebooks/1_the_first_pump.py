@@ -69,9 +69,9 @@ run
 # The table in the middle compares the times with those printed in 1973. *Manipulation* is the motion of the arm.
 # During the rest of the working phase, the arm waits for the television camera, whose lens turret, pan, tilt and
 # focus have slow motors. As the paper of 1973 suggests, today's program lets these motors work while the arm moves,
-# where possible. So the camera takes less time than in 1973. In all, the run takes nearly three minutes longer, all
-# of it for manipulation: the arm is slower than that of 1973, and the program measures more by touch. The last stage
-# inspects the pump; it was not in the program of 1973, and takes the arm 48 s.
+# where possible. So the camera takes less time than in 1973. In all, the run takes minutes longer than in 1973, all
+# of them for manipulation: the arm is slower than that of 1973, and the program measures more by touch. The last
+# stage, which inspects the pump, was not in the program of 1973.
 #
 # ## Look at it
 #

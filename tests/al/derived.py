@@ -20,8 +20,8 @@ LONGEST = 20
 INTRODUCTION = """\
 # What can be wrong with a program
 
-{} kinds of mistake, each with a code, an example and what it gets. `handeye explain CODE` shows the same, and the
-cure where there is one. An *error* leaves no plan; a *warning* does.
+The checker finds {} kinds of mistake. This page has for each its code, an example, and the message for this example.
+`handeye explain CODE` shows the same, and the cure if there is one. An *error* prevents a plan; a *warning* does not.
 """
 
 
