@@ -28,7 +28,11 @@ def outcome(
     others = deciding(runner.setup.replaced) | ({} if referee is None else {"referee": name_of(referee)})
     limits = runner.setup.limits if found is not None and referee is None else None
     return msgspec.structs.replace(
-        result, limits=limits or UNSET, replaced=others or UNSET, without=runner.setup.without or UNSET
+        result,
+        limits=limits or UNSET,
+        replaced=others or UNSET,
+        without=runner.setup.without or UNSET,
+        figures=dict(runner.system.figures) or UNSET,
     )
 
 

@@ -164,6 +164,8 @@ class Result(Record, frozen=True, kw_only=True):
     """After all work was undone: True if the referee finds every part back in place. None: not judged, or not all
     work was undone.
     """
+    figures: dict[str, float] | UnsetType = UNSET
+    """Figures that the system of the run adds, by name."""
     built: dict[str, Check] | UnsetType = UNSET
     """Findings on the work of a job before the job undid it; `referee` has the findings after that."""
 

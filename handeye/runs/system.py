@@ -251,6 +251,11 @@ class RunningSystem(Protocol):
         """
         return {}
 
+    @property
+    def figures(self) -> Mapping[str, float]:
+        """Figures of the run that its result shows besides the common ones; none by default."""
+        return {}
+
     def remembered(self) -> Findings:
         """Findings on the program's memory after all its work was undone."""
         return {}

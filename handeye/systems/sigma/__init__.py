@@ -7,18 +7,21 @@ ENTRY = Entry(
     title="SUPERSIGMA",
     help="Write parallel tasks in MAL, and try every order in which they may go (Milan, 1981).",
     system="handeye.systems.sigma.run.system:SIGMA",
-    can=("console", "chaos"),
+    can=("levels", "video", "console", "chaos"),
     reasons={
         "plans": "`handeye sigma run FILE.mal` carries its programs out",
         "undo": "its motors know no way back; `back` in the stepper takes the run itself back",
     },
     commands="""
 sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.
-""",
+trials chess = handeye.systems.sigma.cli.chess:chess_trials: Sort chess pieces in many worlds: success rate, errors of heights and places.
+""",  # noqa: E501 - a command a line
     tasks={
         "mal": "handeye.systems.sigma.run.task:MAL_TASK",
         "gantries": "handeye.systems.sigma.gantries.task:GANTRIES",
+        "chess": "handeye.systems.sigma.chess.task:CHESS",
     },
     languages={".mal": "handeye.systems.sigma.mal.language:LANGUAGE"},
+    sweeps={"chess": "handeye.systems.sigma.run.chess_trials:CHESS_TRIALS"},
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )

@@ -62,6 +62,7 @@ _HIGH: Final = 2  # rows of six: forces one way and the other, high ends, low en
 _ENDS: Final[dict[int, Pin]] = {_HIGH: "high", _HIGH + 1: "low"}
 _LEVELS: Final = 4 * _N
 _ALL: Final = 6 * _N
+_AHEAD: Final = 256  # steps that are planned at once
 _PLACES: Final = slice(_LEVELS, _LEVELS + _N)
 Table = NDArray[np.float64]
 
@@ -223,27 +224,33 @@ class Gantries(Plant[GantryMemory]):
         """Lay the fields of all motors into one table, from the present step on."""
         self._first = self._step
         left = [(field, min(self._step - field.first, len(field.places) - 1)) for field in self._fields]
-        self._last = max(len(field.places) - gone for field, gone in left) - 1
-        places, speeds = np.empty((self._last + 1, _N)), np.zeros((self._last + 1, _N))
+        rows = max(len(field.places) - gone for field, gone in left)
+        self._whole, rows = rows <= _AHEAD, min(rows, _AHEAD)
+        self._last = rows - 1
+        places, speeds = np.empty((rows, _N)), np.zeros((rows, _N))
         for index, (field, gone) in enumerate(left):
-            rows = len(field.places) - gone
-            places[:rows, index], places[rows:, index] = field.places[gone:], field.places[-1]
-            speeds[:rows, index] = field.speeds[gone:]
+            there = min(len(field.places) - gone, rows)
+            places[:there, index], places[there:, index] = field.places[gone : gone + there], field.places[-1]
+            speeds[:there, index] = field.speeds[gone : gone + there]
         places = (places + POLE * np.array(self.memory.slipped)) * STEP + self._begin
         pull = pull_out(speeds) * self._pull
-        grips = np.tile([0.0 if closed else OPEN for closed in self.memory.grips], (self._last + 1, 1))
-        self._ctrl = np.concatenate((places + self._lead * speeds * STEP, grips), axis=1)
-        self._ranges = np.stack((-pull, pull), axis=2)
+        self._ctrl = np.empty((rows, _N + len(ARMS)))
+        self._ctrl[:, :_N] = places + self._lead * speeds * STEP
+        self._ctrl[:, _N:] = [0.0 if closed else OPEN for closed in self.memory.grips]
+        self._ranges = np.empty((rows, _N, 2))
+        self._ranges[:, :, 0], self._ranges[:, :, 1] = -pull, pull
         leaves = pull / self._stiff + STEP  # m: what the servo gives at most, and a step more
         over, under, high, low = np.frombuffer(self.memory.levels, bool).reshape(_LEVELS // _N, _N)
         forces = [np.where(acts, self._release, self._over) for acts in (over, under)]
         ends = self._high - DIFFERENTIAL * high, DIFFERENTIAL * ~low - self._low
-        still = np.concatenate((*forces, *ends))
-        still = np.tile(still, (self._last + 1, 1))
-        self._limits = np.concatenate((still, places + leaves, leaves - places), axis=1)
+        self._limits = np.empty((rows, _ALL))
+        self._limits[:, :_LEVELS] = np.concatenate((*forces, *ends))
+        self._limits[:, _PLACES], self._limits[:, _PLACES.stop :] = places + leaves, leaves - places
 
     def _draw(self) -> None:
         """Let the fields draw the rotors for a step."""
+        if not self._whole and self._step - self._first > self._last:
+            self._plan()
         self._row = min(self._step - self._first, self._last)
         self.bench.data.ctrl[:] = self._ctrl[self._row]
         self.bench.model.actuator_forcerange[:_N] = self._ranges[self._row]

@@ -16,7 +16,8 @@ from handeye.systems.sigma.mal.virtual_machine import STATEMENT_US
 from handeye.systems.sigma.mal.words import MAL_DEVICES
 
 ArmName = Literal["none", "wired", "gantries"]
-TaskName = Literal["mal", "gantries"]
+TaskName = Literal["mal", "gantries", "chess"]
+MOST_PIECES: Final = 12
 LONGEST_STATEMENT_US: Final = 1_000_000
 
 
@@ -29,9 +30,13 @@ class MalPlan(Record, frozen=True, kw_only=True):
     """Perfect motors; the firmware of all microcomputers on the wires of the bus; the same, and simulated gantries."""
     statement_us: Annotated[int, msgspec.Meta(ge=0, le=LONGEST_STATEMENT_US)] = STATEMENT_US
 
+    pieces: Annotated[int, msgspec.Meta(ge=0, le=MOST_PIECES)] = 0  # of chess on the board, with gantries
+
     @property
     def task(self) -> TaskName:
         """The task of its runs."""
+        if self.pieces:
+            return "chess"
         return "gantries" if self.arm == "gantries" else "mal"
 
     @property
@@ -117,5 +122,7 @@ def decode(data: bytes, name: str) -> MalPlan:
 
 def sound(plan: MalPlan) -> None:
     """Raises BadFile unless a plan's program can be executed."""
+    if plan.pieces and plan.arm != "gantries":
+        raise BadFile(f"{plan.name} has pieces on its board, but no gantries")
     if not plan.program.lines:
         raise BadFile(f"{plan.name} has no line that can be executed")

@@ -34,6 +34,7 @@ from handeye.runs.system import RunCallbacks, RunningSystem, Settable
 from handeye.systems.sigma import ENTRY
 from handeye.systems.sigma.bus.wired import WiredBus
 from handeye.systems.sigma.machine.perfect import PerfectMemory, PerfectMotors
+from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
 from handeye.systems.sigma.protocol import AXES, STEP_MM
 from handeye.systems.sigma.run.plan import MalPlan, encode, listing
@@ -41,8 +42,10 @@ from handeye.systems.sigma.run.state import MalState
 
 if TYPE_CHECKING:  # programs run on perfect motors without a simulator
     from handeye.cell.snapshot_cell import SnapshotCell
+    from handeye.systems.sigma.chess.witness import Witness
     from handeye.systems.sigma.gantries.machine import Gantries
 
+COMMANDS_PER_SECOND: Final = 10_000  # that the bus carries at most
 WATCHED: Final = 50  # periods in a second that a trace keeps of the gantries
 
 
@@ -59,11 +62,12 @@ class RunningMal(RunningSystem):
         self._begun = False
         self._machine: PerfectMotors | WiredBus = PerfectMotors()
         self._gantries: Gantries | None = None
+        self._witness: Witness | None = None
         match setup.plan.arm:
             case "wired":
                 self._machine = WiredBus()
             case "gantries":
-                self._machine, self._gantries = _gantries(setup)
+                self._machine, self._gantries, self._witness = _gantries(setup)
                 self._gantries.bench.after_period.append(self._watch)
         self._watched = 0
         self.vm = VirtualMachine(
@@ -82,7 +86,8 @@ class RunningMal(RunningSystem):
 
     @cached_property
     def cell(self) -> "SnapshotCell | None":
-        return None if self._gantries is None else self._gantries.bench.cell()
+        others = () if self._witness is None else (self._witness,)
+        return None if self._gantries is None else self._gantries.bench.cell(*others)
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -108,6 +113,8 @@ class RunningMal(RunningSystem):
         return self.vm.time
 
     def _tell(self, event: SystemEvent) -> None:
+        if self._witness is not None and isinstance(event, Printed):
+            self._witness.hear(event.text)
         if self._begun:
             self._around.emit(event)
         else:
@@ -228,6 +235,20 @@ class RunningMal(RunningSystem):
         self._begun = True
         self._watched = 0 if self._gantries is None else int(self._gantries.bench.now * WATCHED)
 
+    @property
+    def figures(self) -> Mapping[str, float]:
+        vm = self.vm
+        passed = vm.time
+        rate = vm.memory.commands / passed if passed else 0.0
+        return {
+            "simulated_s": round(passed, 3),
+            "commands": vm.memory.commands,
+            "questions": vm.memory.questions,
+            "commands_per_second": round(rate, 3),
+            "bus_saturation": round(rate / COMMANDS_PER_SECOND, 6),
+            "computer_idle": round(vm.idle, 4),
+        }
+
     # -- display ------------------------------------------------------------------------------
 
     @property
@@ -278,11 +299,20 @@ class RunningMal(RunningSystem):
             raise Refused(f"a flag is set by 1 and cleared by 0, not by {value[0]:g}")
 
 
-def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries]":
-    """The bus of the simulated machine, and what hangs on it."""
+def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness | None]":
+    """The bus of the simulated machine, what hangs on it, and who hears what the program says of its board."""
+    from handeye.systems.sigma.chess.task import board
+    from handeye.systems.sigma.chess.witness import Witness
     from handeye.systems.sigma.gantries.machine import Gantries, scene
     from handeye.systems.sigma.gantries.world import GantryWorld
 
-    world = GantryWorld(setup.world)
-    gantries = Gantries(scene(world), world)
-    return WiredBus(plant=gantries, seed=setup.world.seed, clock_spread=world.clock_spread), gantries
+    assert isinstance(setup.plan, MalPlan)
+    world, witness = GantryWorld(setup.world), None
+    if setup.plan.pieces:
+        spec, pieces = board(world, setup.plan.pieces)
+        witness = Witness(pieces)
+    else:
+        spec = scene(world)
+    gantries = Gantries(spec, world)
+    bus = WiredBus(plant=gantries, seed=setup.world.seed, clock_spread=world.clock_spread)
+    return bus, gantries, witness

@@ -1,0 +1,77 @@
+"""The chess experiment as a task: each piece stands on the line of its height, and its height was told right."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import degrees, inf
+from typing import TYPE_CHECKING, Final
+
+from handeye.core.units import MILLIMETRE
+from handeye.core.variation import WorldSpec
+from handeye.judge.finding import Findings, at_most
+from handeye.judge.measured import tilt
+from handeye.systems.sigma.chess.pieces import Piece, drawn, stand
+from handeye.systems.sigma.chess.witness import HEARD, Heard, ToldHeight
+from handeye.systems.sigma.gantries.machine import scene
+from handeye.systems.sigma.gantries.task import GantryTask
+from handeye.systems.sigma.gantries.world import GantryWorld
+from handeye.systems.sigma.run.plan import decode
+from handeye.tasks.interface import Words
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.truth import Truth
+
+LEAN: Final = 3.0  # deg
+PLACED: Final = 5.0  # mm across from its line
+HEIGHT: Final = 0.6  # mm
+STANDS: Final = 1.0  # mm of a foot over the board
+PIECES: Final = 8
+_NEAR: Final = 10.0  # mm along X from a piece to where the program says that it has measured it
+
+
+class Chess(GantryTask):
+    """Find pieces along three lines, measure their heights, and put each on the line of its height."""
+
+    name = "chess"
+    words = Words(product="the board", done="Each piece stands on the line of its height.")
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return board(GantryWorld(spec), PIECES)[0].compile()
+
+    def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
+        return board(GantryWorld(spec), decode(plan, "the plan of the run").pieces)[0].compile()
+
+    def judge(self, truth: Truth) -> Findings:
+        heard = truth.states[HEARD]
+        assert isinstance(heard, Heard)
+        bodies = [(piece, truth.data.body(piece.name)) for piece in heard.pieces]
+        lean = max(tilt(body.xmat.reshape(3, 3)) for _, body in bodies)
+        lifted = max(abs(float(body.xpos[2])) for _, body in bodies)
+        across = max(abs(body.xpos[1] / MILLIMETRE - piece.goal) for piece, body in bodies)
+        wrong = max(_error(piece, heard.heights) for piece in heard.pieces)
+        return {
+            "standing": at_most(degrees(lean), LEAN, "deg", "lean of the piece that leans most"),
+            "on_the_board": at_most(
+                lifted / MILLIMETRE, STANDS, "mm", "height of the foot of a piece over the board"
+            ),
+            "sorted": at_most(across, PLACED, "mm", "distance of a piece from the line of its height"),
+            "heights": at_most(wrong, HEIGHT, "mm", "error of a height that the program has measured"),
+        }
+
+
+def _error(piece: Piece, told: Sequence[ToldHeight]) -> float:
+    """mm by which the height of a piece was told wrong; infinite if it was not told at all."""
+    here = [each for each in told if each.line == piece.line and abs(each.x - piece.x) < _NEAR]
+    return min((abs(each.height - piece.height) for each in here), default=inf)
+
+
+def board(world: GantryWorld, count: int) -> tuple[mujoco.MjSpec, tuple[Piece, ...]]:
+    """The scene of a world with its pieces; raises BadArgument for a number of pieces that is none."""
+    spec, pieces = scene(world), drawn(world, count)
+    stand(spec, pieces)
+    return spec, pieces
+
+
+CHESS: Final = Chess()

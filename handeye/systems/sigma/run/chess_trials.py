@@ -1,0 +1,121 @@
+"""Trials of the chess experiment: boards drawn from seeds, sorted and judged."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import msgspec
+
+from handeye.core.resources import plans
+from handeye.core.source import read_source
+from handeye.core.variation import WorldSpec
+from handeye.results.finishing import finished
+from handeye.results.result import Check
+from handeye.runs.advance import advance
+from handeye.runs.host_seconds import Meter
+from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.systems.sigma import ENTRY
+from handeye.systems.sigma.run.plan import MalPlan
+from handeye.trials.sweep import Case, Sweep, TrialRow
+
+PROGRAM: Final = "chess.mal"
+_OUTCOMES: Final = {0: "right", 1: "stopped", 3: "silent"}
+
+
+def chess_plan(pieces: int) -> MalPlan:
+    """The plan of a board with this number of pieces."""
+    text = read_source(plans() / PROGRAM).text
+    return MalPlan(name=PROGRAM, text=text, arm="gantries", pieces=pieces)
+
+
+def chess_setup(pieces: int, world: WorldSpec) -> Setup:
+    """A run of the chess experiment."""
+    return Setup(system=ENTRY.name, plan=chess_plan(pieces), world=world, camera="auto", judged=True)
+
+
+class ChessRow(TrialRow, frozen=True, kw_only=True):
+    """One board."""
+
+    pieces: int = 0
+    result: str = ""  # right, silent, or stopped
+    message: str = ""  # the reason why the program stopped
+    checks: Mapping[str, Check] = {}
+    figures: Mapping[str, float] = {}
+
+    @property
+    def outcome(self) -> str:
+        return self.result
+
+    @property
+    def detail(self) -> str:
+        wrong = [check.told for check in self.checks.values() if check.refuses]
+        return "; ".join(filter(None, (super().detail, self.message, *wrong)))
+
+    @property
+    def measures(self) -> Mapping[str, float]:
+        return {f"{name}, {check.unit}": check.value for name, check in self.checks.items()}
+
+    @property
+    def facts(self) -> Mapping[str, float]:
+        return self.figures
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChessWork:
+    """Sorts the pieces of a board."""
+
+    pieces: int
+    world: WorldSpec
+
+    def __call__(self, case: Case) -> list[ChessRow]:
+        """Run one trial."""
+        world = msgspec.structs.replace(self.world, seed=case.seed)
+        runner = Runner(Checkpoint(setup=chess_setup(self.pieces, world)))
+        result = finished(runner, advance(runner), Meter(), judged=True)
+        return [
+            ChessRow(
+                trial=case.trials[0],
+                seed=case.seed,
+                pieces=self.pieces,
+                result=_OUTCOMES[result.exit_code],
+                message=result.message if not result.completed else "",
+                checks=result.referee,
+                figures=result.figures or {},
+            )
+        ]
+
+
+def _more(rows: Sequence[ChessRow]) -> dict[str, object]:
+    """The means of the figures, and the greatest error of each kind."""
+    ended = [row for row in rows if row.figures]
+    names = ended[0].figures if ended else ()
+    most: dict[str, float] = {}
+    for row in rows:
+        for name, value in row.measures.items():
+            most[name] = max(most.get(name, 0.0), value)
+    means = {name: round(sum(row.figures[name] for row in ended) / len(ended), 4) for name in names}
+    return {"most": most, "means": means}
+
+
+def _summary(rows: Sequence[ChessRow]) -> list[str]:
+    means = _more(rows)["means"]
+    assert isinstance(means, dict)
+    if not means:
+        return []
+    return [
+        f"on average {means['commands']:.0f} commands and questions in {means['simulated_s']:.1f} s: "
+        f"{means['commands_per_second']:.1f} a second, {means['bus_saturation']:.2%} of what the bus carries; "
+        f"the computer is idle for {means['computer_idle']:.0%} of the time"
+    ]
+
+
+CHESS_TRIALS: Final = Sweep(
+    kind="chess",
+    row=ChessRow,
+    outcomes={"right": "right", "silent": "silent", "stopped": "wrong"},
+    success="right",
+    more=_more,
+    summary=_summary,
+)
