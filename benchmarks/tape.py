@@ -107,7 +107,9 @@ class Tape:
         self._cell, self._data = cell, truth.data
         self._places = places(truth.model, truth.data, self.figures)
         self._before: dict[str, bytes] = {}
-        self._figured: dict[bytes, Any] = {}  # figures of shapes: they are many, and return to the same values
+        self._figured: dict[
+            bytes, Any
+        ] = {}  # figures of shapes: they are many, and return to the same values
         self._moves: list[Move] = []
 
     @contextmanager

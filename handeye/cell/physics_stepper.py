@@ -64,15 +64,15 @@ class PhysicsStepper:
     made instead from the last moment without that contact: contacts begin in short steps.
     """
 
-    def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, carrying: Carrying | None = None
-    ) -> None:
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, carrying: Carrying | None = None) -> None:
         """`carrying`: the contacts that may occur in long steps; none by default."""
         self._model, self._data, self._short = model, data, float(model.opt.timestep)
         self._moves = (data.qpos, data.qvel, data.act, data.qacc_warmstart)
         self._kept = [values.copy() for values in self._moves]
         self._hand = 0 if carrying is None else model.body(carrying.hand).id
-        self._carried = np.zeros((model.ntree + 1, model.ntree + 1), dtype=bool)  # the last is what stands still
+        self._carried = np.zeros(
+            (model.ntree + 1, model.ntree + 1), dtype=bool
+        )  # the last is what stands still
         for pair in () if carrying is None else carrying.pairs:
             first, second = (model.body_treeid[model.body(name).id] for name in pair)
             self._carried[first, second] = self._carried[second, first] = True

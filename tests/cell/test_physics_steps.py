@@ -90,7 +90,8 @@ def test_the_step_of_the_model_is_the_short_one_for_who_looks_on() -> None:
 
 
 TRAY = """<mujoco><option timestep="{short}" integrator="implicitfast"/><worldbody>
-<body name="tray" gravcomp="1"><joint name="up" type="slide" axis="0 0 1"/><geom type="box" size=".1 .1 .01" {soft}/></body>
+<body name="tray" gravcomp="1"><joint name="up" type="slide" axis="0 0 1"/>
+<geom type="box" size=".1 .1 .01" {soft}/></body>
 <body name="ball" pos="0 0 .0599995"><freejoint/><geom size=".05" mass=".5" {soft}/></body>
 <geom type="box" size=".1 .01 .01" pos="0 0 {bar}"/>
 </worldbody><actuator><velocity joint="up" kv="100000"/></actuator></mujoco>"""
