@@ -157,7 +157,7 @@ class PhysicsStepper:
         late = LONGER * self._short * steps * self._short / 2.0  # s2: half a step, over all of them
         for tree in sorted(self._held() or ()):
             body, start = self._free[tree]
-            mujoco.mj_jacDot(model, data, *self._bends, data.xpos[body], self._hand)
+            mujoco.mj_jacDot(model, data, self._bends[0], self._bends[1], data.xpos[body], self._hand)
             way, turn = late * (self._bends @ data.qvel)
             data.qpos[start : start + 3] += way
             along = data.xmat[body].reshape(3, 3).T @ turn  # quaternions turn about a body's own axes
