@@ -16,10 +16,11 @@ TITLES: Final = {
 }
 HEAD: Final = """# The words of MAL
 
-A line is a number from 1 to 99999 and a statement. `[ ]` may be left out, `{ }` may be repeated, `(A|B)` is one of the
-two. Names begin with a letter and go on with letters, digits and `_`; all of them count. Capitals and small letters
-are the same. Variables hold numbers, and 0 before they are set. There are no arrays. [MAL](mal.md) is the tutorial;
-`handeye sigma words MOVE` explains a word in a terminal.
+A line consists of a number from 1 to 99999 and a statement. In the forms below, you may leave out what is in `[ ]`
+and repeat what is in `{ }`; `(A|B)` means one of the two. A name begins with a letter; letters, digits and `_`
+follow, and all of them count. MAL does not distinguish capitals from small letters. A variable holds a number, which
+is 0 until you set it. There are no arrays. [MAL](mal.md) is the tutorial; `handeye sigma words MOVE` explains a word
+in a terminal.
 
 `docs/make_mal_words.py` writes this page from the table that the parser reads.
 """

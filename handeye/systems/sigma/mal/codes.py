@@ -30,7 +30,7 @@ CODES: Final[dict[str, MalCode]] = {
     ),
     "axis-twice": MalCode(
         meaning="a statement names one axis twice", example="10 MOVE X1 TO 5, X1 TO 9",
-        cure="write two statements, one behind the other",
+        cure="write two statements, one after the other",
     ),
     "beyond-rail": MalCode(
         meaning="a place is beyond the end of a rail", example="10 MOVE Z1 TO 300",
@@ -42,7 +42,7 @@ CODES: Final[dict[str, MalCode]] = {
     ),
     "for-without-next": MalCode(
         meaning="no NEXT of the same name follows a FOR in its task", example="10 FOR I = 1 TO 4\n20 PRINT I",
-        cure="write NEXT behind the lines that are repeated",
+        cure="write NEXT after the lines that are repeated",
     ),
     "line-missing": MalCode(
         meaning="a jump leads to a line that does not exist", example="10 GOTO 25\n20 END",
@@ -57,10 +57,10 @@ CODES: Final[dict[str, MalCode]] = {
     ),
     "line-twice": MalCode(
         meaning="two lines have one number", example="10 PRINT 1\n10 PRINT 2",
-        cure="give each line a number of its own",
+        cure="give each line a different number",
     ),
     "next-without-for": MalCode(
-        meaning="no FOR of the same name stands before a NEXT in its task", example="10 PRINT I\n20 NEXT I",
+        meaning="no FOR of the same name is before a NEXT in its task", example="10 PRINT I\n20 NEXT I",
         cure="write FOR before the lines that are repeated",
     ),
     "number-too-large": MalCode(
@@ -79,13 +79,14 @@ CODES: Final[dict[str, MalCode]] = {
         meaning="a name is a word of the language", example="10 SPEED = 5", cure="use another name, such as `SPEED1`"
     ),
     "resume-without-abort": MalCode(
-        meaning="a task has RESUME and no ON ABORT", example="10 RESUME", cure="say ON ABORT GOTO first"
+        meaning="a task has RESUME and no ON ABORT", example="10 RESUME", cure="write ON ABORT GOTO before it"
     ),
     "return-without-gosub": MalCode(
-        meaning="a task has RETURN and no GOSUB", example="10 RETURN", cure="go there by GOSUB, or say END"
+        meaning="a task has RETURN and no GOSUB", example="10 RETURN",
+        cure="call the lines by GOSUB, or end them with END",
     ),
     "stray-character": MalCode(
-        meaning="a character means nothing in MAL", example="10 A = 5 % 2", cure="take it out; remarks begin with REM"
+        meaning="a character has no meaning in MAL", example="10 A = 5 % 2", cure="take it out; remarks begin with REM"
     ),
     "syntax": MalCode(
         meaning="a statement is not written as its form says", example="10 MOVE X1 50",
@@ -101,18 +102,18 @@ CODES: Final[dict[str, MalCode]] = {
     ),
     "task-twice": MalCode(
         meaning="two tasks have one name", example="10 START A\n20 TASK A\n30 TASK A\n40 END",
-        cure="give each a name of its own; the first lines are the task MAIN",
+        cure="give each a different name; the first lines are the task MAIN",
     ),
     "text-unclosed": MalCode(
         meaning="a text has no second quotation mark", example='10 PRINT "READY', cure='end it with `"`'
     ),
     "too-deep": MalCode(
         meaning="an expression or a statement is nested more than 30 deep",
-        example=f"10 A = {'(' * 40}1{')' * 40}", cure="use a variable for a part of it",
+        example=f"10 A = {'(' * 40}1{')' * 40}", cure="put a part of it into a variable",
     ),
     "too-many-lines": MalCode(
         meaning="a program has more than 5000 lines", example="\n".join(f"{n} END" for n in range(1, 5002)),
-        cure="use GOSUB for what is done several times",
+        cure="use GOSUB for lines that are repeated",
     ),
     "unknown-statement": MalCode(
         meaning="a line begins with no statement of MAL", example="10 MOOVE X1 TO 5",
