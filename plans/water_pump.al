@@ -435,6 +435,34 @@ DEFINE PRESS SPOT UNEVEN
         SKIPN   9
         JUMP    UNEVEN
 
+; Does the base lie flat? LAYERS compares with the heights that are saved here.
+DEFINE FLATNESS
+        ASSIGN  TRIES 2
+        OPEN    0
+LEAN:   MOVE    TABLE
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] .6 .1
+        SAVE    TABLE           ;how high the arm finds the table
+        PRESS   FACE1 UNEVEN
+        SAVE    FACE1
+        PRESS   FACE4 UNEVEN
+        HEIGHT  FACE1 -.018 .018 ;.26 degrees along this side
+        SKIPN   9
+        JUMP    UNEVEN
+        SAVE    FACE4
+        PRESS   FACE5 UNEVEN
+        SAVE    FACE5
+        PRESS   FACE2 UNEVEN
+        HEIGHT  FACE5 -.018 .018
+        SKIPN   9
+        JUMP    UNEVEN
+        SAVE    FACE2
+        JUMP    EVEN
+UNEVEN: CHANGE  [0 0 1] 1
+        SOJG    TRIES LEAN      ;a touch scatters: all once more
+        WAIT    "THE BASE DOES NOT LIE FLAT: SOMETHING LIES UNDER IT, OR A JOINT READS WRONG"
+EVEN:   CHANGE  [0 0 1] 1
+
 ; Does a head stand as high over the face as the parts are thick? Felt twice, if it does not.
 DEFINE HEAD SPOT OVER NR
 T:      MOVE    SPOT
@@ -670,31 +698,7 @@ HELD:   LOAD    84.6
         OPEN    1.85
         CHANGE  [0 0 1] 2
         AIM     PUMP            ;for the gasket: meanwhile its face is felt, and the pins go in
-        ASSIGN  TRIES 2
-        OPEN    0
-LEAN:   MOVE    TABLE           ;does it lie flat?
-        STOP    [0 0 -40]
-        CHANGE  [0 0 -1] .6 .1
-        SAVE    TABLE           ;how high the arm finds the table
-        PRESS   FACE1 UNEVEN
-        SAVE    FACE1
-        PRESS   FACE4 UNEVEN
-        HEIGHT  FACE1 -.018 .018 ;.26 degrees along this side
-        SKIPN   9
-        JUMP    UNEVEN
-        SAVE    FACE4
-        PRESS   FACE5 UNEVEN
-        SAVE    FACE5
-        PRESS   FACE2 UNEVEN
-        HEIGHT  FACE5 -.018 .018
-        SKIPN   9
-        JUMP    UNEVEN
-        SAVE    FACE2
-        JUMP    EVEN
-UNEVEN: CHANGE  [0 0 1] 1
-        SOJG    TRIES LEAN      ;a touch scatters: all once more
-        WAIT    "THE BASE DOES NOT LIE FLAT: SOMETHING LIES UNDER IT, OR A JOINT READS WRONG"
-EVEN:   CHANGE  [0 0 1] 1
+        FLATNESS
 
         STAGE   "insert the aligning pins"
         OPEN    1.3
