@@ -1,1 +1,1 @@
-"""Runs stepped by people: commands, breakpoints, views."""
+"""The stepper: people step runs with commands, breakpoints and views."""

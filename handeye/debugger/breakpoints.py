@@ -1,4 +1,4 @@
-"""Breakpoints as a user names them: an error, a line, a label, an instruction, a stage, a step."""
+"""Breakpoints as users name them: an error, a line, a label, an instruction, a stage, a step."""
 
 import re
 from collections.abc import Iterable
@@ -21,10 +21,11 @@ _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", r
 
 
 def breakpoint(text: str, listing: Listing) -> AnyStop:
-    """The breakpoint in a text; raises InvalidInput if there is no such place, or no step can raise such an error.
+    """The breakpoint for a text; raises InvalidInput if there is no such place, or if no step can raise that error.
 
-    It is `error:23`; a line of the source, or `pins.al:3` (its first step, or the first after it); a label; an
-    instruction word (every step that begins with it); or a stage, by its name or part of it.
+    The text is `error:23`; a line of the source, or `pins.al:3` (the line's first step, or the first step after the
+    line); a label; an instruction word (every step that begins with it); or a stage, by its name or a part of the
+    name.
     """
     text = text.strip()
     if not text:
@@ -49,12 +50,16 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
 
 def stage_number(text: str, listing: Listing) -> int:
-    """The index of a stage by its number from 1, its name, or part of only that name; raises InvalidInput."""
+    """The index of a stage, given by its number from 1, its name, or a part that only its name contains; raises
+    InvalidInput.
+    """
     return stage_index(text, listing.stages)
 
 
 def step_number(text: str, listing: Listing) -> int:
-    """The index of a step by its number in the plan, or a label that stands for it alone; raises InvalidInput."""
+    """The index of a step, given by its number in the plan, or by a label that only this step has; raises
+    InvalidInput.
+    """
     text, steps = text.strip(), listing.steps
     if _NUMBER.fullmatch(text):
         if int(text) >= len(steps):
@@ -71,9 +76,9 @@ def step_number(text: str, listing: Listing) -> int:
 
 
 def meant(name: str, known: Iterable[str]) -> str:
-    """`; did you mean ...` with the nearest known name, if half of `name` or more is right; else nothing.
+    """`; did you mean ...` with the nearest known name, if at least half of `name` is right; else an empty text.
 
-    What is typed at the stepper is short: `L9` may be meant for `L1`.
+    Names typed at the stepper are short: `L9` may be meant for `L1`.
     """
     near = nearest(name, known, (len(name) + 1) // 2)
     return f"; did you mean {quoted(near)}?" if near else ""
@@ -128,7 +133,7 @@ def _at_stage(text: str, listing: Listing) -> AnyStop | None:
 
 
 def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
-    """True if a task of a run that begins at `start` can reach a place to stop at; an error may always occur."""
+    """True if a task of a run that begins at `start` can still reach the place of a stop; errors can always occur."""
     listing = listing_of(start.setup)
     wanted, ways = _steps(stop, listing), [step.ways for step in listing.steps]
     if wanted is None:
@@ -138,7 +143,7 @@ def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
 
 
 def _steps(stop: AnyStop, listing: Listing) -> frozenset[int] | None:
-    """The steps before which a condition stops; None: it is no place."""
+    """The steps before which a condition stops; None if the condition is no place."""
     match stop:
         case AtSteps():
             return frozenset(stop.steps)

@@ -1,4 +1,4 @@
-"""Commands of a prompt, and their table as help."""
+"""Commands of a prompt, and the table of commands as help."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -36,14 +36,14 @@ class Command(Generic[Act]):
 
 
 def check_bare(named: Iterable[Command[Any]], rest: str) -> None:
-    """Raise BadArgument if something follows a command that takes nothing; `named` are those of one name."""
+    """Raise BadArgument if an operand follows a command without operands; `named` are the commands of one name."""
     commands = list(named)
     if rest and all(command.bare for command in commands):
         raise BadArgument(f"`{commands[0].name}` takes no operand; remove {quoted(rest)}")
 
 
 def rows(commands: Iterable[Command[Any]]) -> list[str]:
-    """The commands as lines of help, group by group."""
+    """The commands as lines of help, by group."""
     table = list(commands)
     width = max(len(command.shown) for command in table)
     lines: list[str] = []

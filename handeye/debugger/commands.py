@@ -1,6 +1,6 @@
-"""Commands of the stepper, as they act on a session; each is given what follows its word.
+"""Actions of the stepper's commands on a session; each gets the text after the command word.
 
-The table of commands describes each.
+The table of commands describes each command.
 """
 
 import math
@@ -220,7 +220,7 @@ def checkpoint(session: DebugSession, rest: str) -> CommandResult:
 
 
 def _file(name: str) -> Path:
-    """Raises InvalidInput for a name that no file can have."""
+    """The path of a file; raises InvalidInput for an impossible name."""
     try:
         path = Path(name).expanduser()
         path.exists()
@@ -245,7 +245,9 @@ MAX_NUMBER: Final = 1000.0
 
 
 def _set(runner: Runner, text: str) -> None:
-    """Set a value by kind, name and numbers, as in `saved H 0 0 .1`; raises InvalidInput if it cannot be set."""
+    """Set a value given by kind, name and numbers, such as `saved H 0 0 .1`; raises InvalidInput if it cannot be
+    set.
+    """
     kind, _, rest = text.strip().partition(" ")
     settables = runner.system.settables()
     settable = settables.get(kind.casefold())
@@ -260,7 +262,7 @@ def _set(runner: Runner, text: str) -> None:
 
 
 def _read(text: str, settable: Settable, kind: str) -> tuple[str, list[float]]:
-    """The name and the numbers, brackets and commas left out."""
+    """The name and the numbers in a text, without brackets and commas."""
     name, *words = re.sub(r"[\[\](),]", " ", text).split() or [""]
     if not name or len(words) not in (settable.fewest, len(settable.units)):
         raise BadArgument(f"write `set {kind} {settable.usage}`")

@@ -1,4 +1,4 @@
-"""The program as the user sees it: its stages and steps, the source around a line, and places that they name."""
+"""The program as users see it: stages and steps, the source around a line, and the places that users name."""
 
 import re
 from bisect import bisect_left
@@ -34,7 +34,9 @@ class ListedStage(Record, frozen=True, kw_only=True, omit_defaults=True):
     name: str
     file: str = ""  # the required file it begins in; empty: the script itself
     lines: tuple[int, int] | None
-    """First and last line of its steps there, those of macros only if it has no others; None if it has no steps."""
+    """First and last line of the stage's steps in the file, without those of macros unless there are no others;
+    None if there are no steps.
+    """
     steps: tuple[ListedStep, ...]
 
 
@@ -89,7 +91,7 @@ def excerpt(
     file: str = "",
     tasks: Sequence[TaskView] = (),
 ) -> tuple[SourceLine, ...]:
-    """`around` lines of a text before and after `line`; `here` is marked, and the lines at which tasks stand."""
+    """`around` lines of a text before and after `line`; the line `here`, and the lines of the tasks, are marked."""
     standing: dict[int, list[str]] = {}
     for each in tasks:
         if each.file == file:
@@ -110,7 +112,9 @@ def excerpt(
 
 
 def excerpt_lines(lines: tuple[SourceLine, ...], mark: str = "→") -> list[str]:
-    """An excerpt as lines of text: `mark` before the line where the run stands, `·` where only other tasks do."""
+    """An excerpt as lines of text: `mark` before the present line of the run, `·` before lines at which only other
+    tasks are.
+    """
     width = len(str(lines[-1].line)) if lines else 0
     head = [f"    {printable(lines[0].file.expandtabs())}"] if lines and lines[0].file else []
     return head + [
@@ -121,12 +125,12 @@ def excerpt_lines(lines: tuple[SourceLine, ...], mark: str = "→") -> list[str]
 
 
 def numbered_stage(program: Listing, stage: int) -> str:
-    """`stage 4, insert the aligning pins`."""
+    """A stage with its number, such as `stage 4, insert the aligning pins`."""
     return f"stage {stage + 1}, {program.stages[stage]}"
 
 
 def _stage(number: int, name: str, steps: list[ListedStep], own: set[int]) -> ListedStage:
-    """A stage; `own` are the steps of the program that come from no macro."""
+    """A stage; `own` are the steps that do not come from a macro."""
     here = [step for step in steps if step.step in own] or steps
     file = here[0].file if here else ""
     lines = [step.line for step in here if step.file == file]
@@ -135,7 +139,7 @@ def _stage(number: int, name: str, steps: list[ListedStep], own: set[int]) -> Li
 
 
 def lines_of(program: Listing, file: str) -> Mapping[int, str]:
-    """The lines of a required file, or of the script itself, by their numbers."""
+    """The lines of a required file, or of the script itself, by number."""
     if program.numbered and not file:
         return program.numbered
     text = program.required[file] if file else program.source
@@ -144,7 +148,7 @@ def lines_of(program: Listing, file: str) -> Mapping[int, str]:
 
 
 def named_place(text: str, program: Listing) -> Place | None:
-    """The place meant by `12` or `pins.al:12`, None for another form; raises InvalidInput if there is no such file."""
+    """The place for `12` or `pins.al:12`, None for another form; raises InvalidInput if there is no such file."""
     given = _PLACE.fullmatch(text.strip())
     if given is None:
         return None

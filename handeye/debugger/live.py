@@ -1,4 +1,4 @@
-"""A run while it goes: its pace, its steps printed as they begin, lines typed meanwhile answered at once."""
+"""A run in progress at the terminal: its pace, its steps printed as they begin, and lines that are typed meanwhile."""
 
 import re
 import time
@@ -28,13 +28,13 @@ _LATE_S: Final = (
 
 @dataclass(slots=True, eq=False)
 class Pace(Observer):
-    """Keeps a run from going faster than `factor` times the wall clock: this computer waits, unknown to the run."""
+    """Limits the pace of a run to `factor` times real time by waiting; the run itself is not affected."""
 
     factor: float | None = None  # simulated seconds per second; None: as fast as it goes
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], None] = time.sleep
     _kept: tuple[float, float, float] | None = field(default=None, init=False)
-    """The factor that is kept, and since when by the wall clock and by the cell's, s."""
+    """The limited factor, with the wall-clock time and cell time (s) from which it counts."""
 
     def __str__(self) -> str:
         if self.factor is None:
@@ -48,7 +48,7 @@ class Pace(Observer):
             self._keep(self.factor, period.sensed.time)
 
     def _keep(self, factor: float, time: float) -> None:
-        """Wait until a time of the cell has come."""
+        """Wait until the cell's time is due."""
         now = self.clock()
         if self._kept is None or self._kept[0] != factor or time < self._kept[2]:
             self._kept = factor, now, time
@@ -61,7 +61,7 @@ class Pace(Observer):
 
 
 def factor(text: str) -> float | None:
-    """Read a pace: `1x`, `4x`, `.5x`, or `free`, which is None; raises InvalidInput if it is none."""
+    """Parse a pace: `1x`, `4x`, `.5x`, or `free`, which gives None; raises InvalidInput."""
     if text.casefold() == FREE:
         return None
     number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())
@@ -77,7 +77,7 @@ _OUTCOME_INDENT: Final = 8  # columns, where it has a line of its own
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Live:
-    """The terminal of a run while it goes."""
+    """The terminal during a run."""
 
     typed: Callable[[], str | None]  # a line that was typed already; None: there is none
     put: Callable[[str], None]  # puts out a piece of a line
@@ -86,7 +86,7 @@ class Live:
 
 @dataclass(slots=True, eq=False)
 class LineInput(Observer):
-    """Takes lines typed while a run goes, at every servo period and step."""
+    """Reads lines that are typed during a run, at every servo period and step."""
 
     typed: Callable[[], str | None]
     answer: Callable[[str], None]
@@ -118,7 +118,7 @@ class LiveJson(Observer):
 
 @dataclass(slots=True, eq=False)
 class LiveText(Observer):
-    """Prints each step as it begins, and its outcome when the next begins, on the same line where there is room."""
+    """Prints each step as it begins, and its outcome when the next step begins, on the same line if there is room."""
 
     runner: Runner
     write: Callable[[str], None]  # puts out a line, without its end
@@ -128,7 +128,7 @@ class LiveText(Observer):
     _open: str = ""  # text of a line that has not ended
 
     def begin(self) -> None:
-        """Print what happens from now on."""
+        """Print the events from now on."""
         self.told = len(self.runner.events)
 
     def event(self, event: AnyEvent) -> None:
@@ -141,19 +141,19 @@ class LiveText(Observer):
             self.put(self._open)
 
     def leave_line(self, *, ended: bool = False) -> None:
-        """End a line that is open; `ended`: the user's typing has ended it."""
+        """End an open line; `ended`: the user's Enter has already ended it."""
         if self._open and not ended:
             self.put("\n")
         self._open = ""
 
     def end(self) -> None:
-        """Print what is left; a step that was rolled back leaves its line as it is."""
+        """Print the remaining events; the line of a step that was rolled back stays as it is."""
         self._tell(self.runner.events[self.told :])
         self.leave_line()
         self.begin()
 
     def _tell(self, events: list[AnyEvent]) -> None:
-        """Print whole steps."""
+        """Print complete steps."""
         for summary in step_summaries(events, self.runner.listing, self.runner.task.measures):
             row = told_row(summary)
             outcome = row.removeprefix(self._open)

@@ -1,4 +1,4 @@
-"""The stepper's reply to a command, a record for programs and people, with a summary of each step that was done."""
+"""The stepper's reply to a command: a record for programs and people, with a summary of each executed step."""
 
 from collections.abc import Iterable, Sequence
 from typing import Final
@@ -27,7 +27,7 @@ _SILENT: Final = (happened.StepStarted, happened.StepFinished, happened.CameraBu
 
 
 class StepSummary(Record, frozen=True, kw_only=True):
-    """A step that was done, or something else between two steps."""
+    """An executed step, or an event between two steps."""
 
     line: int | None  # line of the source; None between steps
     file: str = ""  # the required file that line is in; empty: the script itself
@@ -78,7 +78,7 @@ def _outcome(
 
 
 def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures) -> str:
-    """End of a step without other events; empty for one that took no time."""
+    """The end position of a step without other events; empty if the step took no time."""
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:
         return ""
@@ -88,14 +88,14 @@ def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing
 
 
 class Break(Record, frozen=True, kw_only=True):
-    """A breakpoint, and the number to delete it by."""
+    """A breakpoint, with the number by which it is deleted."""
 
     number: int
     stop: AnyStop
 
 
 class CommandResult(Record, frozen=True, kw_only=True):
-    """Result of a command; fields with nothing to say are left out."""
+    """Result of a command; fields without content are left out."""
 
     said: str | UnsetType = UNSET
     pause: Pause | None = None  # why the run pauses, if the command made it go
@@ -106,7 +106,7 @@ class CommandResult(Record, frozen=True, kw_only=True):
 
 
 class UnderWay(Record, frozen=True, kw_only=True):
-    """A step that begins; names are those of `Reply`."""
+    """A step that begins; the field names are those of `Reply`."""
 
     position: int
     time: float
@@ -119,7 +119,7 @@ class UnderWay(Record, frozen=True, kw_only=True):
 
 
 class Reply(CommandResult, frozen=True, kw_only=True):
-    """The answer to a command: where the run now stands, and the outcome of the command."""
+    """The reply to a command: the present place of the run, and the result of the command."""
 
     command: str
     position: int  # steps done

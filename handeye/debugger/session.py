@@ -1,4 +1,4 @@
-"""A debugging session: the runner, the breakpoints that are set, and where states are kept."""
+"""A debugging session: the runner, the breakpoints, and the places where states are kept."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -25,7 +25,7 @@ LINES_AROUND: Final = 2  # of the script, before and after the one where the run
 
 
 class DebugSession:
-    """Session that the commands of the stepper act on."""
+    """The session on which the stepper's commands act."""
 
     def __init__(
         self,
@@ -36,10 +36,10 @@ class DebugSession:
         keep: Callable[[Checkpoint], Path | None],
         pictures: Path | None,
     ) -> None:
-        """Take a run in hand, to stop at `stops` besides breakpoints.
+        """Take control of a run, which also pauses at `stops`, not only at breakpoints.
 
-        `kept` finds the newest checkpoint on disk at a position or before it; `keep` writes one to where the run keeps
-        them, if it does; `pictures` is the folder for the last picture when it is shown.
+        `kept` finds the newest checkpoint on disk with at most that many steps done; `keep` writes a checkpoint, if
+        the run keeps them; `pictures` is the folder to which the last picture is written when it is shown.
         """
         self.runner = runner
         self.stops = stops
@@ -58,18 +58,18 @@ class DebugSession:
 
     @property
     def program(self) -> Listing:
-        """Stages and steps of the program under way."""
+        """Stages and steps of the run's program."""
         return self.runner.listing
 
     @property
     def idle(self) -> bool:
-        """Nothing has been done, or all of it was rolled back."""
+        """True if no step has been done, or all were rolled back."""
         return tuple(self.runner.events) == self._begun
 
     # -- breaks ---------------------------------------------------------------------------------------
 
     def add_break(self, text: str) -> Break:
-        """Stop there from now on; a break that is set already stays. Raises InvalidInput if there is no such place."""
+        """Set a breakpoint; a breakpoint that is already set stays. Raises InvalidInput if there is no such place."""
         stop = breakpoint(text, self.program)
         number = next((number for number, there in self.breaks.items() if there == stop), None)
         if number is None:
@@ -82,8 +82,8 @@ class DebugSession:
     def go(self, stops: Sequence[AnyStop] = (), steps: int | None = None) -> Pause:
         """Continue to the next of these stops or a breakpoint, or for `steps` steps.
 
-        A step that the panic button or a failure interrupts is undone. Raises InvalidInput if the
-        run cannot continue.
+        A step that is interrupted by the panic button or a failure is rolled back. Raises InvalidInput if the run
+        cannot continue.
         """
         refusal = self.at_its_end()
         if refusal is not None:
@@ -91,7 +91,9 @@ class DebugSession:
         return self._go(stops, steps)
 
     def have_undone(self, left: int, *, halts: bool = False) -> Pause:
-        """Have the arm undo steps until `left` remain, then end if it `halts`; raises InvalidInput if it cannot."""
+        """Have the arm undo steps until `left` remain, and end there if `halts`; raises InvalidInput if the arm
+        cannot.
+        """
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")
         self.runner.order_reversal(left, halts=halts)
@@ -110,7 +112,7 @@ class DebugSession:
         return pause
 
     def ask_pause(self) -> None:
-        """Ask a moving run to pause after the current step; raises InvalidInput if it is paused."""
+        """Request a pause of a moving run after the present step; raises InvalidInput if the run is paused."""
         if self.going is None:
             raise Refused("the run is already paused")
         if self.going == "back":
@@ -119,7 +121,7 @@ class DebugSession:
 
     @contextmanager
     def _attended(self, going: Literal["on", "back"], *observers: Observer) -> Iterator[None]:
-        """While the run goes, with these observers."""
+        """In this context, the run is in progress, with these observers."""
         self.going = going
         self.runner.observers += observers
         try:
@@ -136,7 +138,7 @@ class DebugSession:
         return Pause(kind="break", next=self.runner.at, met=ByHand())
 
     def at_its_end(self) -> str | None:
-        """Why the run cannot continue alone; None if it can."""
+        """The reason why the run cannot continue without the operator; None if it can."""
         runner = self.runner
         if not runner.ended:
             return None
@@ -148,7 +150,9 @@ class DebugSession:
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:
-        """Go back to `position` steps done; raises Refused if no such state was kept, or on the panic button."""
+        """Go back to the state with `position` steps done; raises Refused if no such state was kept, or if the
+        panic button is pressed.
+        """
         try:
             with self._attended("back", self.input):
                 self.runner.back_to(position, self.kept)
@@ -161,35 +165,37 @@ class DebugSession:
             ) from None
 
     def first(self) -> int:
-        """Position of the earliest state to go back to."""
+        """Number of steps done in the earliest state to which the run can go back."""
         first = self.runner.history[0].position
         while first > 0 and (before := self.kept(first - 1)) is not None:
             first = before.position
         return first
 
     def stage_began(self) -> int | None:
-        """Position at which the present stage began, or between stages the previous one; None before the first."""
+        """Number of steps done when the present stage began, or between stages the previous stage; None before the
+        first stage.
+        """
         return next(reversed(beginnings(self.runner).values()), None)
 
     # -- where it stands ------------------------------------------------------------------------------
 
     @property
     def stage(self) -> int | None:
-        """The stage under way or about to begin, by index; None after the last."""
+        """Index of the present or next stage; None after the last stage."""
         step = self.runner.next
         present = self.runner.stage
         return present if present is not None or step is None else step.stage
 
     @property
     def place(self) -> Place:
-        """The file and line that come next; at an end, the last that were begun."""
+        """File and line of the next step; at an end, of the last step that began."""
         step, events = self.runner.next, reversed(self.runner.events)
         if step is not None:
             return step.file, step.line
         return next(((event.file, event.line) for event in events if isinstance(event, StepStarted)), ("", 1))
 
     def source(self, place: Place | None = None, around: int = LINES_AROUND) -> tuple[SourceLine, ...]:
-        """The script around a line, by default around where the run stands."""
+        """The script around a line, by default around the present line."""
         file, line = place or self.place
         here = self.place[1] if self.place[0] == file else None
         return excerpt(self.program, line, here, around, file, task_views(self.runner))

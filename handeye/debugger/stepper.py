@@ -1,4 +1,4 @@
-"""The interactive stepper: a line is a command, its answer a record; a loop gives the answers a face."""
+"""The interactive stepper: executes commands, returns each reply as a record, and prints replies."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
@@ -33,17 +33,19 @@ class Stepper:
         keep: Callable[[Checkpoint], Path | None] = lambda _: None,
         pictures: Path | None = None,
     ) -> None:
-        """Take a run in hand, as `DebugSession`; raises InvalidInput if one of `breaks` is no place to stop."""
+        """Take control of a run, like `DebugSession`; raises InvalidInput if one of `breaks` is no place."""
         self.session = DebugSession(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
         for text in breaks:
             self.session.add_break(text)
         self.repeated: str | None = None  # line that an empty one on a terminal repeats
         self.refused = False
-        """A command was refused; those typed after the run ended do not count, since its end cannot be foreseen."""
+        """True if a command was refused. Commands after the end of the run do not count, because the user could not
+        foresee the end.
+        """
 
     @property
     def over(self) -> bool:
-        """The session was left, or the run ended by the user."""
+        """True if the session was left, or the user ended the run."""
         return self.session.over
 
     @property
@@ -51,7 +53,7 @@ class Stepper:
         return self.session.pause
 
     def do(self, line: str) -> Reply:
-        """Execute a command; one that is wrong changes nothing."""
+        """Execute a command; an invalid command changes nothing."""
         line = line.strip()
         happened = len(self.session.runner.events)
         try:
@@ -64,7 +66,7 @@ class Stepper:
         return self._reply(line, told, happened)
 
     def meanwhile(self, line: str) -> Reply:
-        """Answer a line given while the run goes; most commands are refused then."""
+        """Answer a line that was typed during a run; most commands are refused then."""
         line, happened = line.strip(), len(self.session.runner.events)
         try:
             command, rest = find(line)
@@ -79,7 +81,7 @@ class Stepper:
         return self._reply(line, told, happened)
 
     def standing(self) -> Reply:
-        """Reply before the first command: where the run pauses."""
+        """The reply before the first command, with the place at which the run is paused."""
         runner = self.session.runner
         steps = counted(len(self.session.program.steps), "step")
         said = f"{self.session.program.name}, {steps}; `help` lists the commands"
@@ -88,7 +90,7 @@ class Stepper:
         return self._reply("", told, len(runner.events))
 
     def _reply(self, line: str, told: CommandResult, happened: int, error: str | None = None) -> Reply:
-        """The answer, with what has happened after the first `happened` events."""
+        """The reply to a line, with the events after the first `happened` events."""
         session = self.session
         runner, step, stage = session.runner, session.runner.next, session.stage
         events = runner.events[happened:]
@@ -120,14 +122,15 @@ def interact(
     most: int | None = None,
     live: Live | None = None,
 ) -> Pause:
-    """Execute commands, one a line, until the session is left; returns why the run pauses. No more lines mean `quit`.
+    """Execute commands, one per line, until the session is left; returns the reason of the run's pause. The end of
+    the lines means `quit`.
 
     Args:
         write: prints lines of text, given without the final newline.
         json: answer each command with one JSON object on one line, and print nothing else.
-        prompt: a person is asked for each line: an empty one repeats what last made the run go.
-        most: steps to print of a long way; None: all.
-        live: print each step as it begins, and answer what is typed while the run goes.
+        prompt: print a prompt for each line; an empty line repeats the last command that advanced the run.
+        most: greatest number of executed steps to print; None: all.
+        live: print each step as it begins, and answer lines that are typed during the run.
     """
     face = as_json if json else partial(as_text, most=most)
     told = None if live is None else _attend(stepper, live, write, json=json, echoed=prompt)
@@ -153,7 +156,7 @@ def interact(
 def _attend(
     stepper: Stepper, live: Live, write: Callable[[str], None], *, json: bool, echoed: bool
 ) -> LiveText | None:
-    """Print steps and answer lines while the run goes; the text printer, unless answers are JSON."""
+    """Print steps and answer lines during the run; returns the text printer, or None for JSON."""
     runner, text = stepper.session.runner, None
     if json:
         stepper.session.output = LiveJson(runner, write)

@@ -25,14 +25,14 @@ class HandView(Record, frozen=True, kw_only=True):
 
 
 class ErrorView(Record, frozen=True, kw_only=True):
-    """An error that the next step tests."""
+    """The error for which the next step tests."""
 
     number: int
     sentence: str
 
 
 class SearchView(Record, frozen=True, kw_only=True):
-    """A search under way; places count from 1."""
+    """A search in progress; places count from 1."""
 
     place: int
     places: int
@@ -63,14 +63,14 @@ class PositionView(Record, frozen=True, kw_only=True):
 
 
 class PictureShown(Record, frozen=True, kw_only=True):
-    """The last picture, with what was found in it."""
+    """The last picture, with the findings in it."""
 
     name: str
     file: str | None
 
 
 class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """Place of one of several tasks."""
+    """The place of one of several tasks."""
 
     task: str
     step: int  # the step that it does next
@@ -81,7 +81,7 @@ class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class RunViews(Record, frozen=True, kw_only=True):
-    """The views asked for; the rest is left out."""
+    """The requested views; all others are left out."""
 
     time_s: float | UnsetType = UNSET
     joints: tuple[JointView, ...] | UnsetType = UNSET

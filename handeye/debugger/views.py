@@ -16,9 +16,9 @@ from handeye.runs.runner import Runner
 
 
 def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunViews:
-    """Views by topics or their beginnings (empty: all but `positions`); raises InvalidInput.
+    """Views for topics, given by their beginnings (empty: all topics except `positions`); raises InvalidInput.
 
-    The last picture is written to the folder `pictures`, if there is one.
+    The last picture is written to the folder `pictures`, if one is given.
     """
     known = {**runner.kind.topics, **({"tasks": ("tasks", task_views)} if task_views(runner) else {})}
     names = [_topic(word, known) for word in what.split()] or [n for n in known if n != "positions"]
@@ -33,7 +33,7 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunVie
 
 
 def task_views(runner: Runner) -> tuple[TaskView, ...]:
-    """The place of each task; empty if tasks have no names, as in a system with only one."""
+    """The place of each task; empty if the tasks have no names, as in a system with one task."""
     steps = runner.listing.steps
     return tuple(
         TaskView(
@@ -50,7 +50,9 @@ def task_views(runner: Runner) -> tuple[TaskView, ...]:
 
 
 def write_picture(runner: Runner, file: Path) -> str:
-    """Write the last picture, with its marks, as a PNG file; its name. Raises InvalidInput if there is none."""
+    """Write the last picture, with its marks, as a PNG file; returns its name. Raises InvalidInput if there is
+    none.
+    """
     last = last_picture(runner)
     if last is None:
         raise Refused("the program has taken no picture yet")
@@ -67,7 +69,7 @@ def _topic(what: str, topics: Collection[str]) -> str:
 
 
 def last_picture(runner: Runner) -> str | None:
-    """The name of the picture that was taken last and is still there; None if there is none."""
+    """The name of the last picture that still exists; None if there is none."""
     taken = [event.picture for event in runner.events if isinstance(event, PictureTaken)]
     return next((name for name in reversed(taken) if name in runner.system.shots), None)
 

@@ -1,1 +1,1 @@
-"""Editor services of the language: pure functions on a text, and a language server on top of them."""
+"""Editor services for the arm language: pure functions on a text, and a language server that uses them."""

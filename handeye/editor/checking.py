@@ -9,7 +9,7 @@ from handeye.tasks import task
 
 
 def arm() -> ArmModel:
-    """The arm that scripts are checked for."""
+    """The arm for which scripts are checked."""
     return task().arm
 
 

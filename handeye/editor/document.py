@@ -1,4 +1,4 @@
-"""A script in an editor: its text, taught file, and what follows from them."""
+"""A script in an editor: its text, its taught file, and the results computed from both."""
 
 from collections.abc import Collection
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ from handeye.program.taught import Taught
 
 @dataclass(frozen=True, kw_only=True)
 class Document:
-    """A script. Offsets count characters of its text; everything is computed on demand."""
+    """A script. Offsets count characters of its text; all results are computed on demand."""
 
     source: Source
     taught: Taught = field(default_factory=Taught)
@@ -33,7 +33,7 @@ class Document:
 
     @cached_property
     def whole(self) -> Source:
-        """The script with everything it requires."""
+        """The script with all texts that it requires."""
         return self.source if self.read is None else sewn(self.source, self.read)
 
     @cached_property
@@ -53,28 +53,28 @@ class Document:
 
     @cached_property
     def names(self) -> list[Occurrence]:
-        """Names in the script."""
+        """Occurrences of names in the script."""
         return occurrences(self.text, self.taught.parts, self.macros)
 
     @cached_property
     def required_names(self) -> list[tuple[Source, Occurrence]]:
-        """Names in required texts, with the text; spans are of that text."""
+        """Occurrences of names in required texts, with their text; spans are offsets in that text."""
         parts = self.taught.parts
         return [(text, o) for text in self.whole.required for o in occurrences(text.text, parts, self.macros)]
 
     @cached_property
     def taught_names(self) -> list[Occurrence]:
-        """Names in the taught file; spans are of that file."""
+        """Occurrences of names in the taught file; spans are offsets in that file."""
         return taught_occurrences(self.taught_text)
 
     @cached_property
     def compiled(self) -> tuple[Program | None, list[Diagnostic]]:
-        """The program, None if there are errors, and diagnostics."""
+        """The program, or None if there are errors, and the diagnostics."""
         return compile_text(self.whole, self.taught)
 
     @cached_property
     def positions(self) -> dict[str, Position]:
-        """Hand positions by name, taught or written on correct lines."""
+        """Hand positions by name: taught ones, and those written on lines without errors."""
         script = parse_whole(self.whole)[0]
         statements = as_called(script, expand(script, lambda _: None))
         written = [s for s in statements if s.word is not None and s.word.text == "TRANS"]
@@ -87,27 +87,27 @@ class Document:
         return self.taught.parts.keys() if kind == PART else ()
 
     def macro_at(self, offset: int) -> MacroBody | None:
-        """The script's macro around an offset."""
+        """The macro of the script that contains an offset."""
         line = self.line_at(offset)
         return next((macro for macro in self._own_macros.values() if line in macro.lines), None)
 
     def line_at(self, offset: int) -> Line | None:
-        """The line of an offset; None past the last."""
+        """The line that contains an offset; None after the last line."""
         number = self.source.position(offset)[0]
         return self.lines[number - 1] if number <= len(self.lines) else None
 
     def line_of(self, offset: int) -> Line:
-        """The line of an offset that is in the text."""
+        """The line that contains an offset; the offset must be in the text."""
         line = self.line_at(offset)
         assert line is not None
         return line
 
     def name_at(self, offset: int) -> Occurrence | None:
-        """The name at an offset, its end included."""
+        """The name at an offset, including the offset just after the name."""
         return next((name for name in self.names if name.span.start <= offset <= name.span.end), None)
 
     def whole_line(self, number: int) -> Span:
-        """Span of a line with its end."""
+        """Span of a line with its line end."""
         return Span(start=self._start(number), end=self._start(number + 1))
 
     def _start(self, number: int) -> int:

@@ -1,4 +1,4 @@
-"""Explanations of codes, instructions and error numbers: what raises each, and what a script can do about it."""
+"""Explanations of codes, instructions and error numbers: what raises each error, and how a script can handle it."""
 
 from dataclasses import dataclass
 from functools import cache
@@ -32,7 +32,7 @@ _MAX_FILES = 2  # required files of an example that are shown
 
 
 def explanation(word: str) -> str:
-    """Explanation of a code, error number or instruction; raises NoSuchName with the nearest."""
+    """The explanation of a code, error number or instruction; raises NoSuchName with the nearest name."""
     if word in CODES:
         return _code(word)
     if word.upper() in EXPLAINED:
@@ -52,7 +52,7 @@ def explanation(word: str) -> str:
 
 
 def listing() -> str:
-    """All codes with their meaning, errors and warnings apart, and all error numbers."""
+    """All codes with their meaning, separated into errors and warnings, and all error numbers."""
     width = max(map(len, CODES))
     out = []
     for severity in ("error", "warning"):
@@ -105,7 +105,7 @@ def _shortened(lines: list[str], most: int = 16) -> list[str]:
 
 @cache
 def example(code: str) -> tuple[Source, Diagnostic | None]:
-    """The example of a code, and its diagnostic; None if the example alone does not cause it."""
+    """The example of a code, and its diagnostic; None if the example alone does not cause the diagnostic."""
     source = sewn_of(Source(name="example.al", text=CODES[code].example), CODES[code].required)
     program, found = compile_text(source, SAMPLE)
     if program is not None:
@@ -119,7 +119,7 @@ def example(code: str) -> tuple[Source, Diagnostic | None]:
 
 @dataclass(frozen=True, slots=True)
 class Remedy:
-    """A script's remedy for an error, with an example."""
+    """How a script can handle an error, with an example."""
 
     advice: str
     example: str
@@ -256,12 +256,12 @@ ACTIONS: Final = "\n".join(
         "V V",
     )
 )  # fmt: skip
-"""Every instruction that can raise an error, with everything that lets it raise more."""
+"""Every instruction that can raise an error, with all modifiers that let it raise further errors."""
 
 
 @cache
 def raised_by() -> dict[int, tuple[str, ...]]:
-    """Instructions by the error numbers they raise."""
+    """The instructions that raise each error, by error number."""
     program, _ = compile_text(Source(name="actions.al", text=ACTIONS), SAMPLE)
     assert program is not None
     raising = {(number, step.word) for step in program.steps for number in step.operation.raises}
@@ -269,7 +269,7 @@ def raised_by() -> dict[int, tuple[str, ...]]:
 
 
 def error_text(number: int) -> str:
-    """The explanation of an error number; no final newline."""
+    """The explanation of an error number, without a final newline."""
     tested = (
         f"SKIPE {number} skips the next instruction if the error was raised, SKIPN {number} if it was not. Without a "
         f"test, the error sets the brakes and calls the operator."

@@ -14,7 +14,7 @@ from handeye.editor.places import instruction, places
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fix:
-    """A fix; `choice` marks one of several equally likely ones."""
+    """A fix; `choice` marks one of several equally plausible fixes."""
 
     title: str
     edits: tuple[Edit, ...]
@@ -54,7 +54,7 @@ def word_of(line: Line) -> str:
 
 
 def operand_of(line: Line, diagnostic: Diagnostic) -> tuple[Operand | None, Token | None]:
-    """The operand of a diagnostic, and its token unless that is a vector."""
+    """The operand that a diagnostic concerns, and its token unless the operand is a vector."""
     definition, tokens = instruction(line)
     if definition is not None:
         for place in places(definition, tokens[1:]):
@@ -65,7 +65,7 @@ def operand_of(line: Line, diagnostic: Diagnostic) -> tuple[Operand | None, Toke
 
 
 def with_blanks_before(document: Document, span: Span) -> Span:
-    """A span with the blanks before it."""
+    """A span extended to the blanks before it."""
     start = span.start
     while start and document.text[start - 1] in " \t":
         start -= 1

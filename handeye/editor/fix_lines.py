@@ -66,7 +66,7 @@ def label_first(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def jump_over(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """SKIPE n, modifier, motion: SKIPN n, JUMP label, modifier, motion, label."""
+    """Replace SKIPE n, modifier, motion by SKIPN n, JUMP label, modifier, motion, label."""
     line = line_of(document, diagnostic)
     word = document.text[diagnostic.primary.span.start : diagnostic.primary.span.end].upper()
     opposite = {"SKIPE": "SKIPN", "SKIPN": "SKIPE"}[word]
@@ -86,7 +86,7 @@ def jump_over(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def _behind_motion(document: Document, number: int) -> int | None:
-    """Start of the line after the next motion and its RESTOREs."""
+    """Start of the line after the next motion and the motion's RESTOREs."""
     moved = False
     for line in document.lines[number:]:
         definition, _ = instruction(line)
@@ -98,13 +98,15 @@ def _behind_motion(document: Document, number: int) -> int | None:
 
 
 def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Only for SKIPE, which never skips: SKIPN of an impossible error always does, so there is no good guess."""
+    """Remove the test, only for SKIPE, which then never skips. SKIPN of an impossible error always skips, so there
+    is no plausible fix.
+    """
     if word_of(line_of(document, diagnostic)) == "SKIPE":
         yield from remove_line(document, diagnostic)
 
 
 def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Remove blank lines between a modifier at the end of a macro and its motion, if the macro then ends in time."""
+    """Remove blank lines between a modifier at the end of a macro and its motion, if the macro then still ends."""
     behind = document.line_of(diagnostic.secondary[0].span.start)
     body = list(takewhile(lambda line: not line.is_blank, document.lines[behind.number :]))
     words = {word_of(line) for line in body if line.split()[1]}
@@ -115,7 +117,7 @@ def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def begin_search(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Insert a SEARCH before the label of an AOJ, with the step of 1973."""
+    """Insert a SEARCH, with the step of 1973, before the label of an AOJ."""
     line = line_of(document, diagnostic)
     label = next(
         (n for n in document.names if n.kind == LABEL and line.start <= n.span.start < line.end), None

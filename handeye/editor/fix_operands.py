@@ -66,7 +66,7 @@ def end_macro(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def remove_parameter(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Remove a parameter and its operands in all calls; not where commas separate them."""
+    """Remove a parameter and its operands in all calls, unless the operands are separated by commas."""
     name = document.name_at(diagnostic.primary.span.start)
     macro = None if name is None else document.macros.get(name.scope)
     if name is None or macro is None:

@@ -1,4 +1,6 @@
-"""Fixes of diagnostics: those with `meant` carry theirs as data; for the others there is a table by code."""
+"""Fixes of diagnostics: diagnostics with `meant` contain their fix as data; for all others there is a table by
+code.
+"""
 
 from collections.abc import Callable, Iterator
 from typing import Final
@@ -10,7 +12,7 @@ from handeye.editor.fix import Fix, replace
 
 
 def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
-    """Fixes of a diagnostic of the document, if any are known."""
+    """Fixes for a diagnostic of the document; empty if none are known."""
     if any(label.span.end > len(document.text) for label in (diagnostic.primary, *diagnostic.secondary)):
         return []  # some of it stands in a required file
     cure = _CURES.get(diagnostic.code)
@@ -19,7 +21,7 @@ def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
 
 
 def _meant(diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Fixes by other names."""
+    """Fixes that replace a name by a similar one."""
     span = diagnostic.primary.span
     match diagnostic.meant:
         case SimilarName(name):

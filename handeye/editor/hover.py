@@ -36,7 +36,7 @@ SI: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hover:
-    """Markdown for a span."""
+    """A text in Markdown for a span."""
 
     span: Span
     text: str
@@ -95,7 +95,7 @@ def _about_value(definition: Instruction, place: OperandToken) -> str | None:
 
 
 def in_both_units(value: float, unit: OperandUnit) -> str:
-    """A quantity as written and in the other system of units."""
+    """A quantity as written, and converted to the other system of units."""
     if unit.name not in SI:
         return f"{value:g} {unit.name}".rstrip()
     other, scale = SI[unit.name]
@@ -138,7 +138,7 @@ def _position(document: Document, name: str) -> list[str]:
 
 
 def joints(arm: ArmModel, X_WT: Pose) -> str:
-    """Joint positions for a hand pose, solved from mid-range; or why there are none."""
+    """Joint positions for a hand pose, solved from mid-range, or the reason why there are none."""
     result = solve(arm, X_WT, arm.middle)
     if result.q is None:
         return f"out of the arm's reach: {result.message(arm)}"

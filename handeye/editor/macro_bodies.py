@@ -1,4 +1,4 @@
-"""Macros of unfinished texts, and where the operands of their calls end up."""
+"""Macros of unfinished texts, and the instructions in which the operands of macro calls are used."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,13 +18,13 @@ class MacroBody:
 
     @property
     def parameters(self) -> set[str]:
-        """Names of its parameters."""
+        """Names of the macro's parameters."""
         return {token.text for token in self.head.parameters}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Use:
-    """An operand of an instruction that a call's operand ends up in."""
+    """An operand of an instruction in which an operand of a macro call is used."""
 
     definition: Instruction
     operand: Operand
@@ -50,14 +50,14 @@ def ends(line: Line) -> bool:
 
 
 def called(line: Line, macros: Macros) -> Instruction | None:
-    """The macro that a line calls, as an instruction; None if none, or one with a wrong head."""
+    """The macro that a line calls, as an instruction; None if it calls none, or a macro whose head has an error."""
     tokens = line.split()[1]
     macro = macros.get(tokens[0].text.upper()) if tokens else None
     return None if macro is None else macro.head.usage
 
 
 def uses(macros: Macros, macro: str, parameter: str, seen: frozenset[str] = frozenset()) -> Iterator[Use]:
-    """Operands of instructions that a call's operand ends up in, through nested calls."""
+    """Operands of instructions in which an operand of a call is used, also through nested calls."""
     if macro in seen or macro not in macros:
         return
     for line in macros[macro].lines:

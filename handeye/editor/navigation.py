@@ -1,4 +1,4 @@
-"""Definitions, references and renaming."""
+"""Finds definitions and references, and renames."""
 
 import re
 from dataclasses import dataclass, field
@@ -35,7 +35,7 @@ class Edit(Place):
 
 
 def definition(document: Document, offset: int) -> list[Place]:
-    """Definitions of the name at an offset: every SAVE of a difference; the start of a required file."""
+    """Definitions of the name at an offset: for a difference every SAVE, for a required file its start."""
     for file in required_by(document.text):
         key = key_of(file.text, own_key(document.source))
         if file.span.start <= offset <= file.span.end:
@@ -66,7 +66,7 @@ def renamable(document: Document, offset: int) -> Occurrence:
 
 
 def rename(document: Document, offset: int, new: str) -> list[Edit]:
-    """Edits of all files that rename the name at an offset; raises BadArgument if it cannot have the new one."""
+    """Edits in all files that rename the name at an offset; raises BadArgument if the new name is not possible."""
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:
         raise BadArgument(
@@ -89,7 +89,7 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
 
 
 def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
-    """True if a name clashes with the new one; AIM takes positions and parts alike."""
+    """True if a name would clash with the new one; AIM takes positions and parts alike."""
     if name.kind == PARAMETER:
         return False
     if name.kind == LABEL:
@@ -113,7 +113,7 @@ FIRST = "program"  # the stage before the first STAGE
 
 @dataclass(slots=True, kw_only=True)
 class Symbol:
-    """A named range of the text; `kind` is `stage`, or that of a name, and `at` the name's span."""
+    """A named range of the text; `kind` is `stage` or the kind of a name, and `at` is the span of the name."""
 
     name: str
     kind: str
@@ -123,7 +123,7 @@ class Symbol:
 
 
 def outline(document: Document) -> list[Symbol]:
-    """Stages and macros, with the labels, positions, pictures and differences defined in them."""
+    """Stages and macros, with the labels, positions, pictures and differences that they define."""
     found = [name for name in document.names if name.makes and name.kind != PARAMETER]
     stages, macros = _stages(document), [_macro(document, name) for name in found if name.kind == MACRO]
     for name in found:

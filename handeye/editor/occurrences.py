@@ -37,7 +37,7 @@ class Occurrence:
 
 
 def occurrences(text: str, parts: Iterable[str], macros: Macros) -> list[Occurrence]:
-    """Every name in a text, in order; `parts` tells parts from positions."""
+    """Every name in a text, in order; `parts` distinguishes parts from positions."""
     found = list(_walk(scan(text), macros, set(parts)))
     own = {(o.name, o.scope) for o in found if o.kind == LABEL and o.makes}
     return [
@@ -54,7 +54,7 @@ def same(one: Occurrence, other: Occurrence) -> bool:
 
 
 def makes(definition: Instruction) -> str | None:
-    """The kind of name an instruction defines."""
+    """The kind of name that an instruction defines; None if it defines none."""
     named = definition.operands and definition.operands[0].refers is Refers.NEW
     return _MAKES.get(definition.op) if named and Name in definition.operands[0].takes else None
 
@@ -81,13 +81,13 @@ def _walk(lines: Sequence[Line], macros: Macros, parts: set[str]) -> Iterator[Oc
 
 
 def _of(token: Token, kind: str, macro: str, *, makes: bool) -> Occurrence:
-    """A label or parameter of a macro, or a label of the text."""
+    """An occurrence of a label or parameter."""
     return Occurrence(kind=kind, name=token.text, span=token.span, makes=makes, scope=macro, macro=macro)
 
 
 @dataclass(frozen=True, slots=True)
 class _Context:
-    """The macro around a line, and what its names can refer to."""
+    """The macro that contains a line, and the names to which the line can refer."""
 
     macros: Macros
     macro: str
@@ -100,7 +100,7 @@ class _Context:
         )
 
     def names(self, token: Token, use: Use) -> Iterator[Occurrence]:
-        """Occurrences of a word at an operand."""
+        """Occurrences for a word in place of an operand."""
         operand = use.operand
         if Name not in operand.takes or token.text.upper() == operand.word:
             return
@@ -149,7 +149,7 @@ _QUOTED: Final = re.compile(r"[\"']([A-Za-z_]\w*)[\"']", re.ASCII)
 
 
 def taught_occurrences(text: str) -> list[Occurrence]:
-    """Every name found in a taught text."""
+    """Every name in the text of a taught file."""
     return list(_taught_lines(text))
 
 

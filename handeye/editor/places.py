@@ -1,6 +1,6 @@
-"""Assigns tokens of an unfinished line to the operands of its instruction.
+"""Assigns the tokens of an unfinished line to the operands of its instruction.
 
-The parser reads whole lines and rejects wrong ones; an editor sees lines being typed.
+The parser reads complete lines and rejects wrong ones; an editor needs results while a line is being typed.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,7 +16,7 @@ SEPARATOR = ","
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OperandToken:
-    """A token with its operand, None for a surplus one; `component`, from 0, is the index in a vector."""
+    """A token with its operand, None for a surplus token; `component` is the index in a vector, from 0."""
 
     token: Token
     operand: Operand | None
@@ -24,19 +24,19 @@ class OperandToken:
 
 
 def instruction(line: Line) -> tuple[Instruction | None, tuple[Token, ...]]:
-    """The instruction of a line, if any, and the tokens from its word on."""
+    """The instruction of a line, if any, and the tokens from the instruction word on."""
     tokens = line.split()[1]
     known = bool(tokens) and tokens[0].kind is TokenKind.NAME
     return (INSTRUCTIONS.get(tokens[0].text.upper()) if known else None), tokens
 
 
 def places(definition: Instruction, tokens: Sequence[Token]) -> list[OperandToken]:
-    """Tokens after an instruction's word, with their operands."""
+    """The tokens after the instruction word, each with its operand."""
     return list(_Walk(definition, tokens).go())
 
 
 def expected(definition: Instruction, tokens: Sequence[Token]) -> list[Operand]:
-    """Operands that may come next: the first and, while that is optional, those after it."""
+    """Operands that may come next: the first missing one and, if that is optional, those after it."""
     walk = _Walk(definition, tokens)
     for _ in walk.go():
         pass

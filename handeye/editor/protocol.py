@@ -1,4 +1,4 @@
-"""What the language server answers to an editor that breaks the protocol, or that has gone."""
+"""Handles editors that violate the language server protocol, or that have ended."""
 
 import asyncio
 import logging
@@ -12,15 +12,15 @@ from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
 from pygls.protocol import LanguageServerProtocol
 
 PAUSE_S: Final = 3.0
-"""Time between two looks at whether the editor is still there."""
+"""Time between two checks whether the editor is still running, s."""
 _log: Final = logging.getLogger(__name__)
 
 
 class Protocol(LanguageServerProtocol):
-    """Answers a request whose parameters cannot be used, too, and passes over notifications that cannot."""
+    """A protocol handler that also answers requests with invalid parameters, and ignores invalid notifications."""
 
     def structure_message(self, data: dict[str, Any]) -> Any:
-        """A message by its kind, called by the JSON decoder for each object in it."""
+        """Make a typed message; the JSON decoder calls this for each object in a message."""
         try:
             return super().structure_message(data)
         except JsonRpcException:
@@ -33,7 +33,7 @@ class Protocol(LanguageServerProtocol):
             )  # means nothing to us
 
     def handle_message(self, message: Any) -> None:
-        """Pass a message on, unless it changes a text that was never opened."""
+        """Handle a message, unless it changes a text that was never opened."""
         if isinstance(message, lsp.DidChangeTextDocumentNotification):
             uri = message.params.text_document.uri
             if uri not in self.workspace.text_documents:
@@ -43,10 +43,10 @@ class Protocol(LanguageServerProtocol):
 
 
 class OneLine(logging.Formatter):
-    """A line for each record; a traceback only of what is no mistake of the editor's."""
+    """Formats each log record as one line, with a traceback only if the error is not the editor's."""
 
     def format(self, record: logging.LogRecord) -> str:
-        """The record as text."""
+        """The log record as text."""
         error = record.exc_info[1] if record.exc_info else None
         if error is not None and not isinstance(error, JsonRpcException):
             return super().format(record)
@@ -55,21 +55,23 @@ class OneLine(logging.Formatter):
 
 
 def log_in_lines() -> None:
-    """Have what the libraries log go to standard error a line each."""
+    """Send the log of the libraries to standard error, one line per record."""
     lines = logging.StreamHandler()
     lines.setFormatter(OneLine())
     logging.basicConfig(handlers=[lines], level=logging.WARNING)
 
 
 async def end_with(process: int) -> None:
-    """End the server when a process has ended, also where another one holds its pipe open."""
+    """End the server when a process has ended, even if another process keeps the server's input open."""
     while is_running(process):
         await asyncio.sleep(PAUSE_S)
     os._exit(1)  # without the goodbye that the protocol asks for
 
 
 def is_running(process: int) -> bool:
-    """Whether a process has not ended; True where that cannot be known, as on Windows, where to ask would end it."""
+    """True if a process is running, or if this cannot be determined, as on Windows, where the check would end the
+    process.
+    """
     if sys.platform == "win32" or process <= 0:
         return True
     try:

@@ -1,4 +1,4 @@
-"""The taught data of the examples of `handeye explain` and the manual."""
+"""Taught data for the examples of `handeye explain` and of the manual."""
 
 from typing import Final
 

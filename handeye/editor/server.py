@@ -1,4 +1,4 @@
-"""The language server: what it knows of each script, and its answers to an editor's requests."""
+"""The language server: its knowledge of each script, and its answers to the requests of an editor."""
 
 import asyncio
 from collections.abc import Callable
@@ -25,11 +25,11 @@ from handeye.program.language import OwnLanguage, own_language
 from handeye.program.taught import Taught
 
 PAUSE_S: Final = 0.3
-"""Time without a keystroke before motions are planned; other diagnostics are sent at once."""
+"""Time without a keystroke, s, before motions are planned; all other diagnostics are sent at once."""
 
 
 class ArmServer(LanguageServer):
-    """The server, with the planner's diagnostics of each script and the text they are for."""
+    """The server, with the planner's diagnostics of each script and the text that they belong to."""
 
     def __init__(self) -> None:
         super().__init__("handeye", HANDEYE, protocol_cls=Protocol)
@@ -39,11 +39,11 @@ class ArmServer(LanguageServer):
         )
 
     def script(self, uri: str) -> EditedScript:
-        """A script as it is now."""
+        """A script in its present state."""
         return EditedScript(self.workspace, uri)
 
     def diagnostics(self, script: EditedScript) -> list[Diagnostic]:
-        """Current diagnostics of a script, the planner's only if they are for this text."""
+        """Present diagnostics of a script; those of the planner only if they belong to this text."""
         whole, taught, problems = self.planned.get(script.uri, (None, None, []))
         known = problems if (whole, taught) == (script.document.whole, script.document.taught) else []
         return [*script.diagnostics(), *known]
@@ -59,7 +59,7 @@ class ArmServer(LanguageServer):
         )
 
     async def publish_own(self, uri: str, language: OwnLanguage) -> None:
-        """Send the client a system's diagnostics on a text in its own language."""
+        """Send the client the diagnostics of a text in a system's own language."""
         text = text_of(self.workspace, uri)
         source, units = Source(name=uri, text=text.source), text.position_codec.client_num_units
         found = [
@@ -71,7 +71,7 @@ class ArmServer(LanguageServer):
         )
 
     async def check(self, uri: str) -> None:
-        """Publish diagnostics of the text, then the planner's after a pause in typing."""
+        """Publish the diagnostics of the text at once, and those of the planner after a pause in typing."""
         if (language := own_language(uri)) is not None:
             await self.publish_own(uri, language)
             return
@@ -109,7 +109,7 @@ _SYMBOLS: Final = {
 
 
 def serve() -> None:
-    """Serve requests from standard input on standard output until the client ends."""
+    """Serve requests from standard input on standard output until the client ends the session."""
     log_in_lines()
     make_server().start_io()
 
@@ -126,7 +126,7 @@ def make_server() -> ArmServer:
 
 
 def _of_scripts(answer: Callable[[EditedScript, Any], Any]) -> Callable[..., Any]:
-    """An answer about scripts for planned programs; of a text in a system's own language nothing is known here."""
+    """Wrap an answer for scripts of planned programs; for a text in a system's own language the answer is empty."""
 
     def answered(server: ArmServer, params: Any) -> Any:
         if own_language(params.text_document.uri) is not None:
@@ -137,7 +137,7 @@ def _of_scripts(answer: Callable[[EditedScript, Any], Any]) -> Callable[..., Any
 
 
 def _told(answer: Callable[..., Any]) -> Callable[..., Any]:
-    """An answer that tells the editor in a sentence what cannot be answered."""
+    """Wrap an answer so that an error becomes a sentence for the editor."""
 
     def told(server: ArmServer, params: Any) -> Any:
         try:
@@ -281,9 +281,9 @@ def _code_actions(server: ArmServer, params: lsp.CodeActionParams) -> list[lsp.C
 
 
 def _lenses(script: EditedScript, _: lsp.CodeLensParams) -> list[lsp.CodeLens]:
-    """Above each stage of a sound script in a file: commands that carry it out, go on from it, or step it.
+    """Commands above each stage of a script without errors: run the stage, run from the stage on, or step it.
 
-    A command's arguments are the file, to be saved first, and the words behind `handeye`.
+    The arguments of a command are the file, which is saved first, and the words after `handeye`.
     """
     program = script.document.compiled[0]
     if program is None or script.path is None or script.problem is not None:
@@ -311,7 +311,7 @@ _STAGE_COMMANDS: Final = {
     "Run from here": ("handeye.runFromHere", "Run the program from this stage on.", ("--from",)),
     "Debug": ("handeye.debug", "Step through the program from this stage on.", ("--step", "--from")),
 }
-"""Command, tooltip and options of `handeye run` behind each title above a stage."""
+"""Command, tooltip and options of `handeye run` for each title above a stage."""
 
 
 _NOTICES: Final[dict[str, Callable[..., Any]]] = {

@@ -1,4 +1,4 @@
-"""Conversion to the language server protocol, whose positions count code units from 0."""
+"""Converts to the language server protocol, whose positions count lines and code units from 0."""
 
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -23,7 +23,7 @@ def position(source: Source, offset: int, units: Units) -> lsp.Position:
 
 
 def offset(source: Source, at: lsp.Position, units: Units) -> int:
-    """The offset of a position, clipped to the end of its line and of the text."""
+    """The offset of a position, limited to the end of its line and of the text."""
     lines = source.text.split("\n")
     if at.line >= len(lines):
         return len(source.text)
@@ -44,7 +44,9 @@ def range_(source: Source, span: Span, units: Units) -> lsp.Range:
 def diagnostic(
     found: Diagnostic, at: lsp.Range, related: Sequence[tuple[lsp.Location, str]], where: str = ""
 ) -> lsp.Diagnostic:
-    """A diagnostic for an editor; texts, notes and help are lines of the message, which `where` begins."""
+    """A diagnostic for an editor; label texts, notes and help become lines of the message, which begins with
+    `where`.
+    """
     severity = lsp.DiagnosticSeverity.Error if found.severity == "error" else lsp.DiagnosticSeverity.Warning
     said = [found.message, found.primary.text, *found.notes, *([f"help: {found.help}"] if found.help else [])]
     return lsp.Diagnostic(

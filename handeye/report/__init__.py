@@ -1,1 +1,1 @@
-"""Shows runs to people: reads traces and results, and drives nothing."""
+"""Reports on runs: reads traces and results, and executes nothing."""

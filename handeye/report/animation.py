@@ -1,4 +1,4 @@
-"""A recorded run as the player shows it."""
+"""The 3D animation of a recorded run, as data for the player."""
 
 from dataclasses import dataclass
 
@@ -8,14 +8,14 @@ from handeye.report.recorded import RecordedRun
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Animation:
-    """The player's data, compressed."""
+    """Scene and tracks for the player, compressed."""
 
     scene: bytes
     tracks: bytes
 
 
 def animation(run: RecordedRun) -> Animation | None:
-    """The animation of a run; None: nothing was recorded between its events."""
+    """The animation of a run; None if nothing was recorded between its events."""
     if not len(run.trace.times):
         return None
     return Animation(scene=scene_bytes(run.trace), tracks=tracks_bytes(run.trace))

@@ -1,4 +1,4 @@
-"""Photographs of a recorded run for its report: one that leads it, and one of each stage."""
+"""Photographs of a recorded run for its report: one main photograph, and one for each stage."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -26,7 +26,7 @@ _NEAR: Final = 0.62  # m from which the hand is looked at
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Photograph:
-    """A photograph, or why there is none."""
+    """A photograph, or the reason why there is none."""
 
     time: float  # s since the run began
     shows: str
@@ -52,7 +52,7 @@ SMALL: Final = _PrintSize(width=480, height=360, finer=1, shadow=2048)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PhotographRequest:
-    """A photograph that is to be taken."""
+    """A request for a photograph."""
 
     time: float  # s since the run began
     view: str | Near
@@ -68,18 +68,18 @@ class Album:
 
 
 def album(run: RecordedRun) -> Album:
-    """The photographs of a run: of its end, or of where it failed, and of its stages."""
+    """The photographs of a run: of its end or the moment of failure, and of its stages."""
     return Album(leading=_leading(run, outcome(run)), stages=_of_stages(run))
 
 
 def no_album(run: RecordedRun, why: str) -> Album:
-    """An album without photographs, which says why once."""
+    """An album without photographs, which gives the reason once."""
     leading = _none(_PhotographRequest(time=outcome(run).time, view=_room(run), shows="The run"), LARGE, why)
     return Album(leading=leading, stages=())
 
 
 def _leading(run: RecordedRun, outcome: Outcome) -> Photograph:
-    """The photograph that leads: the finished work, or the moment at which the run failed."""
+    """The main photograph: the finished work, or the moment at which the run failed."""
     shows = "The end of the run" if outcome.ended else "The hand at the last moment"
     wanted = _PhotographRequest(time=outcome.time, view=_leading_view(run, outcome), shows=shows)
     (taken,) = _taken(run, [wanted], LARGE)
@@ -88,7 +88,9 @@ def _leading(run: RecordedRun, outcome: Outcome) -> Photograph:
 
 
 def _leading_view(run: RecordedRun, outcome: Outcome) -> str | Near:
-    """The work, where the referee looked at it too; else all of the cell; of a run that did not end the hand."""
+    """The view of the main photograph: the work, if the referee judged it; the hand, if the run did not end; else
+    the whole cell.
+    """
     if not outcome.ended:
         return _at_hand(run, outcome.time)
     task = known(run.trace.head.task)
@@ -97,7 +99,7 @@ def _leading_view(run: RecordedRun, outcome: Outcome) -> str | Near:
 
 
 def _left(picture: bytes, missing: Photograph) -> Photograph:
-    """The picture that the run itself has left of its end, in the place of a photograph that could not be taken."""
+    """The picture of the end that the run has saved, in place of a photograph that could not be taken."""
     points = cv2.imdecode(np.frombuffer(picture, dtype=np.uint8), cv2.IMREAD_COLOR_RGB)
     if points is None:
         return missing
@@ -105,14 +107,14 @@ def _left(picture: bytes, missing: Photograph) -> Photograph:
 
 
 def _of_stages(run: RecordedRun) -> tuple[Photograph, ...]:
-    """A photograph of each stage; of many stages, of some."""
+    """A photograph of each stage; if there are many stages, of some of them."""
     stages = [(number, stage) for number, stage in enumerate(run.trace.stages, 1) if stage.end > run.begins]
     every = -(-len(stages) // MOST) or 1
     return _taken(run, [_of_stage(run, number, stage) for number, stage in stages[::every]], SMALL)
 
 
 def _of_stage(run: RecordedRun, number: int, stage: Stage) -> _PhotographRequest:
-    """The moment of a stage that shows most: the last at which a guard was met, or its end."""
+    """The moment of a stage to photograph: the last trip of a guard, or the end of the stage."""
     trips = [
         event.time
         for event in run.trace.events
@@ -125,13 +127,13 @@ def _of_stage(run: RecordedRun, number: int, stage: Stage) -> _PhotographRequest
 
 
 def _room(run: RecordedRun) -> str:
-    """The camera of the scene that shows all of it."""
+    """The camera of the scene that shows the whole cell."""
     task = known(run.trace.head.task)
     return AnyTask.camera if task is None else task.camera
 
 
 def _at_hand(run: RecordedRun, time: float) -> str | Near:
-    """A view of the hand where it was after the last step before a time."""
+    """A close view of the hand, at its position after the last step before a time."""
     ended = [
         event.hand
         for event in run.trace.events
@@ -143,7 +145,7 @@ def _at_hand(run: RecordedRun, time: float) -> str | Near:
 def _taken(
     run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _PrintSize
 ) -> tuple[Photograph, ...]:
-    """The photographs, or why there are none."""
+    """The photographs, or the reasons why there are none."""
     try:
         return tuple(_take(run, wanted, size))
     except InvalidInput as fault:
@@ -169,7 +171,7 @@ def _take(run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _PrintSi
 
 
 def _webp(fine: Points, size: _PrintSize) -> bytes:
-    """A photograph at its size as a WebP file."""
+    """A photograph at its final size, as a WebP file."""
     small = cv2.resize(fine, (size.width, size.height), interpolation=cv2.INTER_AREA)
     done, data = cv2.imencode(".webp", small[:, :, ::-1], [cv2.IMWRITE_WEBP_QUALITY, _QUALITY])
     assert done
@@ -177,7 +179,7 @@ def _webp(fine: Points, size: _PrintSize) -> bytes:
 
 
 def shown(photograph: Photograph, **attributes: str | None) -> Markup:
-    """A photograph with its caption as a figure, or in its place why there is none."""
+    """A photograph with its caption, or in its place the reason why there is none."""
     if photograph.webp is None:
         return element("p", photograph.missing, class_="missing")
     image = element(

@@ -1,4 +1,4 @@
-"""A recorded run, with all that its report is made of."""
+"""A recorded run, with all data for its report."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -17,13 +17,13 @@ from handeye.trace.trace import Trace
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RecordedRun:
-    """A recorded run. Times are seconds since it began."""
+    """A recorded run. Times are in seconds since the run began."""
 
     trace: Trace
     whole: bool = True  # The trace was read to its end; False: its file was cut short
     result: Result | None = None  # The result of the run; None if it left none
     end: bytes | None = None
-    """The picture of its end that it has left, a PNG or WebP file; None: it left none."""
+    """The saved picture of the run's end, a PNG or WebP file; None if there is none."""
     remarks: tuple[str, ...] = ()
 
     @cached_property
@@ -36,24 +36,24 @@ class RecordedRun:
 
     @property
     def period(self) -> HistoricalTiming | None:
-        """The times of its day, if the program is one that was timed then."""
+        """The times of 1973, if the program is one that was timed then; else None."""
         task = known(self.trace.head.task)
         then = None if task is None else task.period
         return then if then is not None and then.program == self.trace.head.program else None
 
     @property
     def begins(self) -> float:
-        """When its motions begin to be recorded: 0, except for a run resumed from a checkpoint."""
+        """Time at which the recording of motions begins, s: 0, except for a run resumed from a checkpoint."""
         return self.trace.begins
 
     @property
     def ends(self) -> float:
-        """The time of its last event."""
+        """Time of the last event, s."""
         return self.trace.events[-1].time
 
 
 def check_scene(run: RecordedRun) -> None:
-    """Raise InvalidInput if something that moved in a run is not in the scene that its task has here."""
+    """Raise InvalidInput if a body that moved in the run is missing from the task's scene here."""
     scene = run.trace.scene
     there = {scene.body(number).name for number in range(scene.nbody)}
     for begin in run.trace.times[:1]:
@@ -63,7 +63,7 @@ def check_scene(run: RecordedRun) -> None:
 
 
 def told_faults(run: RecordedRun) -> Iterator[tuple[str, str]]:
-    """Each fault as it would be typed, and what it does: a sentence, empty where its task is not known."""
+    """Each injected fault as it is typed, and a sentence on its effect, which is empty if the task is unknown."""
     world = run.trace.head.world
     task = known(run.trace.head.task)
     for fault in world.faults:

@@ -1,1 +1,1 @@
-"""Functions executed one at a time, and positions taught by moving the arm."""
+"""Executes single instructions, and stores positions to which the arm has been moved."""

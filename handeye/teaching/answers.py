@@ -1,4 +1,4 @@
-"""Answers to typed lines, as text and as JSON; texts planned and executed; conversations line by line."""
+"""Answers to typed lines, as text and as JSON; planning and execution of typed texts; conversations line by line."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from handeye.teaching.workplace import Workplace
 
 
 class LineResult(Record, frozen=True, kw_only=True):
-    """Result of a line; fields with nothing to say are left out."""
+    """Result of a line; fields without content are left out."""
 
     said: str | UnsetType = UNSET  # a sentence or more
     did: tuple[StepSummary, ...] | UnsetType = UNSET  # steps that were done, in words
@@ -47,12 +47,12 @@ class Answer:
 
     @property
     def refused(self) -> bool:
-        """The line was refused."""
+        """True if the line was refused."""
         return self.said.error is not UNSET or has_errors(self.diagnostics)
 
     @property
     def stopped(self) -> str | None:
-        """Why the arm paused early; None if the line is done, or the arm did not move."""
+        """The kind of pause if the arm stopped early; None if the line was completed, or the arm did not move."""
         pause = self.said.pause
         return None if pause is UNSET or pause.kind == "end" else pause.kind
 
@@ -68,7 +68,7 @@ def json_line(answer: Answer) -> str:
 
 
 def text(answer: Answer) -> str:
-    """The answer as text, without the end of its last line; empty if there is nothing to say."""
+    """The answer as text, without a final newline; empty if there is nothing to report."""
     said = answer.said
     lines = [render(diagnostic, answer.source) for diagnostic in answer.diagnostics]
     lines += [] if said.did is UNSET else summary_lines(said.did)
@@ -81,9 +81,10 @@ def text(answer: Answer) -> str:
 
 
 def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> Answer:
-    """Plan a text, which `alone` need not make sense by itself, and carry the plan out if there is one.
+    """Plan a text and, if there is a plan, execute it. With `alone`, the text is only a part of the work and need
+    not be complete.
 
-    Raises InvalidInput if it looks, and the camera was not set up.
+    Raises InvalidInput if the text takes pictures and the camera was not set up.
     """
     checked = workplace.plan(source, alone=alone)
     said = NOTHING if checked.plan is None else done(workplace, workplace.carry_out(checked.plan))
@@ -91,7 +92,7 @@ def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> A
 
 
 def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
-    """Report what was done after the first `happened` events of the plan under way."""
+    """Report the results after the first `happened` events of the present plan."""
     runner = workplace.runner
     told = step_summaries(runner.events[happened:], runner.listing, runner.task.measures)
     did = tuple(step for step in told if step.line is not None)
@@ -106,19 +107,19 @@ def about(
 
 
 def answer(workplace: Workplace, **fields: Any) -> Answer:
-    """An answer whose result has these fields of `LineResult`."""
+    """An answer whose result has the given fields of `LineResult`."""
     return Answer(time=workplace.time, said=LineResult(**fields))
 
 
 class Listener(Protocol):
-    """Something one can talk to, a line at a time."""
+    """An interpreter of typed lines."""
 
     @property
     def over(self) -> bool:
-        """True if it wants no more lines."""
+        """True if no more lines are accepted."""
 
     def hear(self, line: str) -> Answer:
-        """Execute a line; a wrong one changes nothing."""
+        """Execute a line; an invalid line changes nothing."""
 
 
 def converse(
@@ -129,10 +130,10 @@ def converse(
     json: bool = False,
     strict: bool = False,
 ) -> Answer | None:
-    """Hear lines, to the last or until the listener has heard enough; with `strict`, until one fails.
+    """Execute lines, to the last one or until the listener accepts no more; with `strict`, until one fails.
 
-    Returns the answer to the first line that was refused, or whose work was stopped; None if there was none. `write` is
-    given lines of text without the end of the last; with `json`, one object on one line.
+    Returns the answer to the first line that was refused or whose execution stopped; None if there was none.
+    `write` gets lines of text without a final newline; with `json`, one object on one line.
     """
     failed = None
     while not listener.over:

@@ -1,4 +1,4 @@
-"""Functions typed in: text to a plan that begins where the arm stands."""
+"""Typed instructions: makes a plan from a text, beginning at the arm's present configuration."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
@@ -24,7 +24,7 @@ _ALONE: Final = frozenset(
         "unused-position", "unused-vector", "compared-without-hold",
     }
 )  # fmt: skip
-"""Warnings about what is not in the text; it may have been done before, or be done afterwards."""
+"""Warnings about instructions that are missing in the text; they may have been executed before, or may follow."""
 _LASTING: Final = ("TRANS", "VECT")
 
 
@@ -38,9 +38,10 @@ def planned(
     saved: Collection[str] = (),
     alone: bool = False,
 ) -> PlannedScript:
-    """Plan a text for an arm that stands at `start`, shape (n,), rad and m, after differences have been `saved`.
+    """Plan a text for an arm at configuration `start`, shape (n,), rad and m; `saved` are the names of saved
+    differences.
 
-    What is `alone` is only a part of what is done, and need not make sense by itself.
+    With `alone`, the text is only a part of the work and need not be complete.
     """
     made = plan_source(source, taught, arm, AL, task=task, start=start)
     told = [
@@ -53,7 +54,7 @@ def planned(
 
 
 def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
-    """Mistakes in a line of a text, or in its requirements, that no further line can put right."""
+    """Mistakes in a line of a text, or in its required files, that no further line can correct."""
     found = []
     for diagnostic in checked.diagnostics:
         text, offset = checked.source.find(diagnostic.primary.span.start)
@@ -63,7 +64,7 @@ def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
 
 
 def lasting(lines: Sequence[str]) -> list[str]:
-    """The definitions among lines: macros, positions, vectors. They hold for functions done alone, too."""
+    """The definitions in lines: macros, positions, vectors. They also apply to instructions executed alone."""
     script, _ = parse("\n".join(lines))
     written = [lines[s.line - 1] for s in script.statements if s.word is not None and s.word.text in _LASTING]
     for macro in script.macros.values():  # as it is written, and the blank line that ends it
@@ -73,5 +74,5 @@ def lasting(lines: Sequence[str]) -> list[str]:
 
 
 def is_open(lines: Sequence[str]) -> bool:
-    """See whether a macro is being defined, which a blank line ends."""
+    """True if a macro definition is open; a blank line ends it."""
     return any(found.code == "unterminated-macro" for found in parse("\n".join(lines))[1])

@@ -1,4 +1,4 @@
-"""The arm program of 1973: functions typed in are collected, `DO` executes; its commands are a table."""
+"""The arm program of 1973: typed instructions are collected, and `DO` executes them; the commands are a table."""
 
 import re
 from collections.abc import Callable
@@ -29,7 +29,7 @@ _ANSWERS: Final = "PROCEED, RETRY or SKIP continues the stopped program; a new i
 
 @dataclass(slots=True, kw_only=True)
 class Repl:
-    """A session of the arm program: a cell, and the functions collected so far."""
+    """A session of the arm program: a cell, and the instructions collected so far."""
 
     workplace: Workplace
     folder: Path  # folder of the programs for `DO NAME`
@@ -38,7 +38,7 @@ class Repl:
     over: bool = False  # the user has left
 
     def hear(self, line: str) -> Answer:
-        """Execute a command, or collect a function."""
+        """Execute a command, or collect an instruction."""
         try:
             word, rest = [*line.split(maxsplit=1), "", ""][:2]
             command = COMMANDS.get(word.upper())
@@ -52,7 +52,9 @@ class Repl:
         return replace(given, typed=line.strip())
 
     def collect(self, line: str) -> Answer:
-        """Collect a line if nothing is wrong with it that a further one could not put right; raises Refused if full."""
+        """Collect a line, unless it has a mistake that no further line can correct; raises Refused if there are too
+        many lines.
+        """
         if not line.strip() and not is_open(self.functions):
             return answer(self.workplace)
         if len(self.functions) >= MAX_LINES:
@@ -65,11 +67,11 @@ class Repl:
         return about(self.workplace, checked, found)
 
     def typed(self, text: str) -> Source:
-        """The typed text as a source, with the files it requires."""
+        """The typed text as a source, with the files that it requires."""
         return sewn(Source(name=TYPED, text=text), lambda key: read_source(self.folder / key).text)
 
     def carry_out(self, source: Source, *, alone: bool = False) -> Answer:
-        """Plan a text and carry it out; the answer to a stop has advice."""
+        """Plan a text and execute it; if execution stops, the answer contains advice."""
         return self._advised(carry_out(self.workplace, source, alone=alone))
 
     def go_on(self, choice: Choice) -> Answer:
@@ -86,7 +88,7 @@ class Repl:
 
 
 def _do(repl: Repl, rest: str) -> Answer:
-    """Execute the collected lines, or a function, macro or program, now."""
+    """Execute the collected lines now, or an instruction, macro or program."""
     if not rest:
         if not any(map(str.strip, repl.functions)):
             raise Refused("nothing is collected; type instructions, or `DO OPEN 3` to run one at once")

@@ -1,4 +1,4 @@
-"""Commands of teaching, as a table from which reading and help derive."""
+"""Commands for teaching, as a table from which parsing and help are derived."""
 
 import re
 from collections.abc import Callable
@@ -25,14 +25,14 @@ MAX_PUSH_S: Final = 60.0
 
 @dataclass(slots=True)
 class TeachSession:
-    """Understands lines, and does with the arm what they say."""
+    """Parses lines and executes them with the arm."""
 
     teacher: Teacher
     over: bool = False
     warned: bool = False  # the user was warned of unsaved names
 
     def hear(self, line: str) -> Answer:
-        """Execute a line; a wrong one changes nothing."""
+        """Execute a line; an invalid line changes nothing."""
         try:
             given = self._given(line.split())
         except HandeyeError as error:
@@ -87,7 +87,7 @@ def _hand(teacher: Teacher, words: list[str]) -> Answer:
 
 
 def _jogged(teacher: Teacher, words: list[str], R: Array, example: str) -> Answer:
-    """Move the hand along an axis of a frame with rotation `R`, or turn it about one."""
+    """Move the hand along an axis of a frame with rotation `R`, or turn it about the axis."""
     turns = bool(words) and words[0].lower() == "turn"
     axis, amount = _exactly(words[1:] if turns else words, 2, example)
     x, y, z = R @ _along(axis, _number(amount) * (DEGREE if turns else INCH))

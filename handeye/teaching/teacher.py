@@ -1,4 +1,4 @@
-"""Teaching: the arm is moved, by word or by hand, and positions are named where it is."""
+"""Teaching: the arm is moved by commands or by hand, and its positions are stored under names."""
 
 import tomllib
 from collections.abc import Callable
@@ -35,7 +35,7 @@ REST_S = 0.5  # for a floating arm to come to rest when it is let go
 
 @dataclass(slots=True, kw_only=True)
 class Teacher:
-    """A cell, a file of taught positions, and the positions still to be written to that file."""
+    """A cell, a file of taught positions, and the positions not yet written to the file."""
 
     workplace: Workplace
     file: Path
@@ -50,14 +50,14 @@ class Teacher:
 
     @property
     def unsaved(self) -> list[str]:
-        """Names that are not in the file, or differ there."""
+        """Names of the positions that are missing in the file, or differ there."""
         now, then = (tomllib.loads(text).get("positions", {}) for text in (self.text, self.saved))
         return [name for name in {**then, **now} if now.get(name) != then.get(name)]
 
     # -- moving ---------------------------------------------------------------------------------------
 
     def function(self, text: str) -> Answer:
-        """Execute a function of the arm language."""
+        """Execute an instruction of the arm language."""
         marks = len(self.workplace.before)
         given = carry_out(self.workplace, Source(name=TYPED, text=text), alone=True)
         if len(self.workplace.before) > marks:
@@ -66,16 +66,20 @@ class Teacher:
         return given
 
     def joint(self, index: int, goal: float) -> None:
-        """Move one joint to a place (rad, or m), the others held. Raises Refused if it cannot."""
+        """Move one joint to a position (rad, or m), and hold all others. Raises Refused if that is impossible."""
         self._follow(jog(self.workplace.run.arm, self.workplace.q, index, goal, speed=SPEED))
 
     def straight(self, displacement: Vector3) -> None:
-        """Move the hand straight by a way (m, table coordinates), its angles kept. Raises Refused if it cannot."""
+        """Move the hand straight by a displacement (m, table coordinates), with its orientation kept. Raises
+        Refused if that is impossible.
+        """
         change = Change(displacement=displacement)
         self._follow(change_samples(self.workplace.run.arm, self.workplace.q, change))
 
     def turn(self, turn: Vector3) -> None:
-        """Turn the hand on the spot by a rotation vector (rad, table coordinates). Raises Refused if it cannot."""
+        """Turn the hand about its tool point by a rotation vector (rad, table coordinates). Raises Refused if that
+        is impossible.
+        """
         self._follow(pivot(self.workplace.run.arm, self.workplace.q, np.array(turn), TURN_SPEED))
 
     def _follow(self, samples: Samples | IKResult) -> None:
@@ -85,12 +89,14 @@ class Teacher:
         self._let(lambda: self.workplace.run.drive.follow(samples))
 
     def let_go(self) -> None:
-        """Take the brakes off: from now on the arm goes where it is pushed."""
+        """Release the brakes: from now on, the arm moves when it is pushed."""
         self.afloat = True
         self._let(lambda: self._float(REST_S))
 
     def push(self, force: Vector3, seconds: float) -> None:
-        """Push the floating arm at its hand (N, table coordinates), then let go; raises Refused unless it floats."""
+        """Push the hand of the floating arm with a force (N, table coordinates) for some seconds; raises Refused
+        unless the arm floats.
+        """
         if not self.afloat:
             raise Refused("the arm is held and cannot be pushed; `float` releases its brakes")
 
@@ -105,7 +111,7 @@ class Teacher:
         self.workplace.run.drive.float(seconds)
 
     def _let(self, act: Callable[[], Outcome | None]) -> None:
-        """Let the arm go; Ctrl-C, or something in its way, sets the brakes."""
+        """Let the arm move; Ctrl-C, or an obstacle, sets the brakes."""
         self.workplace.mark()
         self._before.append(None)
         try:
@@ -125,7 +131,9 @@ class Teacher:
     # -- naming ---------------------------------------------------------------------------------------
 
     def name(self, name: str, part: str | None, *, again: bool = False) -> Position:
-        """Name where the hand is, on the table or a part; raises InvalidInput if name, part or file do not allow it."""
+        """Store the present hand position under a name, relative to the table or a part; raises InvalidInput if
+        name, part or file do not allow it.
+        """
         taught = self.workplace.taught
         if part is not None and part not in taught.parts:
             known = ", ".join(taught.parts) or "none"
@@ -141,7 +149,9 @@ class Teacher:
         return position
 
     def save(self) -> list[str]:
-        """Write the file and return the new names; raises CannotWrite, also if the file has changed meanwhile."""
+        """Write the file, and return the new names; raises CannotWrite, also if the file has been changed by
+        another program.
+        """
         names = self.unsaved
         if names:
             now = read_source(self.file).text if is_there(self.file) else ""
@@ -156,7 +166,9 @@ class Teacher:
     # -- going back -----------------------------------------------------------------------------------
 
     def undo(self) -> str:
-        """Undo the last motion or name, and say which; the file stays as saved. Raises Refused if there is none."""
+        """Undo the last motion or name, and return which it was; the saved file is not changed. Raises Refused if
+        there is nothing to undo.
+        """
         if not self._before:
             raise Refused("there is nothing to undo")
         before = self._before.pop()

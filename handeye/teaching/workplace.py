@@ -1,4 +1,4 @@
-"""A cell in which plans run one after the other; each starts in the state that the previous one left."""
+"""A cell in which plans are executed one after another; each begins in the state that the previous one left."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -30,12 +30,12 @@ from handeye.teaching.functions import TYPED, planned
 MAX_STATES: Final = 100  # to go back to
 _NOTHING: Final = "WHERE"
 _PICTURE: Final = "LOOK SETUP"
-"""Programs that a workplace has before it is given one; they do not run."""
+"""Programs for a workplace that has not been given a program yet; they are not executed."""
 _FORGOTTEN: Final = (
     "at", "pending", "stage", "stopped", "onward", "idle", "clock", "shots", "general", "found",
     "done", "undoing",
 )  # fmt: skip
-"""Fields of a state that belong to one plan alone: where it is, what its steps have left, and its pictures."""
+"""Fields of a state that belong to a single plan: its present step, the results of its steps, and its pictures."""
 
 
 class Workplace:
@@ -53,10 +53,12 @@ class Workplace:
         halt: Callable[[], bool],
         observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> None:
-        """Build the cell of a world; `look`: with its camera set up, so that plans can; `calibrate`: again.
+        """Build the cell of a world. With `look`, its camera is set up so that plans can take pictures; with
+        `calibrate`, it is calibrated again.
 
-        `halt` is the panic button, asked at every servo period; `observers` makes those of each plan's runner. Raises
-        InvalidInput if the camera cannot work as asked; Halted if the panic button was hit while it was set up.
+        `halt` is the panic button, polled in every servo period; `observers` makes the observers of each plan's
+        runner. Raises InvalidInput if the camera cannot work as requested, and Halted if the panic button is
+        pressed while the camera is set up.
         """
         self.taught, self.halt, self.observers = taught, halt, observers
         made, source = known_task(task), Source(name=TYPED, text=_PICTURE if look else _NOTHING)
@@ -76,7 +78,7 @@ class Workplace:
         halt: Callable[[], bool],
         observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> "Workplace":
-        """The cell as a run has left it, with its memory; `taught` replaces the positions of its plan."""
+        """The cell as a run has left it, with the run's memory; `taught` replaces the positions of the run's plan."""
         program = plan_of(checkpoint.setup).program
         made = cls.__new__(cls)
         made.taught = taught or Taught(
@@ -90,17 +92,17 @@ class Workplace:
 
     @property
     def run(self) -> ExecutionContext:
-        """The executor's present context."""
+        """The present context of the executor."""
         return self.runner.context
 
     @property
     def time(self) -> float:
-        """The clock of all its plans, s: 0 as the first began."""
+        """Clock of all plans, s; 0 when the first plan began."""
         return self.run.time
 
     @property
     def known(self) -> Taught:
-        """Positions and parts as they are now: taught, and defined since by `HERE`."""
+        """Present positions and parts: those taught, and those defined by `HERE`."""
         positions = {**self.taught.positions, **self.run.state.world.moved}
         return replace(self.taught, positions=positions)
 
@@ -110,12 +112,12 @@ class Workplace:
         return self.run.drive.state.q
 
     def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
-        """Plan a text here and now; `alone` as for `planned`."""
+        """Plan a text from the present state; `alone` is as for `planned`."""
         task, saved = self.runner.setup.task, self.run.state.saved
         return planned(source, self.known, self.run.arm, self.q, task=task, saved=saved, alone=alone)
 
     def checkpoint(self) -> Checkpoint:
-        """The present state, nothing that happened forgotten."""
+        """The present state, with all events."""
         runner = self.runner
         snapshot = Snapshot(
             position=runner.position,
@@ -128,7 +130,7 @@ class Workplace:
     # -- doing ----------------------------------------------------------------------------------------
 
     def carry_out(self, plan: Plan) -> Pause:
-        """Execute a plan; raises Refused if it takes pictures, and the camera was not set up."""
+        """Execute a plan; raises Refused if the plan takes pictures and the camera was not set up."""
         if self.run.state.calibration is None and plan.program.written("picture"):
             raise Refused("the camera is not calibrated; to take pictures, start with --look")
         self.mark()
@@ -162,18 +164,18 @@ class Workplace:
         return pause
 
     def mark(self) -> None:
-        """Keep this state to go back to."""
+        """Keep the present state for `back`."""
         self.before = [*self.before, self.checkpoint()][-MAX_STATES:]
 
     def back(self) -> None:
-        """Return to before the last plan ran; raises Refused if there was none."""
+        """Return to the state before the last plan; raises Refused if there was none."""
         if not self.before:
             raise Refused("there is nothing to undo")
         self.runner = self._runner(self.before.pop())
 
 
 def _onward(state: ExecutionState, plan: Plan) -> ExecutionState:
-    """Carry a state over to another plan: all but where the last one was, and its pictures."""
+    """Transfer a state to another plan, without the last plan's place and pictures."""
     program, kept = plan.program, copied(state)
     fresh = ExecutionState(drive=kept.drive, world=kept.world)
     for name in _FORGOTTEN:

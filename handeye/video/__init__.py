@@ -1,1 +1,1 @@
-"""Videos of recorded runs: moments, views, captions and files."""
+"""Videos of recorded runs: moments, views, captions and file formats."""

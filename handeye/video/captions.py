@@ -1,4 +1,4 @@
-"""Captions over video frames: the present stage and its place among all, the clock, and pictures."""
+"""Captions on video frames: the present stage among all stages, the clock, and pictures."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,8 +13,8 @@ from handeye.cell.photograph import Photograph
 
 Mask = NDArray[np.float32]  # Ink coverage of each point, 0 to 1, shape (height, width)
 _BAND, _BAR, _LETTERS, _MARGIN = 0.105, 0.016, 0.05, 0.025
-"""Heights of the caption band, the stage bar below it and the letters, and the margin, as fractions of the frame
-height.
+"""Heights of the caption band, of the stage bar below it and of the letters, and width of the margin, as fractions
+of the frame's height.
 """
 _DARK: Final = 0.35  # remaining brightness under the caption
 _MIN_SCALE: Final = 0.6  # of the letter height before words are cut
@@ -39,7 +39,7 @@ class Caption:
 
 
 def captioned(frame: Photograph, caption: Caption, inset: Photograph | None) -> Photograph:
-    """A frame with a caption at its lower edge, and a picture in its upper right corner."""
+    """A frame with a caption at its lower edge, and a picture in its upper right corner if there is one."""
     said = frame.copy()
     if inset is not None:
         _put_inset(said, inset)
@@ -49,7 +49,7 @@ def captioned(frame: Photograph, caption: Caption, inset: Photograph | None) -> 
 
 
 def _put_inset(frame: Photograph, inset: Photograph) -> None:
-    """Put a picture in the upper right corner, with a white edge."""
+    """Put a picture with a white border into the upper right corner."""
     height = max(round(_INSET * len(frame)), 1)
     width = min(round(height * inset.shape[1] / inset.shape[0]), frame.shape[1])
     edge = max(len(frame) // 180, 1)
@@ -74,7 +74,7 @@ def _put_words(frame: Photograph, caption: Caption) -> None:
 
 
 def _put_bar(frame: Photograph, caption: Caption) -> None:
-    """Draw a segment for each stage: done, stopped, to come."""
+    """Draw a segment for each stage: done, stopped, or still to come."""
     height, width = frame.shape[:2]
     bar = frame[round((1 - _BAR) * height) :]
     bar[:] = 0
@@ -86,7 +86,7 @@ def _put_bar(frame: Photograph, caption: Caption) -> None:
 
 
 def lettered(words: str, size: Sequence[int], room: int, *, margin: int, right: bool = False) -> Mask:
-    """A line of text in the middle of a band (height, width), within `room` (points)."""
+    """The mask of a line of text in the middle of a band (height, width), within `room` points."""
     height, width = size
     words, scale = _fitted(words, _FINER * height * _LETTERS / _BAND / _extent("M", 1)[1], _FINER * room)
     long, high = _extent(words, scale)
@@ -99,7 +99,7 @@ def lettered(words: str, size: Sequence[int], room: int, *, margin: int, right: 
 
 
 def _fitted(words: str, scale: float, room: int) -> tuple[str, float]:
-    """Words and scale that fit a room (points): first smaller, then cut."""
+    """Words and scale that fit into a width (points): the words are first made smaller, then cut."""
     least = _MIN_SCALE * scale
     while scale > least and _extent(words, scale)[0] > room:
         scale *= 0.95

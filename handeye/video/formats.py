@@ -23,7 +23,7 @@ Frames = Iterator[Photograph]
 
 
 def bgr(frame: Photograph) -> Photograph:
-    """A frame in OpenCV's order: blue, green, red."""
+    """A frame in OpenCV's colour order: blue, green, red."""
     return np.ascontiguousarray(frame[:, :, ::-1])
 
 
@@ -45,9 +45,9 @@ def webp(frames: Frames, held: int) -> bytes:
 
 
 def settled(frames: Frames) -> Frames:
-    """Frames whose blocks change only when they differ enough from what is shown.
+    """Frames in which a block changes only if it differs enough from the shown block.
 
-    libwebp skips what resembles the frame before, so that slow changes would never be shown.
+    libwebp skips blocks that resemble the frame before, so that slow changes would never be shown.
     """
     shown = next(frames)
     yield shown
@@ -57,7 +57,7 @@ def settled(frames: Frames) -> Frames:
 
 
 def _changed(frame: Photograph, shown: Photograph) -> NDArray[np.bool_]:
-    """Mask of the points in blocks with a sufficient difference, shape (height, width)."""
+    """Mask of the points in blocks that differ enough, shape (height, width)."""
     height, width = frame.shape[:2]
     rows, columns = -(-height // _BLOCK), -(-width // _BLOCK)
     differs = np.zeros((rows * _BLOCK, columns * _BLOCK), dtype=bool)
@@ -67,7 +67,7 @@ def _changed(frame: Photograph, shown: Photograph) -> NDArray[np.bool_]:
 
 
 _TRACK: Final = re.compile(rb"\x73\xc5\x88(.{8})", re.DOTALL)
-"""Track number of a WebM file, random in FFmpeg: identifier, length, eight bytes."""
+"""Pattern of the track number of a WebM file, which FFmpeg chooses at random: identifier, length, eight bytes."""
 
 
 def webm(frames: Frames, held: int) -> bytes:
@@ -100,7 +100,7 @@ def _writer(path: Path, width: int, height: int) -> cv2.VideoWriter:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Silence OpenCV's warning on standard error about the name VP80."""
+    """In this context, OpenCV's warning on standard error about the name VP80 is suppressed."""
     try:
         kept = os.dup(2)
     except OSError:  # there is no standard error
@@ -119,7 +119,9 @@ _MP4_QUALITY: Final = "23"  # of x264: 0 is without loss, 51 the worst
 
 
 def mp4(frames: Frames, held: int) -> bytes:
-    """An MP4 file (H.264), which every player and slide program plays; the last frame is held for `held` periods."""
+    """An MP4 file (H.264), which nearly all players and slide programs can play; the last frame is held for `held`
+    periods.
+    """
     import av
 
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder:
@@ -150,7 +152,7 @@ class Format:
     even: bool  # needs even sides
 
     def check(self, frames: int, width: int, height: int) -> None:
-        """Raise BadArgument for an impossible size or length."""
+        """Raise BadArgument if the size or length is impossible."""
         if self.even and (width % 2 or height % 2):
             raise BadArgument(
                 f"a {self.kind.name} of {width} x {height} cannot be made; both sides must be even"
@@ -163,7 +165,7 @@ class Format:
 
 
 def format_of(path: Path) -> Format:
-    """The format of a file name; raises BadArgument."""
+    """The format for a file name; raises BadArgument if there is none."""
     ending = path.suffix.lower()
     if ending == ".mp4":
         try:

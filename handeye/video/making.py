@@ -30,7 +30,7 @@ Progress = Callable[[int, int], None]  # progress: frames drawn, and their numbe
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Video:
-    """A written video."""
+    """A video that was written."""
 
     path: Path
     seconds: float  # duration
@@ -41,7 +41,9 @@ class Video:
 def make_video(
     trace: Trace, path: Path, wanted: VideoRequest, *, overwrite: bool, told: Progress = lambda done, of: None
 ) -> Video:
-    """Write a video of a recorded run, whole or not at all, without simulation; raises Taken unless `overwrite`."""
+    """Write a video of a recorded run completely or not at all, without simulation; raises Taken if the file
+    exists, unless `overwrite`.
+    """
     require(trace.head.system, "video", trace.name)
     form = format_of(path)
     check_place(path, form.kind, overwrite=overwrite)
@@ -68,7 +70,7 @@ def _drawn(trace: Trace, board: Storyboard, wanted: VideoRequest, told: Progress
 
 
 def _marked(seen: SeenPicture) -> Photograph:
-    """A picture with the marks of what was found in it."""
+    """A picture with the marks of the findings in it."""
     try:
         return annotate(seen.picture, seen.marks, scale=1)[:, :, ::-1]
     except ValueError:

@@ -1,4 +1,4 @@
-"""Selects the passages of a run that a video shows, and their durations."""
+"""Selects the passages of a run for a video, and their durations."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ Span = tuple[float, float]  # begin, end, s by the cell's clock
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Passage:
-    """A continuous part of the run within one stage, or a moment of it to show a picture."""
+    """A continuous part of the run within one stage; or a moment at which the video stops to show a picture."""
 
     begin: float  # s by the cell's clock
     end: float
@@ -33,7 +33,7 @@ class Passage:
 
 
 def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
-    """Passages of a time span without waits for the camera; `looks` adds stops at pictures."""
+    """Passages of a time span without the waits for the camera; `looks` adds stops at pictures."""
     pictures = _pictures(trace) if looks else {}
     edges = sorted({*pictures, *(stage.begin for stage in trace.stages_both_ways)})
     found: list[Passage] = []
@@ -49,12 +49,12 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
 
 
 def _pictures(trace: Trace) -> dict[float, SeenPicture]:
-    """Pictures by the clock."""
+    """Pictures by their times, s."""
     return {picture.time: picture for picture in seen_pictures(RecordedRun(trace=trace))}
 
 
 def _without_waits(trace: Trace, span: Span) -> Iterator[Span]:
-    """A span without its waits."""
+    """The parts of a span between its waits."""
     begin, end = span
     for event in trace.events:
         if isinstance(event, CameraBusy) and event.seconds > MAX_WAIT_S:
@@ -79,9 +79,9 @@ def at_speed(shown: tuple[Passage, ...], speed: float) -> Array:
 
 
 def within(shown: tuple[Passage, ...], seconds: float) -> Array:
-    """Durations in the video (s), shape (n,), for a total length.
+    """Durations in the video (s), shape (n,), for a given total length.
 
-    All have the same speed except those of short stages, which are slower, to be seen.
+    All passages have the same speed, except those of short stages, which are slower so that they can be seen.
     """
     still, took = _still(shown), _took(shown)
     look = min(_LOOK, _LOOKING * seconds / max(still.sum(), 1))
@@ -97,12 +97,12 @@ def _took(shown: tuple[Passage, ...]) -> Array:
 
 
 def _still(shown: tuple[Passage, ...]) -> Array:
-    """1 for passages that stand still, else 0."""
+    """for passages that stop at a picture, else 0."""
     return np.array([float(passage.looked_at is not None) for passage in shown])
 
 
 def _shares(took: Array, least: float) -> Array:
-    """Shares proportional to `took`, but none below `least`, shape (n,)."""
+    """Shares proportional to `took`, but each at least `least`, shape (n,)."""
     short = np.zeros(len(took), dtype=bool)
     while True:
         rest = 1 - least * short.sum()

@@ -24,7 +24,7 @@ class VideoRequest:
     seconds: float | None = None  # duration; `SECONDS` by default
     speed: float | None = None  # speed-up over the run, instead of a duration
     first: str | int | None = None
-    """First stage: number, name, or part of the name; by default the first one."""
+    """First stage: number, name, or part of the name; by default the first stage of the run."""
     last: str | int | None = None  # last stage
     captions: bool = False  # show the stage, and the program's pictures
 

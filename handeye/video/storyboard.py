@@ -1,4 +1,4 @@
-"""Plans the frames of a video: moment, view and caption."""
+"""Plans the frames of a video: time, view and caption of each."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -28,7 +28,9 @@ _SWAY_DEG: Final = 34.0
 _CLOSE, _WIDE = 0.4, 0.6  # Distance from where the hand works: m, and m for each m of its range there
 _AROUND: Final = 0.15  # m: places as near as this to one another are one place of work
 _AMID: Final = np.array([0.5, 0.5, -0.1])
-"""Aim within the hand's range: below its middle, as the hand works low."""
+"""Point at which the view is aimed, as fractions of the hand's range from its lower corner: in the middle of the
+range, and slightly below it, because the hand works low.
+"""
 _STILL_M: Final = 0.05
 _GLIDE: Final = 0.9  # s between the views of two stages
 
@@ -39,7 +41,7 @@ def views(trace: Trace, camera: str, stages: Sequence[int], rate: float) -> list
     Args:
         camera: a camera of the scene, `orbit` or `follow`.
         stages: index of each frame's stage in `trace.stages_both_ways`, shape (n,).
-        rate: frames a second.
+        rate: frames per second.
     """
     cameras = [trace.scene.camera(number).name for number in range(trace.scene.ncam)]
     if camera == ORBIT:
@@ -58,15 +60,15 @@ def _orbit(scene: Any, side: str, frames: int) -> list[View]:
 
 
 def _follow(trace: Trace, side: str, stages: Sequence[int], rate: float) -> list[View]:
-    """Close to each stage's work, gliding from one to the next."""
+    """Views close to the work of each stage, gliding from one stage to the next."""
     at = _smooth(np.array(_targets(trace))[np.maximum(stages, 0)], round(_GLIDE * rate))
     return [Near(camera=side, place=(x, y, z), distance=distance) for x, y, z, distance in at.tolist()]
 
 
 def _targets(trace: Trace) -> list[Array]:
-    """For each stage an aim (m) and viewing distance (m), shape (n, 4).
+    """An aim (m) and a viewing distance (m) for each stage, shape (n, 4).
 
-    A stage in which the hand stays takes those of the next stage, or the previous one.
+    A stage in which the hand hardly moves takes those of the next stage, or of the previous one.
     """
     found = [_target(np.array(_hands(trace, stage))) for stage in trace.stages_both_ways]
     return [_nearest(found, number, trace) for number in range(max(len(found), 1))]
@@ -82,9 +84,10 @@ def _hands(trace: Trace, stage: Stage) -> list[tuple[float, float, float]]:
 
 
 def _target(hands: Array) -> Array | None:
-    """Aim and distance for hand positions, shape (n, 3): the place where most of them are; None if they hardly differ.
+    """Aim and distance for hand positions, shape (n, 3): the place where most of them are; None if they hardly
+    differ.
 
-    Later ones count for more: a part is put down after it is fetched.
+    Later positions have more weight, because a part is put down after it is fetched.
     """
     if not len(hands) or np.ptp(hands, axis=0).max() < _STILL_M:
         return None
@@ -102,7 +105,7 @@ def _nearest(found: Sequence[Array | None], number: int, trace: Trace) -> Array:
 
 
 def _smooth(values: Array, window: int) -> Array:
-    """Smoothed values, shape as given (n, m)."""
+    """Smoothed values, shape (n, m)."""
     weights = np.hanning(2 * (window // 2) + 3)[1:-1]
     around = np.pad(values, ((window // 2,) * 2, (0, 0)), mode="edge")
     weights /= weights.sum()
@@ -124,14 +127,14 @@ class Frame:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Storyboard:
-    """The frames of a video in order, and the number of periods that the last one is held."""
+    """The frames of a video in order, and the number of frame periods for which the last frame is held."""
 
     frames: tuple[Frame, ...]
     held: int
 
     @property
     def seconds(self) -> float:
-        """Duration of the video."""
+        """Duration of the video, s."""
         return (len(self.frames) + self.held) / RATE
 
 
@@ -159,7 +162,7 @@ def storyboard(trace: Trace, wanted: VideoRequest) -> Storyboard:
 
 
 def _times(chosen: Sequence[Passage], over: Array) -> list[float]:
-    """Times of the run (s) at these fractions of passages."""
+    """Times of the run (s) at the fractions `over` of the passages."""
     spans = np.array([(passage.begin, passage.end) for passage in chosen])
     return list((spans[:, 0] + over * np.ptp(spans, axis=1)).tolist())
 
@@ -180,7 +183,7 @@ def _span(trace: Trace, wanted: VideoRequest) -> Span:
 
 
 def _recorded(trace: Trace, name: str) -> list[Stage]:
-    """Every recorded execution of a stage; raises BadArgument if there is none."""
+    """All recorded executions of a stage; raises BadArgument if there are none."""
     stages = [stage for stage in trace.stages if stage.end > trace.begins]
     found = [stage for stage in stages if stage.name == name]
     if not found:
@@ -190,7 +193,7 @@ def _recorded(trace: Trace, name: str) -> list[Stage]:
 
 
 def _paced(shown: tuple[Passage, ...], wanted: VideoRequest) -> tuple[Array, int]:
-    """Durations of passages (s), and the periods that the last frame is held."""
+    """Durations of the passages (s), and the number of periods for which the last frame is held."""
     share, most = _HELD
     if wanted.speed is None:
         periods = max(round((wanted.seconds or SECONDS) * RATE), 1)

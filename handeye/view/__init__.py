@@ -1,1 +1,3 @@
-"""The live cell in a browser: any number of viewers, one driver, and a run that none of them changes by watching."""
+"""The live cell in a browser: any number of viewers may watch without effect on the run, and one of them controls
+it.
+"""

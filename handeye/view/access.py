@@ -1,4 +1,6 @@
-"""Access to the server: by its own name, from its own page, with the token of the address that it prints."""
+"""Access control of the server: requests must use the server's name, come from its page, and have the token of the
+printed address.
+"""
 
 import hmac
 import secrets
@@ -17,7 +19,7 @@ _NAMES: Final = (HOST, "localhost")
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Reason why something is not let through."""
+    """The reason why a request is refused."""
 
     status: HTTPStatus
     sentence: str
@@ -25,20 +27,21 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Access:
-    """Conditions that a request has to meet."""
+    """Conditions for requests."""
 
     port: int
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
 
     @property
     def address(self) -> str:
-        """The address to open, with the token."""
+        """The address to open in a browser, with the token."""
         return f"http://{HOST}:{self.port}{PAGE}?token={self.token}"
 
     def refusal(self, target: str, hosts: Sequence[str], origins: Sequence[str]) -> Refusal | None:
-        """Why a request for a path and query with these `Host` and `Origin` headers is refused; None: it is not.
+        """The reason why a request for a path and query with these `Host` and `Origin` headers is refused; None if
+        it is permitted.
 
-        Browsers tell the origin of whatever opens a socket, and mostly none of who opens a page.
+        Browsers send the origin when a page opens a socket, and usually none when a person opens a page.
         """
         path, _, query = target.partition("?")
         own = [f"{name}:{self.port}" for name in _NAMES]

@@ -1,4 +1,6 @@
-"""A moment of a run and the television picture that viewers are shown: copies, which nothing they do can change."""
+"""The present moment of a run and the television picture for viewers, as copies that viewers cannot use to change
+the run.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,24 +24,24 @@ from handeye.trace.messages import Poses
 from handeye.trace.stages import done_steps
 
 NEWS = PictureTaken | happened.PartSeen | happened.PartInspected | happened.PartMatched | happened.ErrorRaised
-"""Events after which there is another picture, or more on it."""
+"""Events after which there is a new picture, or new findings in a picture."""
 
 
 @dataclass(frozen=True, eq=False)
 class Television:
-    """The television's picture with findings: a value that the run does not change."""
+    """The television's picture with its findings, as a value that the run does not change."""
 
     picture: SeenPicture | None = None
-    """The picture that the program took or examined last, with its time; None: it has taken none."""
+    """The last picture that the program took or examined, with its time; None if it has taken none."""
 
     @property
     def shows(self) -> tuple[float, str, Sequence[Finding]] | None:
-        """Identity of the picture, with what was found in it."""
+        """Identity of the picture, together with the findings in it."""
         return None if self.picture is None else (self.picture.time, self.picture.name, self.picture.findings)
 
     @cached_property
     def message(self) -> str:
-        """The picture as a message for pages; empty markup without one."""
+        """The picture as a message for pages; without a picture, the markup is empty."""
         shown = "" if self.picture is None else figure(self.picture, self.picture.name)
         return msgspec.json.encode({"television": str(shown)}).decode()
 
@@ -50,7 +52,7 @@ def television(runner: Runner) -> Television:
 
 
 def shown(events: Sequence[AnyEvent], listing: Listing, system: RunningSystem) -> Television:
-    """The television's picture after some events, copied from the program's memory."""
+    """The television's picture after some events, copied from the memory of the program."""
     taken, findings = _last(events, listing) if system.shots else (None, ())
     if taken is None or taken.picture not in system.shots:
         return Television()
@@ -67,7 +69,7 @@ def shown(events: Sequence[AnyEvent], listing: Listing, system: RunningSystem) -
 
 
 def _last(events: Sequence[AnyEvent], listing: Listing) -> tuple[PictureTaken | None, Sequence[Finding]]:
-    """The picture taken or examined last, and its findings."""
+    """The last picture that was taken or examined, and its findings."""
     taken: dict[str, PictureTaken] = {}
     findings: dict[str, list[Finding]] = {}
     last = None
@@ -87,7 +89,7 @@ FIGURES: Final = 5  # before the joints: time, gap, and the three of the force
 
 @dataclass(frozen=True, eq=False)
 class Moment:
-    """The cell at the end of a servo period."""
+    """The state of the cell at the end of a servo period."""
 
     time: float  # s since the run began
     gap: float  # between the fingers, m
@@ -98,20 +100,24 @@ class Moment:
 
     @cached_property
     def packed(self) -> bytes:
-        """The moment as 32-bit numbers, little-endian: `FIGURES`, joints, channels, poses; NaN: not estimated."""
+        """The state as 32-bit little-endian numbers: `FIGURES`, joints, channels, poses; NaN for a force that is
+        not estimated.
+        """
         force = np.full(3, np.nan) if self.force is None else self.force
         numbers = (np.array([self.time, self.gap]), force, self.joints, self.channels, self.poses.ravel())
         return np.concatenate(numbers).astype("<f4").tobytes()
 
 
 class Newest(Observer):
-    """Keeps the newest moment and picture of a run for display; they are read from any thread."""
+    """Keeps the newest moment and picture of a run for display; other threads may read them."""
 
     def __init__(self, runner: Runner) -> None:
         self.follow(runner)
 
     def follow(self, runner: Runner) -> None:
-        """Follow a runner from now on; one that goes on in the cell of another also goes on with its time."""
+        """Follow a runner from now on; a runner that continues in the cell of another also continues that runner's
+        time.
+        """
         cell = runner.system.cell
         self.frames = NoFrames() if cell is None else Frames(cell.truth, runner.system.joints)
         self._runner = runner
@@ -140,7 +146,7 @@ class Newest(Observer):
         self._look()
 
     def _look(self) -> None:
-        """Update the television; an unchanged picture stays the same value, which is sent once."""
+        """Update the television; an unchanged picture stays the same object, which is sent only once."""
         seen = television(self._runner)
         if seen.shows != self.television.shows:
             self.television = seen

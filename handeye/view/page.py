@@ -1,4 +1,6 @@
-"""The page of a live cell: view and script of the report, fed by the server; a log of replies; a command line."""
+"""The page of a live cell: 3D view and script as in the report, updated by the server; a log of replies; a command
+line.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -19,12 +21,12 @@ from handeye.view.moment import FIGURES, Newest
 
 _MARK: Final = "<!doctype html>\n"
 _POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
-"""Permissions beyond the report's: talk with its server, and no more."""
+"""Permissions in addition to the report's: the page may communicate with its server, and nothing else."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Face:
-    """The controls of a live page, and the region next to the cell."""
+    """The controls of a live page, and the region beside the cell."""
 
     title: str
     controls: Sequence[Markup]
@@ -35,7 +37,7 @@ class Face:
 
 
 def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
-    """The page of a live cell, as one file that fetches nothing; raises InvalidInput if the task shows no scene."""
+    """The page of a live cell, as one file that loads no other files; raises InvalidInput if the task has no scene."""
     model = runner.task.shown(runner.setup.world, written(runner.setup))
     names = newest.frames.names
     facts = {
@@ -69,12 +71,12 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
 
 
 def buttons(said: Sequence[tuple[str, str]]) -> Iterator[Markup]:
-    """Buttons that say a line: the line, and what stands on it."""
+    """Buttons, each given by the line that it sends and by its label."""
     return (element("button", shown, type="button", value=line, class_="say") for line, shown in said)
 
 
 def source_region(label: str, *content: Markup, id: str | None = None) -> Markup:
-    """A scrolling region beside the cell, with a script or a taught file in it."""
+    """A scrolling region beside the cell that contains a script or a taught file."""
     return region(*content, label=label, id=id, class_="source")
 
 
@@ -100,7 +102,7 @@ def _talk(listener: str) -> Markup:
 
 
 def _first_tracks(names: tuple[str, ...], poses: Poses) -> bytes:
-    """First poses of all bodies; those not there yet are at the origin, and the page moves them."""
+    """First poses of all bodies. Bodies that do not exist yet are at the origin; the page moves them later."""
     there = np.where(np.isnan(poses), np.array([0, 0, 0, 1, 0, 0, 0], dtype=np.float32), poses)
     rows = {name: pose[None] for name, pose in zip(names, there, strict=True)}
     return tracks.tracks_bytes(rows, times=np.zeros(1), begin=0.0, end=0.0, lowest=-np.inf)

@@ -1,7 +1,7 @@
-"""The server: a thread beside the run that hands out the page and sends messages to its viewers.
+"""The server: a thread beside the run that delivers the page and sends messages to its viewers.
 
-It sends the newest moment `MOMENTS_PER_S` times a second and drops the others; a viewer who falls too far behind is
-disconnected. So no viewer can slow the run.
+It sends the newest moment `MOMENTS_PER_S` times per second and drops the others. A viewer that falls too far behind
+is disconnected, so that no viewer can slow the run down.
 """
 
 import asyncio
@@ -33,17 +33,17 @@ MAX_BEHIND: Final = 4 * KEPT_MESSAGES  # unsent messages at which a viewer is le
 
 
 class Say(msgspec.Struct, tag_field="do", tag="say", forbid_unknown_fields=True):
-    """Say a line to the stepper."""
+    """A viewer's request to send a line to the stepper."""
 
     line: Annotated[str, msgspec.Meta(max_length=MAX_LINE_CHARS)]
 
 
 class Panic(msgspec.Struct, tag_field="do", tag="panic", forbid_unknown_fields=True):
-    """Press the panic button, which every viewer may do."""
+    """A viewer's request to press the panic button, which every viewer may do."""
 
 
 class Drive(msgspec.Struct, tag_field="do", tag="drive", forbid_unknown_fields=True):
-    """Take control from the present viewer."""
+    """A viewer's request to take control from the present viewer."""
 
 
 Wish = Say | Panic | Drive
@@ -59,10 +59,12 @@ class Viewer:
 
 
 class Server:
-    """Serves one run while entered; its port is taken at once, so that one in use is refused at once."""
+    """Serves one run while its context is entered. The port is taken at creation, so that a port in use is refused
+    at once.
+    """
 
     def __init__(self, link: Link, port: int = 0) -> None:
-        """Take a port; 0: any that is free; raises InvalidInput if the port is in use, or not to be had."""
+        """Take a port (0: any free port); raises InvalidInput if the port is in use or unavailable."""
         self.link = link
         self._socket = _taken(port)
         self.access = Access(self._socket.getsockname()[1])
@@ -73,7 +75,7 @@ class Server:
         self._up = Event()
 
     def show(self, page: bytes, newest: Newest | None = None) -> None:
-        """Begin to serve a page in one file, and to feed it with moments; None: there is nothing to come, no socket."""
+        """Start to serve a page and to send moments; `newest` None: no moments and no socket."""
         self._page, self._newest = page, newest
         self.link.tell = lambda text: self._call(lambda: self._tell(text))
         self._thread = Thread(
@@ -115,14 +117,14 @@ class Server:
             await self._say_goodbye(server)
 
     async def _say_goodbye(self, server: SocketServer) -> None:
-        """Send what is waiting, and close."""
+        """Send all waiting messages, then close."""
         for viewer in [*self._viewers]:
             viewer.waiting.append(_message(left=True))
         await asyncio.sleep(2 / MOMENTS_PER_S)
         server.close()
 
     def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """The page, or why there is none; None: the socket may be opened."""
+        """The page, or the reason why there is none; None to permit the socket."""
         headers = request.headers
         refusal = self.access.refusal(request.path, headers.get_all("Host"), headers.get_all("Origin"))
         if refusal is not None:
@@ -187,7 +189,7 @@ class Server:
             viewer.connection.transport.abort()
 
     def _tell_drive(self) -> None:
-        """Tell every viewer how many there are, and whether the drive is theirs."""
+        """Tell every viewer the number of viewers, and who has control."""
         for viewer in self._viewers:
             free = self._driver is None
             self._send(viewer, _message(viewers=len(self._viewers), drives=self._driver is viewer, free=free))
@@ -203,7 +205,7 @@ class Server:
             self._send(viewer, _message(refused=refused))
 
     def _carried_out(self, viewer: Viewer, wish: Wish) -> str | None:
-        """Carry out a viewer's wish; return why not, if it is refused."""
+        """Carry out a viewer's request; returns the reason if it is refused."""
         match wish:
             case Drive():
                 self._driver = viewer
@@ -219,7 +221,7 @@ class Server:
 
 
 def _taken(port: int) -> socket.socket:
-    """A socket that listens on a port of this computer alone."""
+    """A socket that listens on a port of this computer only."""
     taken = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
         taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

@@ -1,4 +1,6 @@
-"""Stepping in the browser: the page whose buttons say lines to the stepper, and the loop that carries them out."""
+"""Stepping in the browser: the page with buttons that send lines to the stepper, and the loop that executes the
+lines.
+"""
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager
@@ -25,7 +27,7 @@ _PACES: Final = (("1x", "1 ×"), ("4x", "4 ×"), ("free", "as fast as possible")
 
 
 def stepping_page(runner: Runner, newest: Newest) -> bytes:
-    """The page of a run in a cell; raises InvalidInput if the task shows no scene."""
+    """The page of a run in a cell; raises InvalidInput if the task has no scene."""
     program: Any = runner.listing
     face = Face(
         title=program.name,
@@ -48,7 +50,9 @@ def _controls() -> Markup:
 
 
 def drive(stepper: Stepper, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> Pause:
-    """Execute lines until the user leaves the run; return why it pauses. `aside` is entered while waiting."""
+    """Execute lines until the user leaves the run; returns the reason of the pause. The context `aside` is entered
+    while waiting.
+    """
     session = stepper.session
     session.output = LiveJson(session.runner, link.tell)
     session.input = LineInput(link.come, lambda line: link.tell(told(stepper, stepper.meanwhile(line))))
@@ -61,9 +65,9 @@ def drive(stepper: Stepper, link: Link, aside: Callable[[], AbstractContextManag
 
 
 def told(stepper: Stepper, reply: Reply) -> str:
-    """A reply as the page understands it: its record, and the text that the stepper shows at a terminal.
+    """A reply in the form for the page: its record, and the text that the stepper prints at a terminal.
 
-    Events and the steps that were done are left out of the record: a long way has thousands.
+    Events and executed steps are left out of the record, because there may be thousands of them.
     """
     record = msgspec.Raw(as_json(msgspec.structs.replace(reply, events=(), did=())).encode())
     return msgspec.json.encode(

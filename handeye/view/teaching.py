@@ -1,4 +1,4 @@
-"""Teaching in the browser: the page with buttons that move the arm, and the loop that does what is said there."""
+"""Teaching in the browser: the page with buttons that move the arm, and the loop that executes the lines."""
 
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
@@ -27,7 +27,7 @@ _WORDS: Final = (("undo", "Undo"), ("where", "Where"), ("float", "Float"), ("sav
 
 
 def teaching_page(teacher: Teacher, newest: Newest) -> bytes:
-    """The page for teaching in a cell; raises InvalidInput if the task shows no scene."""
+    """The page for teaching in a cell; raises InvalidInput if the task has no scene."""
     workplace = teacher.workplace
     hand = element("div", *buttons(_GAPS), *buttons(_WORDS), class_="controls")
     face = Face(
@@ -41,7 +41,7 @@ def teaching_page(teacher: Teacher, newest: Newest) -> bytes:
 
 
 def taught_markup(teacher: Teacher) -> Markup:
-    """The taught file as it will be, with the lines marked that are not saved."""
+    """The taught file with all changes; lines that are not saved yet are marked."""
     saved = set(teacher.saved.splitlines())
     lines = teacher.text.splitlines()
     if not lines:
@@ -51,7 +51,7 @@ def taught_markup(teacher: Teacher) -> Markup:
 
 
 def _jogging(arm: ArmModel) -> Markup:
-    """Controls that jog the arm: the hand along or about an axis, or one joint."""
+    """Controls that move the hand along or about an axis, or one joint."""
     steps = element(
         "div",
         _choice("frame", "along", _FRAMES, _FRAMES[0][0]),
@@ -82,7 +82,7 @@ def _grid(label: str, pairs: Iterable[Markup]) -> Markup:
 
 
 def _pair(line: str, shown: str, step: str) -> Markup:
-    """Two buttons that move something one way and the other; the script puts frame and step in the line."""
+    """Two buttons for opposite movements; the page's script inserts frame and step into the line."""
     less, more = (
         element("button", sign, type="button", value=f"{line} {typed}", data_step=step, aria_label=f"{shown} {sign}")
         for typed, sign in _SIGNS
@@ -91,7 +91,7 @@ def _pair(line: str, shown: str, step: str) -> Markup:
 
 
 def _naming(parts: Iterable[str]) -> Markup:
-    """The form that records the hand's position."""
+    """The form that stores the hand's position under a name."""
     name = element(
         "input", id="name", type="text", required=True, maxlength="60", pattern="[A-Za-z_][A-Za-z0-9_]*",
         placeholder="NAME", aria_label="name of the position", autocomplete="off",
@@ -106,7 +106,7 @@ def _naming(parts: Iterable[str]) -> Markup:
 
 
 class Watch:
-    """The observers of a workplace as it goes from plan to plan, each with a runner of its own."""
+    """The observers of a workplace, which stay the same while each plan has its own runner."""
 
     def __init__(self, link: Link, pace: Pace) -> None:
         self.newest: Newest | None = None  # None: no cell was built yet
@@ -114,7 +114,7 @@ class Watch:
         self._ear = LineInput(link.come, lambda line: link.tell(_refused(line)))
 
     def __call__(self, runner: Runner) -> list[Observer]:
-        """Observers of a runner, the first or the successor of the last."""
+        """The observers for a runner, the first or a later one."""
         if self.newest is None:
             self.newest = Newest(runner)
         else:
@@ -123,7 +123,7 @@ class Watch:
 
 
 def teach(session: TeachSession, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> None:
-    """Execute lines until the user leaves; `aside` is entered while waiting for a line."""
+    """Execute lines until the user leaves; the context `aside` is entered while waiting for a line."""
     link.tell(_told(session, None))
     for line in filter(str.strip, link.lines(aside)):
         link.tell(msgspec.json.encode({"begun": line.strip()}).decode())
@@ -133,7 +133,7 @@ def teach(session: TeachSession, link: Link, aside: Callable[[], AbstractContext
 
 
 def _told(session: TeachSession, answer: Answer | None) -> str:
-    """An answer as the page understands it, with what the taught file then is; None: nothing was said yet."""
+    """An answer in the form for the page, with the resulting taught file; None: no line has been given yet."""
     teacher = session.teacher
     return msgspec.json.encode(
         {

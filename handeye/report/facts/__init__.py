@@ -1,1 +1,1 @@
-"""Facts of a run for display: things seen, felt, planned and found, as values."""
+"""Facts about a run for display: pictures, forces, planned and measured places, and outcome."""

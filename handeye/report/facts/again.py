@@ -15,7 +15,9 @@ _CAMERAS: Final = {"opengl": "gl", "rays": "ray"}
 
 
 def command(run: RecordedRun) -> str | None:
-    """The command; None: code or a task of the caller's own belongs to the run, which no command line has."""
+    """The command that repeats a run; None if the run uses code or a task of the caller, which no command line can
+    contain.
+    """
     head = run.trace.head
     if known(head.task) is None or head.own_parts:
         return None
@@ -37,7 +39,7 @@ def command(run: RecordedRun) -> str | None:
 
 
 def is_shipped(digest: str) -> bool:
-    """See whether a plan is the one that `assemble` makes."""
+    """True if a plan is the one that `assemble` makes."""
     task = known(DEFAULT)
     assert task is not None
     assert task.script is not None
@@ -46,12 +48,12 @@ def is_shipped(digest: str) -> bool:
 
 
 def sense_words(senses: Sequence[str]) -> list[str]:
-    """The options that take senses away."""
+    """The command-line options that switch senses off."""
     return [word for sense in senses for word in ("--without", sense)]
 
 
 def world_words(world: WorldSpec, of: str) -> list[str]:
-    """The options that stand for a world of the task of a name, which is known here."""
+    """The command-line options for a world of a task that is known here."""
     task = known(of)
     assert task is not None
     quantities, faults = task.variation().quantities, task.faults(world)
@@ -66,7 +68,7 @@ def world_words(world: WorldSpec, of: str) -> list[str]:
 
 
 def written(quantity: Quantity | None, value: float) -> str:
-    """A value (SI) as it would be typed: in the unit of its quantity, if that is as exact."""
+    """A value (SI) as it is typed: in the unit of its quantity if that loses no precision, else in SI."""
     if quantity is None:
         return repr(value)
     for unit in (quantity.measure, _si(quantity.measure)):

@@ -15,7 +15,7 @@ from handeye.trace.stages import DoneStep, done_steps
 
 
 class MetGuard(NamedTuple):
-    """A guard that was met."""
+    """A guard that has tripped."""
 
     time: float  # s since the run began
     value: float  # N, N m, or finger switches as a mask
@@ -24,20 +24,22 @@ class MetGuard(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class GuardedMotion:
-    """The quantity that a guard watched during a motion of n servo periods."""
+    """The value that a guard watched during a motion of n servo periods."""
 
     stage: str
     step: StepStarted
     guard: GuardKind
     times: Array  # Ends of the periods, shape (n,), s since the run began
     values: Array
-    """Force along the guard's axis (N), moment about it, torque of the screwdriver (N m), or switches, shape (n,)."""
+    """Force along the guard's axis (N), moment about it (N m), torque of the screwdriver (N m), or finger switches,
+    shape (n,).
+    """
     limit: float  # N, N m, or switches
     trip: MetGuard | None
 
 
 def guarded_motions(run: RecordedRun) -> tuple[GuardedMotion, ...]:
-    """The guarded motions, in order."""
+    """The guarded motions of a run, in order."""
     if not len(run.trace.times):
         return ()
     forces = run.trace.forces()
@@ -45,7 +47,7 @@ def guarded_motions(run: RecordedRun) -> tuple[GuardedMotion, ...]:
 
 
 def lost_trips(run: RecordedRun, motions: Sequence[GuardedMotion]) -> int:
-    """Number of guards met in motions that the trace does not hold."""
+    """Number of guards that tripped in motions that are not in the trace."""
     met = sum(isinstance(event, GuardTripped) for event in run.trace.events)
     return met - sum(motion.trip is not None for motion in motions)
 
@@ -60,7 +62,7 @@ def _motions(run: RecordedRun, forces: Forces) -> Iterator[GuardedMotion]:
 
 
 def _motion(run: RecordedRun, forces: Forces, step: DoneStep, watched: Array, stage: str) -> GuardedMotion:
-    """A motion, by the servo periods in which a guard watched."""
+    """The guarded motion of a step, over the servo periods in which a guard was active."""
     kind = GuardKind(str(forces.guard[watched[0]]))
     met = next((event for event in step.events if isinstance(event, GuardTripped)), None)
     return GuardedMotion(
@@ -75,7 +77,7 @@ def _motion(run: RecordedRun, forces: Forces, step: DoneStep, watched: Array, st
 
 
 def _stages(run: RecordedRun) -> dict[tuple[float, int], str]:
-    """The stage of each step that was begun, by its time and number."""
+    """The stage of each step that began, by the step's time and number."""
     found: dict[tuple[float, int], str] = {}
     stage = ""
     for event in run.trace.events:

@@ -1,4 +1,4 @@
-"""The outcome of a run, and the moment that it hangs on."""
+"""The outcome of a run, and the moment that decided it."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -15,8 +15,10 @@ from handeye.report.recorded import RecordedRun
 from handeye.results.result import Check
 
 Kind = Literal["right", "wrong", "ended", "stopped", "panic", "paused", "broken off"]
-"""It ended and the referee found the work right, or not, or was not asked; the program called the operator; the panic
-button was hit; it stands before its end; its trace was cut short."""
+"""The outcome of a run: `right`, `wrong` or `ended`, the program ended, and the referee accepts the work, does not
+accept it, or has not judged it; `stopped`, the program called the operator; `panic`, the panic button was pressed;
+`paused`, the run has not ended; `broken off`, the trace is incomplete.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,7 +40,7 @@ class Outcome:
 
     @property
     def failed(self) -> bool:
-        """True if something went wrong, or the run was stopped."""
+        """True if the work is wrong, or the run was stopped."""
         return self.kind in ("wrong", "stopped", "panic")
 
     @property
@@ -64,7 +66,7 @@ def outcome(run: RecordedRun) -> Outcome:
 
 
 def _ended(run: RecordedRun) -> Outcome:
-    """The outcome of a run whose program ended."""
+    """The outcome of a run whose program has ended."""
     judged = None if run.result is None else run.result.judged
     if run.result is None or judged is None:
         return Outcome(kind="ended", time=run.ends)
@@ -78,7 +80,7 @@ def _ended(run: RecordedRun) -> Outcome:
 
 
 def _standing(run: RecordedRun) -> tuple[str | None, StepStarted | None, OperatorCalled | None]:
-    """The stage and step that a run is in, and the operator call that is still unanswered."""
+    """The present stage and step of a run, and the call of the operator that is not answered yet."""
     stages = run.trace.stages
     step: StepStarted | None = None
     call: OperatorCalled | None = None

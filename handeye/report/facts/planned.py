@@ -1,4 +1,6 @@
-"""Planned and found: where motions ended and why, which goals were moved by what, and the searches."""
+"""Differences between plan and run: where motions ended and why, which goals were shifted and why, and the
+searches.
+"""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -27,7 +29,7 @@ from handeye.trace.stages import DoneStep, done_steps
 
 
 class EndReason(StrEnum):
-    """Why a motion ended where it did."""
+    """The reason why a motion ended where it did."""
 
     PLANNED = "as planned"
     MOVED = "goal moved"
@@ -46,7 +48,7 @@ class MotionEnd:
 
 
 def ends(run: RecordedRun) -> tuple[MotionEnd, ...]:
-    """The ends of the motions, in order."""
+    """The ends of all motions, in order."""
     return tuple(_ends(run))
 
 
@@ -62,7 +64,9 @@ def _ends(run: RecordedRun) -> Iterator[MotionEnd]:
 
 
 def _off(step: DoneStep) -> Array | None:
-    """Offset of the hand from its planned end, shape (3,), m; None if the step moved nothing or did not end."""
+    """Offset of the hand from the planned end of a step, shape (3,), m; None if the step had no planned end, or did
+    not finish.
+    """
     last = step.events[-1] if step.finished else None
     hand, planned = getattr(last, "hand", None), getattr(last, "planned", None)
     return None if hand is None or planned is None else np.subtract(hand, planned)
@@ -79,7 +83,7 @@ def _why(events: list[AnyEvent], off: Array, before: Array) -> EndReason:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Search:
-    """A search that went on from its first place."""
+    """A search that tried more than its first place."""
 
     step: StepStarted  # The step that sent it on last
     times: tuple[float, ...]  # When it went on, s since the run began
@@ -88,12 +92,12 @@ class Search:
 
 
 def searches(run: RecordedRun) -> tuple[Search, ...]:
-    """The searches that went on, in order."""
+    """The searches that tried more than one place, in order."""
     return tuple(_search(run, tries) for tries in _tries(run.trace.events))
 
 
 def _tries(events: tuple[AnyEvent, ...]) -> Iterator[list[tuple[StepStarted, AnyEvent]]]:
-    """The steps that went on in a search, with what came of it, search by search."""
+    """For each search, the steps in which it advanced, with the events of these steps."""
     step: StepStarted | None = None
     tries: list[tuple[StepStarted, AnyEvent]] = []
     for event in events:
@@ -123,7 +127,7 @@ def _search(run: RecordedRun, tries: list[tuple[StepStarted, AnyEvent]]) -> Sear
 
 
 class Mover(StrEnum):
-    """Kinds of causes that move a goal."""
+    """Kinds of reasons for which a goal is shifted."""
 
     SAVE = "saved in"
     LOOK = "seen in"
@@ -132,7 +136,7 @@ class Mover(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
-    """The cause of a goal's move: a saved difference, a part that was seen, or the place of a search."""
+    """The reason for the shift of a goal: a saved difference, a part that was seen, or the place of a search."""
 
     name: str
     by: Mover
@@ -142,7 +146,7 @@ class Cause:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Correction:
-    """A goal that was moved off its planned place before the motion began."""
+    """A goal that was shifted from its planned position before the motion began."""
 
     time: float  # s since the run began
     step: StepStarted
@@ -152,7 +156,7 @@ class Correction:
 
 
 def corrections(run: RecordedRun) -> tuple[Correction, ...]:
-    """The goals that were moved, in order."""
+    """The goals that were shifted, in order."""
     return tuple(_corrections(run))
 
 
@@ -182,7 +186,7 @@ def _corrections(run: RecordedRun) -> Iterator[Correction]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Search:
-    """The place that a search is at."""
+    """The present place of a search."""
 
     offset: tuple[float, float] = (0.0, 0.0)  # From its first, m
     cause: Cause | None = None  # None: it is at its first
@@ -199,7 +203,9 @@ def _causes(
     known: Mapping[tuple[Mover, str], Cause],
     search: _Search,
 ) -> Iterator[Cause]:
-    """The causes of a goal's move: differences, the search, and the look at its part for the remainder."""
+    """The reasons for the shift of a goal: saved differences, the search and, for the remainder, the last look at
+    the goal's part.
+    """
     restored = [event for event in step.events if isinstance(event, Restored)]
     rest = np.subtract(adjusted.shift, np.sum([[0, 0, 0], *(event.difference for event in restored)], axis=0))
     searched = _concerns_search(_operation(run, step).reads) and search.cause is not None
@@ -214,7 +220,7 @@ def _causes(
 
 
 def _concerns_search(uses: Iterable[Use]) -> bool:
-    """The search that is set up is among what an operation reads or writes."""
+    """True if the present search is among the values that an operation reads or writes."""
     return any(use.kind == "search" for use in uses)
 
 

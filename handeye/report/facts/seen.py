@@ -1,4 +1,4 @@
-"""The pictures that a run took, with the findings in each."""
+"""The pictures that a program took, with the findings of vision in each."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -30,12 +30,12 @@ class SeenPicture:
 
 
 def seen_pictures(run: RecordedRun) -> tuple[SeenPicture, ...]:
-    """The pictures, in order; raises InvalidInput if a message about one cannot be understood."""
+    """The pictures in order; raises InvalidInput if a message about a picture is invalid."""
     return tuple(_seen(run))
 
 
 def lost_pictures(run: RecordedRun) -> int:
-    """Number of pictures that the trace does not hold."""
+    """Number of pictures that are not in the trace."""
     taken = sum(isinstance(event, PictureTaken) for event in run.trace.events)
     return taken - len(run.trace.pictures)
 
@@ -56,7 +56,9 @@ def _seen(run: RecordedRun) -> Iterator[SeenPicture]:
 
 
 def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
-    """The last marks on each picture, by the time (ns) at which it was taken: each set holds those before."""
+    """The last marks on each picture, by the time (ns) at which the picture was taken; each set of marks contains
+    the earlier ones.
+    """
     try:
         return dict(
             read_annotations(message.data) for message in run.trace.messages if message.topic == ANNOTATIONS
@@ -66,7 +68,7 @@ def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
 
 
 def _findings(run: RecordedRun) -> dict[float, list[Finding]]:
-    """The steps' findings in each picture, by the time at which it was taken."""
+    """The findings in each picture, by the time (s) at which the picture was taken."""
     found: dict[float, list[Finding]] = {}
     taken: dict[str, float] = {}
     for step in done_steps(run.trace.events):

@@ -1,4 +1,4 @@
-"""Sensor readings of a run at a moment, and its events with their sentences."""
+"""Sensor readings of a run at one moment, and the events that have captions."""
 
 from dataclasses import dataclass
 from typing import Final, NamedTuple
@@ -39,7 +39,7 @@ SENSED: Final = (
 
 
 class CaptionedEvent(NamedTuple):
-    """An event worth a caption."""
+    """An event that has a caption."""
 
     time: float  # s since the run began
     event: AnyEvent
@@ -52,7 +52,7 @@ def told(run: RecordedRun) -> tuple[CaptionedEvent, ...]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Senses:
-    """Sensor readings of hand and fingers in a servo period."""
+    """Sensor readings of the hand in one servo period."""
 
     gap: float  # Opening of the fingers, m
     fingers: tuple[bool, bool]
@@ -60,7 +60,9 @@ class Senses:
 
 
 def senses_at(run: RecordedRun, seconds: float) -> Senses | None:
-    """Sensor readings at a time (s) since the run began, None if not recorded; raises InvalidInput if damaged."""
+    """Sensor readings at a time (s) since the run began; None if not recorded. Raises InvalidInput if the trace is
+    damaged.
+    """
     until = nanoseconds(seconds)
     told = [message for message in run.trace.messages if message.topic == HAND and message.time <= until]
     if not told:

@@ -1,4 +1,4 @@
-"""The whole page, with or without a plan: one file that fetches nothing, and runs no script but its own."""
+"""The whole page, with or without a plan: one file that loads no other files and runs only its own scripts."""
 
 from base64 import b64encode
 from collections.abc import Iterator, Sequence
@@ -34,11 +34,11 @@ REPORT: Final = Kind("report of handeye", MARK.encode(), ending=".html")
 
 
 def report_page(run: RecordedRun, photographs: Album, animated: Animation | None) -> bytes:
-    """The report of a run; the same for the same trace and result on one machine; raises InvalidInput if its trace
-    cannot be understood.
+    """The report of a run; equal traces and results give equal pages on one computer. Raises InvalidInput if the
+    trace is invalid.
 
     Args:
-        animated: the 3D view; None: photographs only.
+        animated: the 3D animation; None: photographs only.
     """
     came, heard = outcome(run), told(run)
     sections = tuple(_sections(run, photographs, failed=came.failed))
@@ -75,10 +75,10 @@ def _sections(run: RecordedRun, photographs: Album, *, failed: bool) -> Iterator
 
 
 def head(name: str, style: str, scripts: Sequence[str], *also: str) -> Markup:
-    """The head, with a policy that lets in the page's own style and scripts and nothing else.
+    """The head of a page, with a content security policy that permits only the page's own style and scripts.
 
     Args:
-        also: further directives of the policy.
+        also: further directives for the policy.
     """
     own = f"script-src {' '.join(map(_digest, scripts))}", f"style-src {_digest(style)}"
     policy = "; ".join(("default-src 'none'", *own, "img-src data: blob:", *also))
@@ -93,22 +93,22 @@ def head(name: str, style: str, scripts: Sequence[str], *also: str) -> Markup:
 
 
 def packed(name: str, data: bytes) -> Markup:
-    """Data that a script of the page unpacks."""
+    """Compressed data in the page, which one of its scripts decompresses."""
     return element("script", Markup(b64encode(data).decode()), id=name, type="application/octet-stream")
 
 
 def _digest(content: str) -> str:
-    """The source expression that lets in an element of this content."""
+    """The expression with which the policy permits an element of this content."""
     return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode()}'"
 
 
 def resource(name: str) -> str:
-    """A file that goes into the page as it is."""
+    """The content of a file that is included in the page unchanged."""
     return Path(__file__).with_name(name).read_text(encoding="utf-8")
 
 
 def account_page(run: RecordedRun) -> bytes:
-    """The report of a run of any system; the same for the same trace and result."""
+    """The report of a run of any system; equal traces and results give equal pages."""
     came = outcome(run)
     said = title(run, came)
     top = element("header", element("h1", said), class_="failed" if came.failed else None)

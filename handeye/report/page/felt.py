@@ -1,4 +1,4 @@
-"""Plots against time: forces at the hand in guarded motions, and the machines' own channels."""
+"""Plots over time: forces at the hand in guarded motions, and the machines' own channels."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from enum import StrEnum
@@ -20,7 +20,7 @@ _TOP, _BOTTOM = 14.0, HIGH - 16.0
 
 
 class How(StrEnum):
-    """Sentences on how a trace records forces."""
+    """Sentences that explain how a trace records forces."""
 
     RECORDED = ""
     THINNED = (
@@ -30,11 +30,11 @@ class How(StrEnum):
 
 
 def felt_section(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: bool = False) -> Markup:
-    """The section, a fold for each stage.
+    """The section on forces, with a collapsible part for each stage.
 
     Args:
-        lost: guards that tripped before the trace begins.
-        failed: the run failed, so that its last stage is shown unfolded.
+        lost: number of guards that tripped before the trace begins.
+        failed: True if the run failed; its last stage is then open.
     """
     return section("felt", "What the hand felt", *_content(motions, how=how, lost=lost, failed=failed))
 
@@ -60,7 +60,7 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
 
 
 def _stage(stage: str, motions: Sequence[GuardedMotion], *, shown: bool) -> Markup:
-    """The figures of a stage, folded unless they are to be shown at once."""
+    """The plots of a stage, closed unless `shown`."""
     met = sum(motion.trip is not None for motion in motions)
     said = f"{counted(len(motions), 'guarded motion')}, {met} stopped by a guard"
     summary = element("summary", element("h3", stage), " ", element("span", said))
@@ -69,7 +69,7 @@ def _stage(stage: str, motions: Sequence[GuardedMotion], *, shown: bool) -> Mark
 
 
 def _figure(motion: GuardedMotion) -> Markup:
-    """The figure of a motion, which leads to its moment."""
+    """The plot of a guarded motion, with a link to the motion in the 3D view."""
     moment = motion.times[-1] if motion.trip is None else motion.trip.time
     when, place = exact_clock(float(moment)), motion.step.place
     statement, said = one_line(motion.step.text), _said(motion)
@@ -85,7 +85,7 @@ def _figure(motion: GuardedMotion) -> Markup:
 
 
 def _said(motion: GuardedMotion) -> str:
-    """The outcome of the guard."""
+    """The outcome of the guard, in words."""
     limit = felt(motion.guard, motion.limit)
     if motion.trip is not None:
         return f"{_short(motion.guard, motion.trip.value)}; guard {limit}"
@@ -125,7 +125,7 @@ def _short(kind: GuardKind, limit: float) -> str:
 
 
 def channels_section(trace: Trace) -> Markup:
-    """The section; nothing where no machine has a channel."""
+    """The section on machine channels; empty if no machine has channels."""
     if not trace.channels:
         return Markup("")
     figures = map(_channel_figure, trace.channels)

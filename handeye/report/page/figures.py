@@ -1,28 +1,28 @@
-"""Numbers as the page writes them."""
+"""Formats numbers for the page."""
 
 from handeye.core.units import MILLIMETRE, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.guards import GuardKind
 
 
 def clock(seconds: float) -> str:
-    """A moment of the run, in minutes and whole seconds: `7:08`."""
+    """A time of the run, in minutes and whole seconds: `7:08`."""
     whole = max(0, int(seconds + 1e-6))
     return f"{whole // 60}:{whole % 60:02d}"
 
 
 def duration(seconds: float) -> str:
-    """A duration in words, to the second."""
+    """A duration in minutes and whole seconds."""
     return clock(round(seconds))
 
 
 def exact_clock(seconds: float) -> str:
-    """A moment to a tenth of a second: `7:08.6`."""
+    """A time of the run to a tenth of a second: `7:08.6`."""
     tenths = max(0, int(10 * seconds + 1e-6))
     return f"{tenths // 600}:{tenths // 10 % 60:02d}.{tenths % 10}"
 
 
 def millimetres(length: float) -> str:
-    """A length (m) with as many places as it deserves."""
+    """A length (m) in millimetres, with one or two decimals."""
     size = length / MILLIMETRE
     places = 2 if abs(size) < 10 else 1
     return f"{size:z.{places}f}"

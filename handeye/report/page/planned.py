@@ -1,4 +1,4 @@
-"""Planned and found: how far motions ended from where they were planned to, and what had moved their goals."""
+"""The section "Planned and found": how far motions ended from their planned ends, and why goals were shifted."""
 
 from collections.abc import Iterator, Sequence
 from math import log10
@@ -50,7 +50,7 @@ def planned_section(
     searches: Sequence[Search],
     stages: Sequence[Stage],
 ) -> Markup:
-    """The section."""
+    """The section with ends of motions, shifted goals and searches."""
     return section(
         "planned",
         "Planned and found",
@@ -90,7 +90,7 @@ def _chart(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Markup:
 
 
 class _Decades:
-    """The logarithmic scale of distances, mm."""
+    """A logarithmic scale of distances, mm."""
 
     def __init__(self, least: float, most: float) -> None:
         self._scale = Scale(log10(least), log10(most), _HIGH - _FOOT, 12.0)
@@ -106,7 +106,7 @@ def _grid(decades: Sequence[float], y: _Decades) -> Iterator[Markup]:
 
 
 def _bands(stages: Sequence[Stage], x: Scale) -> Iterator[Markup]:
-    """Marks at the starts of stages, with their numbers."""
+    """Marks with numbers at the beginnings of stages."""
     for number, stage in enumerate(stages, 1):
         at = x(stage.begin)
         yield rule(at, 12, at, _HIGH - _FOOT + 6, class_="grid")
@@ -154,7 +154,7 @@ _SPIRAL: Final = 220.0
 
 
 def searched(searches: Sequence[Search]) -> Iterator[Markup]:
-    """The searches of a run, each as the way through its places."""
+    """Drawings of the searches of a run, each as a path through its places."""
     yield element("h3", "Searches")
     if not searches:
         yield note("No search needed a second place.")

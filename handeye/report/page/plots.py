@@ -1,4 +1,4 @@
-"""Drawings of figures, as vectors."""
+"""Draws plots as SVG."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -30,12 +30,12 @@ class Scale:
 def drawing(
     *children: Content, wide: float = WIDE, high: float = HIGH, label: str, role: str = "img"
 ) -> Markup:
-    """A drawing whose label stands in for it in a screen reader; as a `group`, what is in it can be reached."""
+    """A drawing with a label for screen readers; with the role `group`, its elements can be reached."""
     return element("svg", *children, viewBox=f"0 0 {wide:g} {high:g}", role=role, aria_label=label)
 
 
 def curve(xs: Array, ys: Array, **attributes: str) -> Markup:
-    """A line through points, less those that make no visible difference."""
+    """A line through points, without those that make no visible difference."""
     kept = kept_points(np.column_stack([xs, ys]), TOLERANCE)
     way = "M" + "L".join(f"{x:.1f},{y:.1f}" for x, y in kept.tolist())
     return element("path", d=way, **attributes)
@@ -52,17 +52,17 @@ def dot(x: float, y: float, radius: float, *, class_: str | None = None) -> Mark
 
 
 def words(x: float, y: float, content: str, *, anchor: str = "start", class_: str | None = None) -> Markup:
-    """A word or two in a drawing."""
+    """A short text in a drawing."""
     return element("text", content, x=_at(x), y=_at(y), text_anchor=anchor, class_=class_)
 
 
 def bar(x: float, y: float, wide: float, high: float, *, class_: str) -> Markup:
-    """A bar; one that stands for something is to be seen."""
+    """A bar, wide enough to be visible."""
     return element("rect", x=_at(x), y=_at(y), width=_at(max(wide, 0.5)), height=_at(high), class_=class_)
 
 
 def kept_points(points: Array, tolerance: float) -> Array:
-    """Points without those nearer than a tolerance to the line through the rest, shape (n, 2)."""
+    """The points that are needed to draw a line within a tolerance, shape (n, 2)."""
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:
         begins = points[first]

@@ -1,4 +1,4 @@
-"""The conditions of the run: its world, its plan, its versions, and the command that carries it out again."""
+"""The section with the conditions of the run: world, plan, versions, and the command that repeats the run."""
 
 from collections.abc import Iterator
 
@@ -28,7 +28,7 @@ from handeye.trace.sentences import renderer_name
 
 
 def record_section(run: RecordedRun) -> Markup:
-    """The section."""
+    """The section with the conditions of the run."""
     return section(
         "record", "World, versions, and how to repeat the run", *_again(run), facts(run), *_world(run)
     )
@@ -47,7 +47,7 @@ def _again(run: RecordedRun) -> Iterator[Markup]:
 
 
 def facts(run: RecordedRun) -> Markup:
-    """The conditions of the run, a line each."""
+    """The conditions of the run, one per line."""
     head = run.trace.head
     rows: list[tuple[str, Content]] = [*_overrides(run)]
     rows += [
@@ -101,7 +101,9 @@ def _world(run: RecordedRun) -> Iterator[Markup]:
 
 
 def _quantities(run: RecordedRun) -> tuple[QuantityReport, ...]:
-    """The quantities of its world, those that were set first; raises InvalidInput if they were drawn in another way."""
+    """The quantities of the run's world, with set quantities first; raises InvalidInput if another version
+    generated them differently.
+    """
     task, world = known(run.trace.head.task), run.trace.head.world
     if task is None:
         return ()

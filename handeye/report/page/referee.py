@@ -1,4 +1,4 @@
-"""The referee's measurements against their limits."""
+"""The section with the referee's measurements and their limits."""
 
 from collections.abc import Iterable, Iterator
 from typing import Final
@@ -15,7 +15,7 @@ _HIGH: Final = 5.0
 
 
 def referee_section(run: RecordedRun) -> Markup:
-    """The section."""
+    """The section with the referee's measurements."""
     return section("referee", "What the referee measured", *_content(run))
 
 
@@ -37,7 +37,7 @@ def _content(run: RecordedRun) -> Iterator[Markup]:
 
 
 def findings_table(checks: Iterable[Check]) -> Markup:
-    """A line for each finding, with a bar that shows how much of its limit a value uses."""
+    """A table of findings, each with a bar that shows what fraction of the limit the value uses."""
     head = [
         *heads("", "finding"),
         *figure_heads("value", "limit"),
@@ -71,7 +71,7 @@ def _mark(check: Check) -> tuple[Markup]:
 
 
 def used(check: Check) -> float | None:
-    """Share of its limit that a value uses; None for a count, or a limit that leaves no room."""
+    """Fraction of its limit that a value uses; None for a count, or if the limit is zero."""
     if check.unit not in UNITS or check.limit == 0:
         return None
     if check.relation == "at least" and check.limit > 0:

@@ -1,4 +1,4 @@
-"""The camera's pictures, with the findings drawn over them."""
+"""The section with the camera's pictures and the findings in them."""
 
 import struct
 import zlib
@@ -20,7 +20,7 @@ from handeye.vision.marks import Colour, Disc, Line, Loop, Mark
 
 
 def seen_section(pictures: Sequence[SeenPicture], *, lost: int) -> Markup:
-    """The section; `lost`: pictures that were taken, and are not in the trace."""
+    """The section with the camera's pictures; `lost` is the number of pictures that are not in the trace."""
     return section("seen", "What the camera saw", *_content(pictures, lost))
 
 
@@ -47,7 +47,7 @@ def _figure(seen: SeenPicture) -> Markup:
 
 
 def figure(seen: SeenPicture, name: str) -> Markup:
-    """A picture under its name, with what was found in it drawn over it and told beneath."""
+    """A picture with its name, the findings drawn over it, and the findings in words below."""
     png = data_address("image/png", picture_png(seen.picture))
     rows, columns = seen.picture.shape
     told = [_told(finding) for finding in seen.findings]
@@ -70,14 +70,14 @@ def figure(seen: SeenPicture, name: str) -> Markup:
 
 
 def _told(finding: Finding) -> str:
-    """The finding, or why there is none."""
+    """The finding as a sentence, or the reason why there is none."""
     if isinstance(finding, ErrorRaised):
         return f"error {finding.number}: {error_sentence(finding.number, finding.cause)}"
     return sentence(finding)
 
 
 def _mark(mark: Mark) -> Markup:
-    """A mark; picture points count from the middle of the first, drawings from its corner."""
+    """A mark as SVG; picture points count from the centre of the first point, drawings from its corner."""
     match mark:
         case Loop():
             points = " ".join(f"{u + 0.5:.2f},{v + 0.5:.2f}" for u, v in mark.points)
@@ -106,7 +106,7 @@ _BITS: Final = 4
 
 
 def picture_png(picture: Picture) -> bytes:
-    """A picture as a PNG file: grey, four bits a point, each level as it was."""
+    """A picture as a PNG file: grey, four bits per point, with unchanged levels."""
     height, width = picture.shape
     head = struct.pack(">IIBBBBB", width, height, _BITS, _GREY, 0, 0, 0)
     return (
@@ -118,7 +118,7 @@ def picture_png(picture: Picture) -> bytes:
 
 
 def _lines(picture: Picture) -> bytes:
-    """The lines of a picture, two points a byte, each line behind the number of its filter: none."""
+    """The lines of a picture, two points per byte, each line preceded by the number of its filter (none)."""
     even = np.pad(picture, ((0, 0), (0, picture.shape[1] % 2)))
     packed = (even[:, ::2] << 4 | even[:, 1::2]).astype(np.uint8)
     return np.pad(packed, ((0, 0), (1, 0))).tobytes()

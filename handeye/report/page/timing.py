@@ -1,4 +1,4 @@
-"""The times of the run, stage by stage, beside those of 1973."""
+"""The section with the times of the run by stage, beside those of 1973."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -29,7 +29,7 @@ _HIGH: Final = 7.0
 
 
 def timing_section(run: RecordedRun) -> Markup:
-    """The section."""
+    """The section with the times."""
     figures = statistics(run.trace.events, {})
     then = run.period
     return section(
@@ -69,7 +69,7 @@ def _row(
 
 
 def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
-    """Remarks on what the table leaves out."""
+    """Remarks on times that the table does not contain."""
     yield "Minutes and seconds of simulated time."
     friction = sum(event.seconds for event in run.trace.events if isinstance(event, FrictionMeasured))
     calibration = run.trace.head.prepared - friction

@@ -1,4 +1,4 @@
-"""The head of the page: the outcome of the run, and, if it failed, why, at which line, and the readings there."""
+"""The head of the page: the outcome of the run and, if it failed, the reason, the line, and the sensor readings."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -92,7 +92,7 @@ def _said(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) ->
 
 
 def _unseen(run: RecordedRun) -> Iterator[Markup]:
-    """The gaps of the page."""
+    """Notes on parts of the run that the page cannot show."""
     if run.begins > 0:
         yield note(
             f"This run was resumed from a checkpoint, and its trace begins at {clock(run.begins)}. Earlier events come "
@@ -103,7 +103,7 @@ def _unseen(run: RecordedRun) -> Iterator[Markup]:
 
 
 def _course(run: RecordedRun) -> Iterator[str]:
-    """Progress and duration of the run."""
+    """Sentences on progress and duration of the run."""
     steps = counted(sum(isinstance(event, StepStarted) for event in run.trace.events), "step")
     stages = counted(len(run.trace.stages), "stage")
     yield f"{steps} in {stages}, {duration(run.ends)} min of simulated time."
@@ -127,14 +127,14 @@ def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
 
 
 def _broken(run: RecordedRun) -> Iterator[Markup]:
-    """The faults of the run's world."""
+    """The injected faults of the run."""
     for name, meaning in told_faults(run):
         told = element("code", name)
         yield element("p", "Injected fault, unknown to the program: ", told, f". {meaning}", class_="broken")
 
 
 def in_figures(run: RecordedRun) -> Iterator[Markup]:
-    """The figures as a list, without those that are zero."""
+    """The statistics of a run as a list, without zeros."""
     told = [(count, what) for count, what in _figures(run) if count]
     rows = (element("div", element("dd", str(count)), element("dt", what)) for count, what in told)
     if told:
@@ -153,12 +153,12 @@ def _figures(run: RecordedRun) -> Iterator[tuple[int, str]]:
 
 
 _UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, CameraStarted, PictureTaken)
-"""Events that are no word of the senses, or the reason itself."""
+"""Events that are no sensor readings, or that are the reason of the outcome itself."""
 _SAID: Final = 4
 
 
 def why(outcome: Outcome) -> Iterator[Markup]:
-    """Why the run failed."""
+    """Sentences on why the run failed."""
     yield from (element("p", reason, class_="reason") for reason in _reasons(outcome))
 
 
@@ -173,7 +173,7 @@ def _reasons(outcome: Outcome) -> Iterator[str]:
 
 
 def _called(call: OperatorCalled) -> str:
-    """Why the program called the operator, as a sentence."""
+    """The reason why the program called the operator, as a sentence."""
     reason = call_sentence(call.message, call.error, call.cause)
     if call.message or not reason:
         return f"The program called the operator{f': “{reason}”' if reason else ''}."
@@ -191,7 +191,7 @@ def _capital(words: str) -> str:
 
 
 def where(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
-    """The progress of the run, its current line, and the last sensor readings."""
+    """Progress of the run, the current line, and the last sensor readings."""
     line = "" if outcome.step is None else f"Line {outcome.step.place}, "
     done = {stage.name for stage in run.trace.stages if stage.status == "done"}
     at = to_moment(outcome.time, exact_clock(outcome.time))
@@ -217,7 +217,7 @@ def _senses(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) 
 
 
 def _tells(each: CaptionedEvent, run: RecordedRun, outcome: Outcome) -> bool:
-    """An event tells what led to the outcome: it is of the same stage, and not the reason itself once more."""
+    """True if an event may explain the outcome: it is from the same stage, and is not the reason itself."""
     begun = max((stage.begin for stage in run.trace.stages), default=0.0)
     call = outcome.call
     reason = isinstance(each.event, ErrorRaised) and call is not None and each.event.number == call.error

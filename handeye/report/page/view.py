@@ -1,4 +1,4 @@
-"""The 3D view of the run: stages, controls, and the script next to it."""
+"""The section with the 3D view of the run: stages, controls, and the script beside the view."""
 
 from collections.abc import Iterator, Sequence
 from typing import Final
@@ -22,7 +22,7 @@ _KEYS: Final = (
 
 
 def view_section(run: RecordedRun, strip: Sequence[Photograph]) -> Markup:
-    """The section."""
+    """The section with the 3D view."""
     pairs = joined((joined([element("kbd", key), f" {does}"]) for key, does in _KEYS), ", ")
     canvas = element(
         "canvas", id="view", hidden=True, tabindex="0", role="img",
@@ -54,7 +54,7 @@ def _photographs(strip: Sequence[Photograph]) -> Iterator[Markup]:
 
 
 def _bar(run: RecordedRun) -> Markup:
-    """The stages as links, as wide as they are long."""
+    """The stages as links, with widths in proportion to their durations."""
     links = (_stage(run, number, stage) for number, stage in enumerate(run.trace.stages, 1))
     return element(
         "nav",
@@ -80,7 +80,7 @@ def _stage(run: RecordedRun, number: int, stage: Stage) -> Markup:
 
 
 def widths(run: RecordedRun) -> str:
-    """Rules of style that make the stages as wide as they are long."""
+    """CSS rules that make the width of each stage proportional to its duration."""
     return "".join(
         f"#stages .s{number}{{flex-grow:{100 * max(stage.end - stage.begin, 0.1):.0f}}}"
         for number, stage in enumerate(run.trace.stages, 1)

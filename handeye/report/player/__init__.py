@@ -1,32 +1,32 @@
-"""The player: a run in three dimensions on a page, drawn by WebGL2 without any library.
+"""The player shows a run in 3D on a page, with WebGL 2 and without any library.
 
-A page contains the scene, the tracks of its bodies, and the script. The same
-trace gives the same bytes. The page decompresses scene and tracks (`DecompressionStream("gzip")`) and passes them to
-the script:
+A page contains the scene, the tracks of its bodies, and the script. Equal traces give equal bytes. The page
+decompresses scene and tracks (`DecompressionStream("gzip")`) and passes them to the script:
 
 ```js
 const player = await createPlayer(canvas, scene, tracks, options);
 ```
 
 Without WebGL 2 the promise is rejected with an `Error` whose message is a sentence. Times are seconds since the run
-began. Options: `still` (views change at once; the default follows the browser's setting for reduced motion),
+began. Options: `still` (the view changes at once; the default follows the browser's setting for reduced motion),
 `exposures` (pictures that are averaged when nothing moves).
 
 | member | |
 |---|---|
 | `begin`, `end`, `duration` | the range of the tracks, s |
-| `at(seconds)`, `time` | show a moment; the shown moment. The page keeps the time |
-| `views`, `view(name)` | names of the views, `room` first; look from there |
-| `names`, `pose(body, seconds)` | bodies as in `Trace.poses`; place (m) and quaternion w, x, y, z, or null: hidden |
+| `at(seconds)`, `time` | show a time of the run; the time shown. The page advances the time |
+| `views`, `view(name)` | names of the views, `room` first; change to a view |
+| `names`, `pose(body, seconds)` | bodies as in `Trace.poses`; position (m) and quaternion w, x, y, z, or null: hidden |
 | `pick(x, y)` | the displayed name of the body at a point of the canvas (CSS pixels), or null |
 | `onpick` | null or a function `(name, x, y)`, called at a click |
 | `settled()` | a promise: the averaged picture is shown |
 | `frames` | pictures drawn so far |
 | `destroy()` | release canvas and graphics memory |
 
-Gestures: one finger or the left button turns the view, two fingers or the right button shift it, a pinch zooms. While
-the canvas has the focus, the wheel, plus and minus zoom, arrows turn, shift and arrows shift. The page sets the size of
-the canvas, and its style `touch-action` the share of touches: `none` gives all to the canvas, `pan-y` leaves scrolling.
+Gestures: one finger or the left button turns the view, two fingers or the right button move it, a pinch zooms. While
+the canvas has the focus, the wheel, plus and minus zoom, arrows turn, and Shift with arrows moves the view. The page
+sets the size of the canvas. The style `touch-action` of the canvas determines which touches it gets: `none` gives it
+all touches, `pan-y` all except vertical scrolling.
 """
 
 from pathlib import Path
@@ -44,7 +44,7 @@ __all__ = ["scene_bytes", "script", "shown_poses", "tracks_bytes"]
 MODULES: Final = (
     "geometry", "packed", "tracks", "shaders", "graphics", "bodies", "shadows", "camera", "picture", "hands", "player",
 )  # fmt: skip
-"""The script's modules, each after those that it imports from."""
+"""Modules of the script, each after the modules from which it imports."""
 SOURCES: Final = Path(__file__).with_name("script")
 
 
@@ -54,7 +54,7 @@ def scene_bytes(trace: Trace) -> bytes:
 
 
 def tracks_bytes(trace: Trace) -> bytes:
-    """The tracks of all visible bodies in a run, and its clock, compressed."""
+    """The tracks of all visible bodies in a run, and the run's clock, compressed."""
     begin, end = trace.covers
     return tracks.tracks_bytes(
         shown_poses(trace),
@@ -66,7 +66,9 @@ def tracks_bytes(trace: Trace) -> bytes:
 
 
 def shown_poses(trace: Trace) -> dict[str, Poses]:
-    """Poses of the bodies that are seen in all servo periods, as the trace has them; of what no run moves, as drawn."""
+    """Poses of the visible bodies in all servo periods: those in the trace, and for bodies that no run moves, those
+    of the scene.
+    """
     model, poses = trace.scene, trace.poses
     shown = [model.body(body).name for body in range(1, model.nbody) if scene.seen(model, body)]
     drawn = drawn_poses(model, [name for name in shown if name not in poses], trace.times)
@@ -74,12 +76,14 @@ def shown_poses(trace: Trace) -> dict[str, Poses]:
 
 
 def script() -> str:
-    """The script, `const createPlayer = ...;`: its modules as one, so that a page can carry it and name its hash."""
+    """The script, `const createPlayer = ...;`, with all modules in one, so that a page can contain it and state its
+    hash.
+    """
     parts = [_plain((SOURCES / f"{name}.js").read_text("utf-8")) for name in MODULES]
     return f'const createPlayer = (() => {{\n"use strict";\n{"".join(parts)}return createPlayer;\n}})();\n'
 
 
 def _plain(module: str) -> str:
-    """A module as a page carries it, without comments: all modules share one scope there."""
+    """A module without comments and import statements, because all modules share one scope in the page."""
     lines = (line.strip().removeprefix("export ") for line in module.splitlines())
     return "".join(f"{line}\n" for line in lines if line and not line.startswith(("import ", "//")))

@@ -1,4 +1,4 @@
-"""The surfaces of bodies as arrays of corners, equal ones once."""
+"""Surfaces of bodies as arrays of corners; equal surfaces are stored once."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -25,17 +25,18 @@ class Piece:
 
     @property
     def size(self) -> float:
-        """Its longest side, m."""
+        """Length of the longest side of the surface's bounding box, m."""
         return float(np.ptp(self.surface.points, axis=0).max())
 
 
 @dataclass(slots=True)
 class Meshes:
-    """Meshes, each the pieces of a body: a fine one, behind it a coarse one if that saves much."""
+    """Meshes, one per body and made of its pieces: a fine mesh, and a coarse one if that saves much."""
 
     told: list[dict[str, Any]] = field(default_factory=list)
-    """Data for the page on each: `fine` and `coarse`, the first corner and the number of corners of triangles;
-    `scale` of its points; `ball` around it; `parts`, names and ranges of pieces."""
+    """Data for the page on each mesh: `fine` and `coarse`, first corner and number of corners of the triangles;
+    `scale` of the points; `ball`, the bounding sphere; `parts`, names and ranges of the pieces.
+    """
     _points: list[NDArray[np.uint16]] = field(default_factory=list)
     _normals: list[NDArray[np.int8]] = field(default_factory=list)
     _materials: list[NDArray[np.uint8]] = field(default_factory=list)
@@ -43,11 +44,11 @@ class Meshes:
     _known: dict[tuple[bytes, ...], int] = field(default_factory=dict)
 
     def number(self, pieces: Sequence[Piece]) -> int:
-        """Number of the mesh of a body, which is added if it is new."""
+        """Number of the mesh of a body; the mesh is added if it is new."""
         return self._added(pieces, _coarse(pieces))
 
     def number_of_parts(self, pieces: Sequence[Piece]) -> int:
-        """The same for a body whose pieces people can point at by name; those of a name follow each other."""
+        """Like `number`, for a body whose pieces have names to point at; pieces of one name are stored together."""
         number = self._added(pieces, ())
         first, _ = self.told[number]["fine"]
         self.told[number]["parts"] = parts = []
@@ -58,7 +59,7 @@ class Meshes:
         return number
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """Corners and triangles of all of them."""
+        """Corners and triangles of all meshes."""
         return {
             "points": columns(np.concatenate(self._points)),
             "normals": np.ascontiguousarray(np.concatenate(self._normals).T),
@@ -97,7 +98,7 @@ class Meshes:
 
 
 def _coarse(pieces: Sequence[Piece]) -> Sequence[Piece]:
-    """Coarser pieces; none where they would save less than half."""
+    """Coarser pieces; none if they would save less than half of the corners."""
     cell = float(np.ptp(_points(pieces), axis=0).max()) / CELLS
     if _corners(pieces) < 3 * FINE:
         return ()
@@ -109,7 +110,7 @@ def _coarse(pieces: Sequence[Piece]) -> Sequence[Piece]:
 
 
 def _corners(pieces: Sequence[Piece]) -> int:
-    """Corners of triangles."""
+    """Number of corners of all triangles."""
     return sum(piece.surface.triangles.size for piece in pieces)
 
 
@@ -121,7 +122,7 @@ CELLS: Final = 14  # Along the longest side of a body: what lies in one cell bec
 
 
 def coarsened(surface: Surface, cell: float) -> Surface:
-    """A surface whose points within a cell (m) of a grid are one, and what is left of its triangles."""
+    """A surface in which all points within a cell (m) of a grid are merged, with the triangles that remain."""
     places = np.floor((surface.points - surface.points.min(axis=0)) / cell + 0.5)
     _, number = np.unique(places, axis=0, return_inverse=True)
     number = number.reshape(-1)

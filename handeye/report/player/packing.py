@@ -1,6 +1,6 @@
-"""Arrays as the few bytes that a page carries: a header in JSON, then the arrays one after the other, compressed.
+"""Packs arrays into few bytes for a page: a header in JSON, then the arrays one after another, compressed.
 
-Bytes repeat, and so compress, where neighbours are alike: arrays go column by column, as differences.
+Arrays are stored by column and as differences, because repeated bytes compress well.
 """
 
 import gzip
@@ -12,13 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 _ALIGNED: Final = 4
-"""Bytes that the beginning of an array is a multiple of: what a script may look at where it lies."""
+"""Alignment of arrays, bytes: a script can then read an array in place."""
 
 
 def packed(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> bytes:
-    """A header and arrays, compressed. The header tells for each array its kind, first byte and number of values.
+    """Compress a header and arrays. The header has the type, first byte and number of values of each array.
 
-    First byte: counted from the end of the header, which is as long as the first four bytes say.
+    The first byte counts from the end of the header; the first four bytes of the data give the length of the
+    header.
     """
     places, body = {}, b""
     for name, array in arrays.items():
@@ -34,27 +35,33 @@ def _padded(data: bytes, filling: bytes = b"\0") -> bytes:
 
 
 def columns(values: NDArray[Any]) -> NDArray[np.uint16]:
-    """Differences down each column of whole numbers, shape (n, k), one column after the other; they wrap."""
+    """Differences along each column of whole numbers, shape (n, k), column after column; differences wrap at 16
+    bits.
+    """
     rows = values.astype(np.int64)
     steps = np.diff(rows, axis=0, prepend=np.zeros_like(rows[:1]))
     return steps.T.astype(np.uint16, order="C")
 
 
 def zigzag(values: NDArray[Any]) -> NDArray[np.uint32]:
-    """Differences of whole numbers, shape (n,), those below zero as odd numbers: 0, -1, 1, -2 are 0, 1, 2, 3."""
+    """Differences of whole numbers, shape (n,), with negative ones as odd numbers: 0, -1, 1, -2 become 0, 1, 2, 3."""
     steps = np.diff(values.astype(np.int64), prepend=0)
     return np.where(steps < 0, -2 * steps - 1, 2 * steps).astype(np.uint32)
 
 
 def quantised(values: NDArray[Any]) -> tuple[NDArray[np.uint16], list[float]]:
-    """Points, shape (n, 3), as whole numbers of 16 bits; and what they were, `least` (3 numbers) + number * `step`."""
+    """Points, shape (n, 3), as 16-bit whole numbers, and `least` (3 numbers) and `step`: the points are `least` +
+    number * `step`.
+    """
     least = values.min(axis=0)
     step = max(float(np.ptp(values, axis=0).max()), 1e-6) / 0xFFFF
     return np.rint((values - least) / step).astype(np.uint16), [*rounded(least), step]
 
 
 def octahedral(normals: NDArray[Any]) -> NDArray[np.int8]:
-    """Unit vectors, shape (n, 3), as two numbers of 8 bits: an octahedron unfolded to a square; shape (n, 2)."""
+    """Unit vectors, shape (n, 3), as two 8-bit numbers each, shape (n, 2): positions on an octahedron unfolded to a
+    square.
+    """
     flat = normals / np.abs(normals).sum(axis=1, keepdims=True)
     sign = np.where(flat[:, :2] >= 0, 1.0, -1.0)
     folded = (1 - np.abs(flat[:, 1::-1])) * sign
@@ -62,5 +69,5 @@ def octahedral(normals: NDArray[Any]) -> NDArray[np.int8]:
 
 
 def rounded(values: NDArray[Any]) -> list[float]:
-    """Figures to a tenth of a thousandth of a millimetre: short in JSON."""
+    """Figures rounded to seven decimals, to keep JSON short."""
     return [round(float(value), 7) for value in values]

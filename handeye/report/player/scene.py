@@ -1,4 +1,4 @@
-"""Data for drawing a scene on a page: surfaces, materials, names, views, lamp."""
+"""Data for drawing a scene on a page: surfaces, materials, names, views and lamp."""
 
 import re
 from collections.abc import Sequence
@@ -24,13 +24,14 @@ _RGB: Final = 1  # Where a material has its texture: MuJoCo's `mjTEXROLE_RGB`
 _SLENDER: Final = 3.0  # Ratio of length to width above which the grain goes along a piece
 
 Row = tuple[float, ...]
-"""Red, green, blue as light, 0 to 1; light of its own; how metallic; roughness; number of its grain or -1; axis of the
-body (0 to 2) along which the grain goes; how often it repeats in a metre along that and across."""
+"""A material: red, green, blue as light, 0 to 1; emitted light; metalness; roughness; number of its grain, or -1;
+axis of the body (0 to 2) along which the grain runs; repeats of the grain per metre along and across the axis.
+"""
 
 
 @dataclass(slots=True)
 class Palette:
-    """Materials that the shapes of a scene have, each once."""
+    """Materials of the shapes of a scene, each stored once."""
 
     model: Any
     rows: list[Row] = field(default_factory=list)
@@ -38,7 +39,7 @@ class Palette:
     _grains: list[int] = field(default_factory=list)
 
     def number(self, shape: int, sides: Array) -> int:
-        """Number of the row of a shape that is so long along the axes of its body (m)."""
+        """Number of the material of a shape; `sides` are the lengths of the shape along the axes of its body (m)."""
         row = (*self._colour(shape), *self._gloss(shape), *self._grain(shape, sides))
         if row not in self._numbers:
             assert len(self.rows) < _MOST, "a number of a material has seven bits"
@@ -48,11 +49,11 @@ class Palette:
 
     @property
     def grains(self) -> int:
-        """Their number."""
+        """Number of grains."""
         return len(self._grains)
 
     def picture(self) -> bytes:
-        """The grains as one grey WebP picture, one below the other; nothing if there is none."""
+        """The grains as one grey WebP picture, one below another; empty if there are none."""
         if not self._grains:
             return b""
         grey = np.vstack([cv2.cvtColor(_texture(self.model, n), cv2.COLOR_RGB2GRAY) for n in self._grains])
@@ -63,7 +64,7 @@ class Palette:
         return data.tobytes()
 
     def _colour(self, shape: int) -> Row:
-        """Colour and light of its own; the tint of a grain goes into the colour."""
+        """Colour and emitted light of a shape; the tint of a grain is included in the colour."""
         material, texture = self.model.geom_matid[shape], self._texture_of(shape)
         screen = self.model.mat_rgba[material] if material >= 0 else self.model.geom_rgba[shape]
         colour = np.asarray(screen[:3], dtype=float)
@@ -92,7 +93,7 @@ class Palette:
         )
 
     def _grain(self, shape: int, sides: Array) -> Row:
-        """Number, axis, and repeats along it and across."""
+        """Number of the grain, its axis, and its repeats per metre along and across the axis."""
         texture = self._texture_of(shape)
         if texture < 0:
             return -1.0, 0.0, 0.0, 0.0
@@ -113,7 +114,7 @@ class Palette:
 
 
 def _texture(model: Any, number: int) -> NDArray[np.uint8]:
-    """Red, green, blue, shape (GRAIN, GRAIN, 3)."""
+    """Red, green and blue of a texture, shape (GRAIN, GRAIN, 3)."""
     first, height, width = model.tex_adr[number], model.tex_height[number], model.tex_width[number]
     pixels = model.tex_data[first : first + 3 * height * width].reshape(height, width, 3)
     return np.asarray(cv2.resize(pixels, (GRAIN, GRAIN), interpolation=cv2.INTER_AREA), dtype=np.uint8)
@@ -130,7 +131,7 @@ class Names:
     model: Any
 
     def body(self, number: int) -> str:
-        """Display name of a body: the scene's own, or its name in words: `pin 0`."""
+        """Display name of a body: the name given by the scene, or the body's name in words, such as `pin 0`."""
         name = self.model.body(number).name
         stem = name.rstrip("0123456789")
         if name in self._called:
@@ -138,7 +139,7 @@ class Names:
         return _words(self._called.get(stem, stem) + name.removeprefix(stem))
 
     def part(self, shape: int) -> str:
-        """Display name of a shape of the world: its name without its number, or its material."""
+        """Display name of a shape of the world: the shape's name without its number, or the name of its material."""
         material = self.model.geom_matid[shape]
         made = self.model.material(material).name if material >= 0 else "something"
         return _words((self.model.geom(shape).name or made).rstrip("0123456789"))
@@ -153,12 +154,12 @@ class Names:
 
 
 def _text(data: bytes, first: int) -> str:
-    """The text that begins somewhere among others, each with a zero byte behind it."""
+    """The zero-terminated text that begins at `first`."""
     return data[first : data.index(b"\0", first)].decode()
 
 
 def _words(name: str) -> str:
-    """A name in words: `finger_a` of an arm is its `finger a`."""
+    """A name in words: `finger_a` of an arm becomes `finger a`."""
     own = name.rpartition("/")[2]
     return re.sub(r"(?<=[a-z])(?=\d)", " ", own).replace("_", " ")
 
@@ -183,13 +184,13 @@ def scene_bytes(model: Any) -> bytes:
 
 
 def seen(model: Any, body: int) -> list[int]:
-    """The shapes by which a body is seen, or will be, by people."""
+    """The shapes of a body that are visible, or will be after an event."""
     mine = np.flatnonzero(model.geom_bodyid == body)
     return [int(shape) for shape in mine if model.geom_group[shape] in (SCENERY, SEEN, LATENT)]
 
 
 def lowest(model: Any) -> float:
-    """Height (m) of the underside of the world: absent bodies lie below it."""
+    """Height (m) of the lowest point of the world; absent bodies lie below it."""
     found = [surface(model, shape) for shape in seen(model, 0)]
     return min((float(part.points[:, 2].min()) for part in found if part is not None), default=-np.inf)
 
@@ -206,7 +207,7 @@ def _pieces(model: Any, palette: Palette, names: Names, body: int) -> list[Piece
 
 
 def _small_first(pieces: Sequence[Piece]) -> list[Piece]:
-    """The pieces name by name; what is large comes last, for floor and walls are behind all else."""
+    """The pieces by name, with large ones last, because floor and walls are behind everything else."""
     sizes = {piece.name: 0.0 for piece in pieces}
     for piece in pieces:
         sizes[piece.name] = max(sizes[piece.name], piece.size)
@@ -221,13 +222,15 @@ _BESIDE: Final = np.array([0.30, 0.38, 0.36])  # From the hand to who looks at i
 _FINGERS: Final = 0.8  # Where its fingers are, from the wrist to the tool centre point
 _LENS: Final = 37.0  # Angle of view where no camera says it, degrees
 _LAMP: Final = np.array([1.05, -0.65, 1.3])
-"""From the middle of a scene to its lamp, over the scene's size: high, in front, on the left of who looks in."""
+"""Position of the lamp relative to the centre of the scene, divided by the scene's size: high, in front, on the
+left of the viewer.
+"""
 
 
 def views(model: Any) -> list[dict[str, Any]]:
-    """The views of a scene, each with its name, `eye` and `at` (m) and angle (degrees).
+    """The views of a scene, each with its name, `eye` and `at` (m), and angle (degrees).
 
-    With a `body`, eye and point are counted from where that is, along the axes of the world.
+    In a view with a `body`, `eye` and `at` are relative to the body's position, along the axes of the world.
     """
     found = [_camera(model, number) for number in range(model.ncam)]
     if not any(view["name"] == ROOM for view in found):
@@ -240,7 +243,7 @@ def views(model: Any) -> list[dict[str, Any]]:
 
 
 def lamp(model: Any) -> dict[str, list[float]]:
-    """Positions of the lamp and of the point that it lights, m."""
+    """Positions of the lamp and of the point at which it is aimed, m."""
     middle = np.array(model.stat.center)
     return {"eye": rounded(middle + model.stat.extent * _LAMP), "at": rounded(middle * [1, 1, 0])}
 
@@ -254,19 +257,19 @@ def _camera(model: Any, number: int) -> dict[str, Any]:
 
 
 def _distance(model: Any, eye: Array, forward: Array) -> float:
-    """Distance (m) along a camera's line of sight to the height of the middle of the scene."""
+    """Distance (m) along a camera's line of sight to the height of the scene's centre."""
     drop = eye[2] - model.stat.center[2]
     return float(-drop / forward[2]) if drop > 0 and forward[2] < -0.1 else float(model.stat.extent)
 
 
 def _overview(model: Any) -> dict[str, Any]:
-    """A view of all of a scene that has no camera for it."""
+    """A view of the whole scene, for scenes without a camera for it."""
     middle = np.array(model.stat.center)
     return _view(ROOM, middle + model.stat.extent * np.array([1.2, 0.7, 0.8]), middle, _LENS)
 
 
 def _hand(model: Any, site: int) -> dict[str, Any]:
-    """The view that goes with the hand, which points down where it works."""
+    """A view that moves with the hand, which points down while it works."""
     body = model.site_bodyid[site]
     at = np.array([0.0, 0.0, -_FINGERS * np.linalg.norm(model.site_pos[site])])
     return {**_view("hand", _BESIDE + at, at, _LENS), "body": model.body(body).name}

@@ -1,4 +1,4 @@
-"""Surfaces of the shapes of a scene: triangles with the normal of the surface at each corner."""
+"""Surfaces of the shapes of a scene: triangles, with the normal of the surface at each corner."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,12 +13,14 @@ from handeye.core.pose import Array
 
 SIDES: Final = 32  # Sides of the prism that stands for a cylinder
 CREASE: Final = np.cos(np.radians(35.0))
-"""Cosine of the angle between two faces from which on the edge between them is an edge, and not part of a curve."""
+"""Cosine of the least angle between two faces whose common edge is drawn sharp, and not as part of a curved
+surface.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Surface:
-    """Triangles."""
+    """A surface made of triangles."""
 
     points: Array  # Corners, shape (n, 3), m
     normals: Array  # Normals of the surface at the corners, shape (n, 3)
@@ -26,7 +28,7 @@ class Surface:
 
     @classmethod
     def joined(cls, surfaces: Sequence[Self]) -> Self:
-        """Several as one, in order."""
+        """Several surfaces as one, in order."""
         first = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
         return cls(
             points=np.concatenate([surface.points for surface in surfaces]),
@@ -38,7 +40,7 @@ class Surface:
 
 
 def surface(model: Any, shape: int) -> Surface | None:
-    """The surface of a shape of a scene, in the frame of its body; None of one that has none."""
+    """The surface of a shape of a scene, in the frame of its body; None if the shape has none."""
     kind, size = model.geom_type[shape], model.geom_size[shape]
     if kind == BOX:
         local = _scaled(_box(), size)
@@ -76,7 +78,9 @@ def rotation(quaternion: Array) -> Array:
 
 
 def creased(points: Array, triangles: NDArray[Any]) -> Surface:
-    """A surface of points and triangles: round where neighbouring faces nearly agree, and with edges elsewhere."""
+    """A surface from points and triangles, smooth where neighbouring faces nearly agree, with sharp edges
+    elsewhere.
+    """
     facets = points[triangles]
     area = np.cross(facets[:, 1] - facets[:, 0], facets[:, 2] - facets[:, 0])
     sizes = np.linalg.norm(area, axis=1)
@@ -93,7 +97,7 @@ def creased(points: Array, triangles: NDArray[Any]) -> Surface:
 
 
 def _distinct(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Indices of distinct rows in order of first occurrence, and for every row the number of its distinct row."""
+    """Indices of the distinct rows in order of first occurrence, and for each row the number of its distinct row."""
     _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
     order = np.argsort(first)
     rank = np.empty_like(order)
@@ -102,7 +106,7 @@ def _distinct(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]
 
 
 def _meeting(corner: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """All pairs of entries that are the same point, each with itself too."""
+    """All pairs of entries that are the same point, including each entry with itself."""
     order = np.argsort(corner, kind="stable")
     first = np.flatnonzero(np.diff(corner[order], prepend=-1))
     count = np.diff(np.append(first, len(order)))
@@ -120,7 +124,7 @@ def _scaled(unit: Surface, size: Array) -> Surface:
 
 @cache
 def _box() -> Surface:
-    """From -1 to 1."""
+    """A box from -1 to 1 along each axis."""
     corners = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
     quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
     return creased(corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]))
@@ -142,7 +146,7 @@ def _cylinder() -> Surface:
 
 @cache
 def _ball() -> Surface:
-    """A sphere of radius 1: a box whose faces are divided and blown up."""
+    """A sphere of radius 1: a box whose faces are divided and projected outwards."""
     grid = np.linspace(-1, 1, 9)
     faces = []
     for axis in range(3):

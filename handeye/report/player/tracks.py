@@ -1,4 +1,4 @@
-"""Data for showing every body's motion on a page: tracks, and the clock."""
+"""Data for showing the motion of all bodies on a page: tracks and clock."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -19,13 +19,17 @@ _STILL: Final = 1e-6  # What is no movement: m, and parts of a quaternion
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Track:
-    """Some poses of a body; where it was in between lies on the straight way from one to the next."""
+    """Some poses of a body; poses in between are interpolated linearly."""
 
     spans: tuple[tuple[int, int, int], ...]
-    """Servo periods from which and to which (exclusive) it is there, and how many of the poses are of them."""
+    """Spans in which the body is present: first servo period, last one (exclusive), and the number of poses in the
+    span.
+    """
     periods: NDArray[np.int64]  # Servo periods of the poses, shape (n,)
     poses: Array
-    """Shape (n, 7): place (m), then a unit quaternion w, x, y, z, each as near to the one before as it can be."""
+    """Poses, shape (n, 7): position (m), then a unit quaternion w, x, y, z with the sign nearest to the previous
+    one.
+    """
 
     @classmethod
     def of(cls, poses: NDArray[np.floating[Any]], lowest: float) -> Self | None:
@@ -47,12 +51,12 @@ class Track:
         )
 
     def still(self, count: int) -> bool:
-        """True if it is present in all `count` servo periods and never moves."""
+        """True if the body is present in all `count` servo periods and never moves."""
         return self.spans == ((0, count, 1),)
 
 
 def _needed(poses: Array) -> Rows:
-    """The rows between which all others lie near enough."""
+    """The rows between which all other poses can be interpolated within tolerance."""
     if np.ptp(poses, axis=0).max() < _STILL:
         return np.zeros(1, dtype=np.int64)
     numbers = np.arange(len(poses), dtype=np.float64)
@@ -60,7 +64,9 @@ def _needed(poses: Array) -> Rows:
 
 
 UNIT: Final = 0x1FFF
-"""The value of 1 in a quaternion: rounding turns it by .01 degrees at most. The script has it too."""
+"""Value of 1 in a quaternion component; rounding causes a turn of at most .01 degrees. The script has the same
+constant.
+"""
 
 
 def tracks_bytes(
@@ -69,8 +75,9 @@ def tracks_bytes(
     """Tracks and clock, compressed.
 
     Args:
-        poses: of bodies in all servo periods, shape (n, 7); NaN where one is hidden.
-        times: ends of the servo periods, shape (n,), s since the run began, as `begin` and `end` of the page.
+        poses: poses of the bodies in all servo periods, shape (n, 7) each; NaN while a body is hidden.
+        times: ends of the servo periods, shape (n,), s since the run began, like `begin` and `end`, the range of
+            the page.
         lowest: height below which a body is put away, m.
     """
     found = {name: Track.of(rows, lowest) for name, rows in poses.items()}
@@ -92,5 +99,5 @@ def tracks_bytes(
 
 
 def _joined(arrays: Iterable[NDArray[Any]], width: int = 1) -> NDArray[Any]:
-    """Rows of arrays, shape (n, width); none of no arrays."""
+    """Rows of arrays one below another, shape (n, width); an empty array if there are none."""
     return np.concatenate([np.empty((0, width)), *arrays])
