@@ -2,9 +2,11 @@
 
 import io
 import os
+import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import settings
@@ -19,11 +21,13 @@ settings.register_profile("handeye", deadline=None, derandomize=True)
 settings.register_profile("explore", deadline=None, max_examples=2000)
 settings.load_profile("handeye")
 
-os.environ["HANDEYE_CACHE"] = (
-    ""  # calibrations of the user's runs are not for tests, nor those of tests for the user
-)
+if "PYTEST_XDIST_WORKER" not in os.environ:  # else it is the folder of the process that started this one
+    # a world is calibrated once a session; calibrations of the user's runs are not for tests, nor theirs for the user
+    _CACHE = TemporaryDirectory(prefix="handeye-tests-")
+    os.environ["HANDEYE_CACHE"] = _CACHE.name
 os.environ["HANDEYE_RUNS"] = ""  # no test leaves a run that it has not named
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # hundreds of processes would each compile the package anew
+sys.dont_write_bytecode = False  # nor would each session rewrite the assertions of all tests anew
 
 Command = Callable[..., tuple[int, str, str]]
 

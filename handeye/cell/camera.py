@@ -1,6 +1,8 @@
 """The simulated television camera: the camera of the design with the errors of the world, behind its interface."""
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Final, Literal
 
@@ -104,6 +106,18 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
 
     def pots(self) -> tuple[float, float]:
         return self._pots
+
+    @contextmanager
+    def without_shadows(self) -> Iterator[None]:
+        """In this context, lights cast no shadows in pictures: an idealisation, for looks at the lamp of the arm.
+
+        Two pictures of it differ by the lamp alone, with shadows and without.
+        """
+        self._renderer.shadows = False
+        try:
+            yield
+        finally:
+            self._renderer.shadows = True
 
     def digitise(self, *, hold_target: bool = False) -> Picture:
         view = self.true_view()

@@ -75,6 +75,7 @@ class OpenGlRenderer(SceneRenderer):
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
         mujoco.mjv_updateScene(self._model, data, self._option, None, self._camera, every, self._scene)
         self._aim(view)
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = self.shadows
         for light in self._scene.lights[
             : self._scene.nlight
         ]:  # no gloss, and no light meant for interactive viewers

@@ -60,7 +60,7 @@ class RayRenderer(SceneRenderer):
             inside = cosine >= np.cos(np.radians(model.light_cutoff[index]))
             amount *= np.where(inside, np.clip(cosine, 0, 1) ** model.light_exponent[index], 0)
         lit = amount > 0
-        if model.light_castshadow[index]:
+        if self.shadows and model.light_castshadow[index]:
             _, met, _ = cast(model, data, source, -towards[lit])
             amount[lit] *= met > far[lit] - 5e-4  # half a millimetre: a surface is not in its own shadow
         return np.asarray(amount + float(LUMA @ model.light_ambient[index]))

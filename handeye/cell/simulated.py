@@ -50,6 +50,7 @@ class SimulatedCell(Clock, SnapshotCell):
         because their states are stored by name.
         """
         self.arm = arm  # the experimenter may push it
+        self.camera = camera  # and take its shadows away
         self.lines = lines  # lines of its devices, with what is broken on them
         devices = (arm, hand, screwdriver, lamp)
         parts: tuple[Mechanism[Any], ...] = (

@@ -57,6 +57,22 @@ def test_a_picture_has_256_lines_of_333_integers_from_0_to_15():
     assert picture.max() <= 15
 
 
+@pytest.mark.slow
+@pytest.mark.render
+@pytest.mark.parametrize("kind", ["ray", "gl"])
+def test_lights_cast_shadows_except_while_those_are_switched_off(kind: str) -> None:
+    model = mujoco.MjModel.from_xml_string(SCENE.replace(' group="3"', ""))  # a sphere between lamp and disc
+    data, view = mujoco.MjData(model), DRAWING.view(WIDE, *DRAWING.aim(BLOCK, WIDE))
+    mujoco.mj_forward(model, data)
+    renderer = make_renderer(kind, model)
+    first = renderer.render(data, view)
+    with camera(renderer=renderer).without_shadows():
+        plain = renderer.render(data, view)
+    assert (plain > first + 0.1).mean() > 0.01
+    assert (plain > first - 0.01).all()
+    np.testing.assert_array_equal(renderer.render(data, view), first)
+
+
 @pytest.mark.row(58)
 def test_the_mechanics_take_time_by_the_way_they_go():
     tv = camera()

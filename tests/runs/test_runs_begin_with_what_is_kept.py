@@ -8,9 +8,11 @@ import pytest
 from block_task import BLOCK
 from short_runs import plan_of
 
+from handeye.cell.camera import SimulatedCamera
 from handeye.core.errors import CalibrationFailed
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import WIDE, Renderer
+from handeye.ports.workcell import Workcell
 from handeye.program.events import RunStarted
 from handeye.results.cautions import cautions
 from handeye.runs.advance import advance
@@ -88,13 +90,15 @@ def test_events_trace_and_checkpoints_are_equal_to_the_byte(both: tuple[Runner, 
 
 
 class Camera:
-    """Calibrates at once, or fails; remembers that it was asked."""
+    """Calibrates at once, or fails; remembers that it was asked, and in what light."""
 
     fails = False
     asked = 0
+    shadows: bool | None = None
 
-    def __call__(self, *_: object) -> Calibration:
-        self.asked += 1
+    def __call__(self, cell: Workcell, *_: object) -> Calibration:
+        assert isinstance(cell.camera, SimulatedCamera)
+        self.asked, self.shadows = self.asked + 1, cell.camera._renderer.shadows
         if self.fails:
             raise CalibrationFailed(ASKED)
         return Calibration(model=DRAWING, residual_px={}, residual_m=0.0)
@@ -107,6 +111,14 @@ def camera(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Camera:
     monkeypatch.setattr(programs, "calibrate_camera", camera)
     monkeypatch.setenv("HANDEYE_CACHE", str(tmp_path / "cache"))
     return camera
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_shadows_are_only_missing_while_the_camera_is_calibrated(camera: Camera, *, fails: bool) -> None:
+    camera.fails = fails
+    eye = Runner(start()).arm_cell.camera
+    assert eye is not None
+    assert (camera.shadows, eye._renderer.shadows) == (False, True)
 
 
 def test_a_calibration_is_for_any_program_in_its_world(camera: Camera) -> None:

@@ -252,10 +252,12 @@ class RunningPlan(RunningSystem):
     def _calibrate(self, eye: CameraSetup) -> None:
         """Calibrate the camera, then hold the arm where it is."""
         cell, drive = self._cell.devices, self.state.drive
+        assert self._cell.camera is not None
         try:
-            self.state.calibration = calibrate_camera(
-                cell, self.arm, drive, eye.drawing, eye.looks, self._halt, self._viewed, CompiledArm
-            )
+            with self._cell.camera.without_shadows():
+                self.state.calibration = calibrate_camera(
+                    cell, self.arm, drive, eye.drawing, eye.looks, self._halt, self._viewed, CompiledArm
+                )
             self.state.lens = eye.looks[-1].lens
         except (CalibrationFailed, PhysicsFailed) as error:
             self.state.unable = str(error)

@@ -158,7 +158,9 @@ def by_lamp(still: StillPump, renderer: str) -> Calibration:
     drive = DriveState.holding(cell.devices.sense(), STANFORD)
     found = measure_joints(cell.devices, STANFORD, drive, arithmetic=CompiledArm)
     drive.friction, drive.links = found.friction, found.links
-    calibration = calibrate_camera(cell.devices, STANFORD, drive, DRAWING, LOOKS, arithmetic=CompiledArm)
+    assert cell.camera is not None
+    with cell.camera.without_shadows():
+        calibration = calibrate_camera(cell.devices, STANFORD, drive, DRAWING, LOOKS, arithmetic=CompiledArm)
     state = cell.truth.states["camera"]
     assert isinstance(state, CameraState)
     still.camera.restore(state)
