@@ -1,6 +1,7 @@
 """The parser against a grammar that was written from the manual: both take the same texts for arm programs."""
 
 import re
+from functools import cache
 from pathlib import Path
 
 import lark
@@ -17,9 +18,14 @@ DEFINES = re.compile(r"[ \t\r\f\v]*DEFINE\b", re.ASCII | re.IGNORECASE)
 WORD = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
 BLANKS = " \t\r\f\v"
 HERE = Path(__file__).parent
-GRAMMAR = lark.Lark((HERE / "arm_language.lark").read_text(encoding="utf-8"), parser="lalr")
 SIZES = {"line-too-long", "number-out-of-range", "unknown-lens", "zero-vector"}
 """What the parser says of what is written as it should be, but for its size."""
+
+
+@cache
+def grammar() -> lark.Lark:
+    """The grammar; made once it is wanted, which takes a second."""
+    return lark.Lark((HERE / "arm_language.lark").read_text(encoding="utf-8"), parser="lalr")
 
 
 def without_open_lines(text: str) -> str:
@@ -48,7 +54,7 @@ def is_program(text: str) -> bool:
     """What the grammar says, and the rules that no such grammar can have."""
     text = without_open_lines(text)
     try:
-        tree = GRAMMAR.parse(text + "\n" * (text[-1:] not in ("\n", "")))
+        tree = grammar().parse(text + "\n" * (text[-1:] not in ("\n", "")))
     except lark.UnexpectedInput:
         return False
     heads = [[str(name) for name in head.children] for head in tree.find_data("head")]
